@@ -7,6 +7,7 @@
 
 pub use crate::departure::{CONTROLS, Controls, Departure, Limits, Reference, adjustments};
 pub use crate::design::{Design, LawDesign, Target};
+pub use crate::disturbance::disturbed;
 pub use crate::part::{Orbit, Part};
 pub use crate::regulator::observer::{Kalman, Observer, ProcessNoise, kalman};
 pub use crate::regulator::plant::{Plant, STATES, states};
@@ -14,4 +15,4 @@ pub use crate::regulator::{Regulator, Timing, Weights};
 pub use crate::route::{Route, Waypoint};
 pub use crate::sensors::{Channels, Sensors};
 pub use crate::stabiliser::{ProportionalDerivative, Stiffness};
-pub use crate::steering::{Held, Law, SteeredBeats, Steering, disturbed};
+pub use crate::steering::{Held, Law, SteeredBeats, Steering};

@@ -55,7 +55,7 @@ impl Reference {
     /// # Errors
     /// Numbers that are not finite.
     pub fn trimmed(trim: &Trim) -> Result<Self, AnalysisError> {
-        let level = Level::new(trim.beat.root(&trim.state).r, trim.beat.gravity());
+        let level = Level::of(&trim.beat, &trim.state);
         Ok(Self {
             state: Perturbation::of(&trim.beat, &level, &trim.state),
             level,
@@ -150,16 +150,20 @@ impl Default for Limits {
 }
 
 impl Limits {
+    /// The largest size of each control.
+    pub fn sizes(&self) -> Controls {
+        [self.amplitude, self.angle, self.amplitude, self.angle]
+    }
+
     /// The controls within the limits.
     pub fn applied(&self, u: Controls) -> Controls {
-        let most = [self.amplitude, self.angle, self.amplitude, self.angle];
+        let most = self.sizes();
         std::array::from_fn(|i| u[i].clamp(-most[i], most[i]))
     }
 
     /// Whether any control is at its limit.
     pub fn reached(&self, u: &Controls) -> bool {
-        let most = [self.amplitude, self.angle, self.amplitude, self.angle];
-        u.iter().zip(most).any(|(u, most)| u.abs() >= most)
+        u.iter().zip(self.sizes()).any(|(u, most)| u.abs() >= most)
     }
 }
 

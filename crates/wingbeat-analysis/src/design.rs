@@ -92,13 +92,13 @@ impl Design {
             wing.motion = wing.motion.risen();
         }
         let found = trim(&plain, &problem).map_err(symmetric)?;
-        if found.is_as_asked() {
+        if found.solution.is_as_asked() {
             return Ok(found);
         }
         Err(AnalysisError::not_covered(
             format!(
                 "no trimmed flight in blade elements was found to lay the controller out about: largest residual {:.1e} of weight, weight times wing length, radian and wing length per beat",
-                found.error()
+                found.solution.error()
             ),
             "see what `wingbeat trim` says with air.model = \"blade_element\"; start nearer to it (flight.pitch_deg, motion.stroke_plane_pitch_deg), or change motion.frequency_hz, control.forward_m_s or the weight",
         ))
@@ -135,7 +135,7 @@ impl Design {
         };
         let mut steering = match self.target {
             Target::Trimmed => Steering::new(law, Held::Known(Reference::trimmed(&trim)?), setup)
-                .adjusted(&trim.adjustment),
+                .adjusted(&trim.solution.adjustment),
             Target::Begun => {
                 let (gravity, velocity) = (setup.gravity, self.velocity);
                 Steering::new(law, Held::Begun { gravity, velocity }, setup)

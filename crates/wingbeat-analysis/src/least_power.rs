@@ -34,7 +34,7 @@ pub fn trim_within(setup: &FlightSetup, problem: &TrimProblem) -> Result<Trim, A
     let search = Search::new(setup, problem, determined, spare);
     let start = search.start();
     let first = search.trim(&start)?;
-    if !first.converged {
+    if !first.solution.converged {
         return Ok(first);
     }
     let unit = power_of_trim(&first)?.perfect_storage;
@@ -46,7 +46,7 @@ pub fn trim_within(setup: &FlightSetup, problem: &TrimProblem) -> Result<Trim, A
     }
     let best = search.least(&start, unit);
     let mut found = search.trim(&best)?;
-    found.iterations = search.iterations.get();
+    found.solution.iterations = search.iterations.get();
     Ok(found)
 }
 
@@ -163,8 +163,8 @@ impl<'a> Search<'a> {
             Some(point) => trim_from(self.setup, &problem, point)?,
             None => trim(self.setup, &problem)?,
         };
-        self.iterations.update(|n| n + found.iterations);
-        if found.converged {
+        self.iterations.update(|n| n + found.solution.iterations);
+        if found.solution.converged {
             let known = (x.to_vec(), found.point.clone());
             self.known.borrow_mut().push(known);
         }
@@ -184,9 +184,9 @@ impl<'a> Search<'a> {
     }
 
     fn outcome(&self, x: &[f64]) -> Option<Outcome> {
-        let trim = self.trim(x).ok().filter(|t| t.converged)?;
+        let trim = self.trim(x).ok().filter(|t| t.solution.converged)?;
         let power = power_of_trim(&trim).ok()?.perfect_storage;
-        let inside = |b: &Bound| trim.value(b.unknown).map_or(-1.0, |x| b.room(x));
+        let inside = |b: &Bound| trim.solution.value(b.unknown).map_or(-1.0, |x| b.room(x));
         let mut room: Vec<f64> = self.determined.iter().map(inside).collect();
         let wing = trim.setup.animal.wings.first();
         room.push(PI - wing.map_or(0.0, stroke_amplitude));

@@ -30,6 +30,11 @@ impl Level {
         }
     }
 
+    /// That of the attitude in the state `y` at the start of a beat.
+    pub fn of(beat: &Beat, y: &[f64]) -> Self {
+        Self::new(beat.root(y).r, beat.gravity())
+    }
+
     /// The level frame of the attitude turned to the right by `heading` \[rad\].
     pub fn turned(&self, heading: f64) -> Self {
         if heading == 0.0 {
@@ -72,6 +77,11 @@ impl Perturbation {
             rate: DVec3::from_slice(&x[3..]),
             tilt: DVec3::from_slice(&x[6..]),
         }
+    }
+
+    /// Component number `k` alone.
+    pub fn component(k: usize, x: f64) -> Self {
+        Self::from_array(std::array::from_fn(|i| if i == k { x } else { 0.0 }))
     }
 
     /// The state at the start of a beat, mass centre at the origin, free joints at `joints`.

@@ -33,6 +33,7 @@ pub mod control;
 mod departure;
 mod derivatives;
 mod design;
+mod disturbance;
 mod eigen;
 pub mod episode;
 mod error;
@@ -54,6 +55,7 @@ mod rigid_body;
 mod root;
 mod route;
 mod sensors;
+mod solution;
 mod stabiliser;
 mod stability;
 mod steady;
@@ -78,6 +80,7 @@ pub use monodromy::monodromy;
 pub use plausibility::{Estimate, WingEstimate, estimate, stroke_amplitude};
 pub use power::{Power, power, power_of_trim, power_with_wake};
 pub use request::{SPEED_OF_SOUND, TRIM_STEPS, TrimRequest};
+pub use solution::TrimSolution;
 pub use stability::{
     LOADS, LinearModel, floquet, floquet_of_trim, input_matrix, linear_model, orbit_monodromy,
     trimmed_controls,

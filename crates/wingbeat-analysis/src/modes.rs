@@ -17,6 +17,15 @@ pub struct Scales {
 }
 
 impl Scales {
+    /// Those of a flyer of wing length R `length` [m] and a wingbeat of `period` [s].
+    pub fn new(length: f64, period: f64) -> Self {
+        Self {
+            velocity: length / period,
+            rate: 1.0 / period,
+            period,
+        }
+    }
+
     /// Size of each of the nine components; angles by one radian.
     pub fn array(&self) -> [f64; 9] {
         let (v, w) = (self.velocity, self.rate);

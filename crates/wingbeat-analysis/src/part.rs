@@ -93,7 +93,7 @@ impl Orbit {
                 "take a number of parts that divides the steps",
             ));
         }
-        let level = Level::new(beat.root(&trim.state).r, beat.gravity());
+        let level = Level::of(beat, &trim.state);
         let velocity = trim.mean_velocity()?;
         let mut y: State = trim.state.clone();
         let start = Perturbation::of(beat, &level, &y).to_array();

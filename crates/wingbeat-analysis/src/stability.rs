@@ -38,11 +38,7 @@ pub struct LinearModel {
 
 /// The natural sizes of perturbations of a beat.
 fn scales(beat: &Beat) -> Scales {
-    Scales {
-        velocity: beat.wing_length() / beat.period(),
-        rate: 1.0 / beat.period(),
-        period: beat.period(),
-    }
+    Scales::new(beat.wing_length(), beat.period())
 }
 
 /// The steady flight with the mean attitude and velocity of the orbit through `state`.
@@ -170,7 +166,7 @@ pub fn orbit_monodromy(beat: &Beat, state: &State) -> Result<Vec<f64>, AnalysisE
 
 /// The same of an orbit that has turned by `turned` \[rad\] about n3 after a beat, seen from axes that turn with it.
 fn turning_monodromy(beat: &Beat, state: &State, turned: f64) -> Result<Vec<f64>, AnalysisError> {
-    let level = Level::new(beat.root(state).r, beat.gravity());
+    let level = Level::of(beat, state);
     let ahead = Level {
         to_n: r3(turned) * level.to_n,
         ..level

@@ -8,13 +8,12 @@ use std::collections::VecDeque;
 use std::sync::Arc;
 
 use wingbeat_flight::{Aim, Controller, Feedback, FlightSetup, Sensed};
-use wingbeat_math::{DMat3, DQuat, DVec3};
+use wingbeat_math::DVec3;
 use wingbeat_model::motion::Adjustment;
 
 use crate::AnalysisError;
-use crate::beat::{Beat, JOINTS, State};
+use crate::beat::{Beat, State};
 use crate::departure::{CONTROLS, Controls, Departure, Limits, Reference, adjustments};
-use crate::level::Level;
 use crate::part::Part;
 use crate::regulator::Regulator;
 use crate::route::Route;
@@ -214,22 +213,6 @@ impl Controller for Steering {
         self.command.copy_from_slice(command);
         self.law.restore(law);
     }
-}
-
-/// The state of the trimmed flight at the start of a beat, disturbed by the rotation vector `tilt`
-/// \[rad\] (roll, pitch, heading) and the velocity `velocity` [m/s] (level frame).
-pub fn disturbed(trim: &Trim, tilt: DVec3, velocity: DVec3) -> State {
-    let root = trim.beat.root(&trim.state);
-    let level = Level::new(root.r, trim.beat.gravity());
-    let turned = level.to_n * DMat3::from_quat(DQuat::from_scaled_axis(tilt));
-    let v = DVec3::from_slice(&trim.state[7..]) / trim.beat.mass();
-    trim.beat.state_with(
-        DVec3::ZERO,
-        turned * level.to_root.transpose(),
-        turned * level.to_n.transpose() * v + level.to_n * velocity,
-        root.w,
-        &trim.state[JOINTS..],
-    )
 }
 
 /// A flight under feedback on the map of wingbeats: as a flight of the trimmed setup with the looks of its

@@ -98,7 +98,7 @@ pub fn sweep(
                     found.lost = Some((velocity, Lost::Stroke(stroke_amplitude)));
                     break;
                 }
-                if let Some(&unknown) = trim.outside.first() {
+                if let Some(&unknown) = trim.solution.outside.first() {
                     found.lost = Some((velocity, Lost::Bound(unknown)));
                     break;
                 }
@@ -138,7 +138,7 @@ impl Path<'_> {
         let mut residual = None;
         while let Some(&next) = ahead.last() {
             match self.try_at(next) {
-                Ok(trim) if trim.converged => {
+                Ok(trim) if trim.solution.converged => {
                     at = next;
                     ahead.pop();
                     if ahead.is_empty() {
@@ -146,7 +146,7 @@ impl Path<'_> {
                     }
                 }
                 other => {
-                    residual = other.ok().map(|t| t.error()).or(residual);
+                    residual = other.ok().map(|t| t.solution.error()).or(residual);
                     if ahead.len() > HALVINGS {
                         break;
                     }
@@ -187,7 +187,7 @@ impl Path<'_> {
             [] => return self.first(velocity),
         };
         let found = trim_from(self.setup, &self.at(velocity), guess)?;
-        if found.converged {
+        if found.solution.converged {
             self.points.push((velocity, found.point.clone()));
         }
         Ok(found)
@@ -195,8 +195,8 @@ impl Path<'_> {
 }
 
 fn arrived(trim: Trim) -> Result<Trim, Option<f64>> {
-    match trim.converged {
+    match trim.solution.converged {
         true => Ok(trim),
-        false => Err(Some(trim.error())),
+        false => Err(Some(trim.solution.error())),
     }
 }

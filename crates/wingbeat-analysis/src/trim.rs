@@ -10,45 +10,19 @@ use wingbeat_flight::{
     StabilizationChoice, StartState, TimeGrid, closes_loop,
 };
 use wingbeat_math::{DMat3, DVec3, EulerSequence};
-use wingbeat_model::motion::Adjustment;
 
 use crate::AnalysisError;
 use crate::beat::{Beat, JOINTS, State, steadied};
 use crate::progress;
 use crate::root::{Map, Search, largest, matrix_of, moved};
+use crate::solution::TrimSolution;
 use crate::steady::{self, Measures, Residuals, Snapshot, TrimProblem};
-use crate::unknown::{Unknown, adjusted};
 
 /// A trimmed flight, or the best point found.
 #[derive(Clone, Debug)]
 pub struct Trim {
-    /// Whether the residual is within the tolerance.
-    pub converged: bool,
-    /// The residuals, [`Residuals::names`]; then the change of every coordinate and speed of a free joint over its
-    /// natural size.
-    pub residual: Vec<f64>,
-    /// Largest lateral residual where only those of the plane of symmetry are asked, else 0 \[1\].
-    pub aside: f64,
-    /// Newton steps made.
-    pub iterations: usize,
-    /// What was chosen, and what was given.
-    pub unknowns: Vec<Unknown>,
-    /// Values of the unknowns \[1 or rad\].
-    pub values: Vec<f64>,
-    /// Unknowns whose values are outside the bounds of the problem: steady flight, but not as asked.
-    pub outside: Vec<Unknown>,
-    /// Unknowns at a bound.
-    pub at_bound: Vec<Unknown>,
-    /// The adjustment of all wings.
-    pub adjustment: Adjustment,
-    /// What right wings have more of it than left ones.
-    pub difference: Adjustment,
-    /// Shift of the mass centre along b1 [m].
-    pub mass_centre: f64,
-    /// Pitch of the body at the start of the beat \[rad\].
-    pub body_pitch: f64,
-    /// Roll of the body at the start of the beat, right side down \[rad\].
-    pub body_roll: f64,
+    /// The controls found, and the residuals.
+    pub solution: TrimSolution,
     /// Turn of the heading [rad/s].
     pub turn_rate: f64,
     /// State at the start of the beat, mass centre at the origin.
@@ -73,7 +47,7 @@ impl Trim {
     /// Numbers that are not finite.
     pub fn tethered(&self) -> Result<FlightSetup, AnalysisError> {
         let mut setup = self.at_its_start();
-        let angles = DVec3::new(self.body_pitch, 0.0, self.body_roll);
+        let angles = DVec3::new(self.solution.body_pitch, 0.0, self.solution.body_roll);
         let mut motion = PrescribedMotion::at_rest(DVec3::ZERO, angles);
         for (x, v) in motion
             .position
@@ -146,29 +120,13 @@ impl Trim {
         let end = self.beat.advance(&self.state)?;
         Ok((DVec3::from_slice(&end) - DVec3::from_slice(&self.state)) / self.beat.period())
     }
-
-    /// The value of an unknown, in its own unit; none if it was neither chosen nor given.
-    pub fn value(&self, unknown: Unknown) -> Option<f64> {
-        let mut pairs = self.unknowns.iter().zip(&self.values);
-        pairs.find(|(u, _)| **u == unknown).map(|(_, x)| *x)
-    }
-
-    /// Largest residual.
-    pub fn error(&self) -> f64 {
-        largest(&self.residual)
-    }
-
-    /// Whether it is steady flight, and within the bounds that were asked.
-    pub fn is_as_asked(&self) -> bool {
-        self.converged && self.outside.is_empty()
-    }
 }
 
 /// Trims the flight of `setup`.
 ///
 /// # Errors
 /// A setup that [`Beat`] does not cover; unknowns that the problem does not determine, or too few; numbers that stop
-/// being finite at the very start. A trim that does not converge is no error: see [`Trim::converged`].
+/// being finite at the very start. A trim that does not converge is no error: see [`TrimSolution::converged`].
 pub fn trim(setup: &FlightSetup, problem: &TrimProblem) -> Result<Trim, AnalysisError> {
     if matches!(setup.air, AirModel::None) {
         return Err(AnalysisError::not_covered(
@@ -209,12 +167,9 @@ pub fn trim_from(
     };
     let (x, iterations) = search.from(&mut map, x)?;
     let mut found = evaluate(map.setup, problem, &x)?;
-    found.iterations = iterations;
-    found.converged = found.error() <= problem.settings.tolerance;
-    if found.converged {
-        // Elsewhere rounding grows with the numbers.
-        steady::check_symmetric(found.aside, ROUNDING)?;
-    }
+    found
+        .solution
+        .conclude(iterations, problem.settings.tolerance, ROUNDING)?;
     Ok(found)
 }
 
@@ -248,16 +203,15 @@ const ROUNDING: f64 = 1e-5;
 fn evaluate(setup: &FlightSetup, problem: &TrimProblem, x: &[f64]) -> Result<Trim, AnalysisError> {
     let residuals = Residuals::of(problem);
     let n = residuals.controls();
-    let (unknowns, values) = problem.with_given(&x[n..2 * n]);
-    let a = adjusted(setup, &unknowns, problem.angles(), &values);
-    let beat = Beat::new(&a.setup, problem.settings.steps)?;
+    let (mut solution, setup) = TrimSolution::at(setup, problem, &x[n..2 * n]);
+    let beat = Beat::new(&setup, problem.settings.steps)?;
     let (length, period) = (beat.wing_length(), beat.period());
     let [velocity, rate] = residuals.motion(x);
     let (velocity, rate) = (velocity * (length / period), rate / period);
     let sizes = beat.joint_sizes();
     let joints = x[2 * n..].iter().zip(sizes).map(|(x, s)| x * s);
     let joints: Vec<f64> = joints.collect();
-    let attitude = steady::attitude([a.pitch, a.roll]);
+    let attitude = steady::attitude([solution.body_pitch, solution.body_roll]);
     let state = beat.state_with(DVec3::ZERO, attitude, velocity, rate, &joints);
     let end = beat.advance(&state)?;
     let size = Measures {
@@ -271,29 +225,18 @@ fn evaluate(setup: &FlightSetup, problem: &TrimProblem, x: &[f64]) -> Result<Tri
         spin: DVec3::from_slice(&y[10..]),
         rotation: beat.root(y).r,
     };
-    let (mut residual, aside) = residuals.between(problem, &size, &[seen(&state), seen(&end)]);
+    (solution.residual, solution.aside) =
+        residuals.between(problem, &size, &[seen(&state), seen(&end)]);
     let changes = end[JOINTS..].iter().zip(&state[JOINTS..]).zip(sizes);
-    residual.extend(changes.map(|((end, start), size)| (end - start) / size));
-    let [outside, at_bound] = problem.beyond(&unknowns, &values);
+    let changes = changes.map(|((end, start), size)| (end - start) / size);
+    solution.residual.extend(changes);
     Ok(Trim {
-        converged: false,
-        residual,
-        aside,
-        iterations: 0,
-        unknowns,
-        values,
-        outside,
-        at_bound,
-        adjustment: a.adjustment,
-        difference: a.difference,
-        mass_centre: a.mass_centre,
-        body_pitch: a.pitch,
-        body_roll: a.roll,
+        solution,
         turn_rate: problem.turn_rate,
         state,
         point: x.to_vec(),
         beat,
-        setup: a.setup,
+        setup,
     })
 }
 
@@ -307,7 +250,7 @@ struct BeatMap<'a> {
 
 impl Map for BeatMap<'_> {
     fn residual(&mut self, x: &[f64]) -> Result<Vec<f64>, AnalysisError> {
-        evaluate(self.setup, self.problem, x).map(|found| found.residual)
+        evaluate(self.setup, self.problem, x).map(|found| found.solution.residual)
     }
 
     /// By central differences.

@@ -18,6 +18,7 @@
 //! enough unknowns, damped ones, and a trim finds the whole periodic orbit, wings and strips included ([`WakeTrim::past`]); its Floquet
 //! modes carry the leading modes of the wings and the states of the strips' wakes along ([`elastic_floquet`]).
 
+mod differences;
 mod fewer;
 mod free_beat;
 mod modes;

@@ -5,13 +5,13 @@ use crate::common;
 use std::sync::{Arc, Mutex};
 
 use wingbeat_analysis::control::{
-    Held, Law, Reference, Regulator, SteeredBeats, Steering, Weights, adjustments,
+    Held, Law, Reference, Regulator, SteeredBeats, Steering, Weights, adjustments, disturbed,
 };
 use wingbeat_analysis::episode::{
     CALM_BEATS, CALM_SPEED, CALM_TILT, Course, Draw, Episode, Flyer, Model, OBSERVED, SharedModel,
     Start, SteadyStroke, SteeredStroke, Task, Transition, Tumbles,
 };
-use wingbeat_analysis::{Beat, Trim, trim};
+use wingbeat_analysis::{Beat, Perturbation, Trim, trim};
 use wingbeat_dynamics::Formulation;
 use wingbeat_flight::Passage;
 use wingbeat_math::{DVec3, RotationLaw};
@@ -34,9 +34,11 @@ fn hovering() -> Trim {
 fn agrees_a_steered_flyer_with_the_map_of_a_beat() {
     let trim = hovering();
     let start = Start {
-        tilt: DVec3::new(0.1, -0.05, 0.2),
-        velocity: DVec3::new(0.02, 0.01, -0.03),
-        rate: DVec3::new(5.0, -3.0, 2.0),
+        by: Perturbation {
+            tilt: DVec3::new(0.1, -0.05, 0.2),
+            velocity: DVec3::new(0.02, 0.01, -0.03),
+            rate: DVec3::new(5.0, -3.0, 2.0),
+        },
         gust: None,
     };
     let mut flyer = Flyer::new(&trim, &model(&trim), &start).expect("a flyer");
@@ -203,10 +205,10 @@ fn agrees_recoveries_with_the_map_of_a_beat() {
     for seed in 1..=12 {
         let recovery = tumbles.recovery(seed).expect("a flight");
         let start = Start::drawn(Task::Recover, &trim.beat, &mut Draw::new(seed, 0));
-        assert_eq!(recovery.tilt, start.tilt.length());
+        assert_eq!(recovery.tilt, start.by.tilt.length());
         let held = Held::Known(Reference::trimmed(&trim).expect("a reference"));
         let steering = Steering::new(law.clone(), held, &trim.setup);
-        let flight = SteeredBeats::new(&trim, start.state(&trim), Some(steering), latency);
+        let flight = SteeredBeats::new(&trim, disturbed(&trim, &start.by), Some(steering), latency);
         let calm_from = calm_from(&trim, flight.expect("a flight"), beats);
         assert_eq!(recovery.beats, calm_from, "seed {seed}");
         recovered += usize::from(calm_from.is_some());

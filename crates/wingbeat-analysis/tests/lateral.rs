@@ -30,7 +30,7 @@ fn turning(forward: f64, turn_rate: f64) -> TrimProblem {
 
 fn trimmed(setup: &FlightSetup, problem: &TrimProblem) -> Trim {
     let found = trim(setup, problem).unwrap();
-    assert!(found.converged, "{:?}", found.residual);
+    assert!(found.solution.converged, "{:?}", found.solution.residual);
     found
 }
 
@@ -65,13 +65,17 @@ fn agrees_a_turn_flown_freely_with_its_circle() {
 #[test]
 fn symmetry_turns_to_either_side_are_mirror_images() {
     let [right, left] = [5.0, -5.0].map(|rate| trimmed(&fly(), &turning(0.3, rate)));
-    for unknown in &right.unknowns {
-        let [a, b] = [&right, &left].map(|t| t.value(*unknown).unwrap());
+    for unknown in &right.solution.unknowns {
+        let [a, b] = [&right, &left].map(|t| t.solution.value(*unknown).unwrap());
         let mirrored = if unknown.is_lateral() { -b } else { b };
         // Both are trimmed to 1e-9 of forces whose slopes are of order one.
         assert!((a - mirrored).abs() < 1e-8, "{}: {a} {b}", unknown.name());
     }
-    assert!(right.body_roll > 0.1, "into the turn: {}", right.body_roll);
+    assert!(
+        right.solution.body_roll > 0.1,
+        "into the turn: {}",
+        right.solution.body_roll
+    );
     let [a, b] = [&right, &left].map(|t| power_of_trim(t).unwrap().aerodynamic);
     assert!((a / b - 1.0).abs() < 1e-7, "{a} {b}");
 }
@@ -105,9 +109,9 @@ fn exact_the_mean_force_of_a_turn_is_centripetal() {
 fn agrees_lateral_trim_of_symmetric_hover_with_the_symmetric_one() {
     let plain = trimmed(&fly(), &hover(60));
     let all = trimmed(&fly(), &lateral(60));
-    for unknown in &all.unknowns {
-        let x = all.value(*unknown).unwrap();
-        let expected = plain.value(*unknown).unwrap_or(0.0);
+    for unknown in &all.solution.unknowns {
+        let x = all.solution.value(*unknown).unwrap();
+        let expected = plain.solution.value(*unknown).unwrap_or(0.0);
         assert!((x - expected).abs() < 1e-8, "{}: {x}", unknown.name());
     }
 }
@@ -157,9 +161,9 @@ fn balances_a_fly_with_a_clipped_wing_hovers() {
     let found = trimmed(&clipped(), &lateral(60));
     // The short wing strokes farther.
     assert!(
-        found.difference.stroke_amplitude < -0.05,
+        found.solution.difference.stroke_amplitude < -0.05,
         "{:?}",
-        found.difference
+        found.solution.difference
     );
     let mut flight = Simulation::new(found.free()).unwrap();
     let start = flight.record().mass_centre;
@@ -179,13 +183,14 @@ fn limit_least_power_is_no_more_than_at_any_frequency() {
     problem.unknowns.push(Unknown::FeatheringLead);
     let found = trim_within(&fly(), &problem).unwrap();
     assert!(
-        found.converged && found.at_bound.is_empty(),
+        found.solution.converged && found.solution.at_bound.is_empty(),
         "{:?}",
-        found.at_bound
+        found.solution.at_bound
     );
     let paid = |t: &Trim| power_of_trim(t).unwrap().perfect_storage;
     let least = paid(&found);
-    let [f, lead] = [Unknown::Frequency, Unknown::FeatheringLead].map(|u| found.value(u).unwrap());
+    let [f, lead] =
+        [Unknown::Frequency, Unknown::FeatheringLead].map(|u| found.solution.value(u).unwrap());
     let at = |df: f64, dl: f64| {
         let given = vec![
             (Unknown::Frequency, f + df),
@@ -216,10 +221,13 @@ fn limit_bounds_are_kept_where_there_is_a_choice_and_named_where_there_is_none()
     let mut problem = hover(40);
     problem.bounds = vec![bound];
     let free = trim_within(&fly(), &problem).unwrap();
-    assert!(free.converged && free.outside == [Unknown::StrokeAmplitude]);
+    assert!(free.solution.converged && free.solution.outside == [Unknown::StrokeAmplitude]);
     problem.unknowns.push(Unknown::Frequency);
     let found = trim_within(&fly(), &problem).unwrap();
-    let x = found.value(Unknown::StrokeAmplitude).unwrap();
-    assert!(found.converged && found.outside.is_empty(), "{x}");
+    let x = found.solution.value(Unknown::StrokeAmplitude).unwrap();
+    assert!(
+        found.solution.converged && found.solution.outside.is_empty(),
+        "{x}"
+    );
     assert!((bound.from - 1e-3..=bound.to + 1e-3).contains(&x), "{x}");
 }

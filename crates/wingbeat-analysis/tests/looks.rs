@@ -4,7 +4,7 @@ use crate::common;
 
 use wingbeat_analysis::control::{
     CONTROLS, Controls, Departure, Held, Law, Limits, Orbit, Reference, Regulator, STATES,
-    SteeredBeats, Steering, Timing, Weights, adjustments, states,
+    SteeredBeats, Steering, Timing, Weights, adjustments, disturbed, states,
 };
 use wingbeat_analysis::{Beat, Level, Perturbation, Trim, eigen, trim};
 use wingbeat_flight::Controller;
@@ -168,8 +168,11 @@ fn balances_a_tilted_flight_under_looks_within_the_beat() {
         let regulator = Regulator::timed(&trim, &Weights::default(), &timing).expect("gains");
         let mut controller = steering(&trim, &regulator, &timing);
         controller.limits = Limits::default();
-        let tilt = DVec3::new(0.3, 0.3, 0.3);
-        let start = wingbeat_analysis::control::disturbed(&trim, tilt, DVec3::ZERO);
+        let by = Perturbation {
+            tilt: DVec3::splat(0.3),
+            ..Perturbation::default()
+        };
+        let start = disturbed(&trim, &by);
         let mut flight =
             SteeredBeats::new(&trim, start, Some(controller), latency).expect("a flight");
         let mut strayed = 0.0_f64;

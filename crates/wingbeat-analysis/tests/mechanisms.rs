@@ -161,14 +161,17 @@ fn agrees_trim_of_a_linkage_with_prescribed_joints() {
         ..hover(60)
     };
     let [a, b] = both().map(|s| trim(&s, &problem).unwrap());
-    assert!(a.converged && b.converged);
+    assert!(a.solution.converged && b.solution.converged);
     // Both are trimmed to 1e-9.
     for (x, y) in [
-        (a.body_pitch, b.body_pitch),
-        (a.adjustment.frequency, b.adjustment.frequency),
+        (a.solution.body_pitch, b.solution.body_pitch),
         (
-            a.adjustment.feathering_offset,
-            b.adjustment.feathering_offset,
+            a.solution.adjustment.frequency,
+            b.solution.adjustment.frequency,
+        ),
+        (
+            a.solution.adjustment.feathering_offset,
+            b.solution.adjustment.feathering_offset,
         ),
     ] {
         assert!((x - y).abs() < 1e-8, "{x} {y}");

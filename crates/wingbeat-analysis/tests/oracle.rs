@@ -102,7 +102,11 @@ struct Both {
 fn both() -> [Both; 2] {
     [("fruit fly", fly()), ("hawkmoth", moth())].map(|(name, setup)| {
         let trim = trim(&setup, &hover(200)).unwrap();
-        assert!(trim.converged, "{name}: {:?}", trim.residual);
+        assert!(
+            trim.solution.converged,
+            "{name}: {:?}",
+            trim.solution.residual
+        );
         Both {
             name,
             flyer: flyer(&trim.setup),

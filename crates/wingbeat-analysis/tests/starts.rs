@@ -70,12 +70,19 @@ fn invariant_deforming_wings_are_trimmed_alike_however_they_start() {
     }
     let of = |beats: f64| {
         let found = trim(&started(setup.clone(), beats), &hover(40)).expect("a trim");
-        assert!(found.converged, "{}", found.error());
+        assert!(found.solution.converged, "{}", found.solution.error());
         let model = linear_model(&found.beat, &found.state).expect("a model");
         let power = power_of_trim(&found).expect("its power");
         let powers = [power.aerodynamic, power.no_storage, power.peak];
         let (matrix, growths) = (&model.matrix, &growths(&found));
-        [&found.values, &found.state, matrix, growths, &powers[..]].concat()
+        [
+            &found.solution.values,
+            &found.state,
+            matrix,
+            growths,
+            &powers[..],
+        ]
+        .concat()
     };
     let impulsive = of(0.0);
     for beats in [0.7, 1.0, 2.0] {
@@ -120,7 +127,7 @@ fn nodding(amplitude: f64, phase: f64) -> FlightSetup {
 fn agrees_trim_of_a_nodding_abdomen_with_the_phase_that_a_smooth_start_leaves() {
     let found = |setup: FlightSetup| {
         let found = trim(&setup, &hover(60)).expect("a trim");
-        assert!(found.converged, "{}", found.error());
+        assert!(found.solution.converged, "{}", found.solution.error());
         found
     };
     let amplitude = 10_f64.to_radians();
@@ -128,7 +135,12 @@ fn agrees_trim_of_a_nodding_abdomen_with_the_phase_that_a_smooth_start_leaves() 
         let smooth = found(started(nodding(amplitude, 0.0), beats));
         let ahead = found(started(nodding(amplitude, 0.5 * beats), 0.0));
         let other = found(started(nodding(amplitude, 0.0), 0.0));
-        let strokes = |t: &Trim| [t.adjustment.stroke_amplitude, t.adjustment.stroke_offset];
+        let strokes = |t: &Trim| {
+            [
+                t.solution.adjustment.stroke_amplitude,
+                t.solution.adjustment.stroke_offset,
+            ]
+        };
         // The steps of the beats lie on the same instants: what differs is where Newton's method ends.
         close(&strokes(&smooth), &strokes(&ahead), 1e-7);
         close(&growths(&smooth), &growths(&ahead), 1e-5);

@@ -21,7 +21,7 @@ fn agrees_a_sweep_with_trims_one_by_one() {
             ..hover(40)
         };
         let alone = trim(&fly(), &problem).unwrap();
-        assert!(alone.converged && f.trim.converged);
+        assert!(alone.solution.converged && f.trim.solution.converged);
         for (a, b) in alone.point.iter().zip(&f.trim.point) {
             assert!((a - b).abs() < 1e-7, "{:?} {:?}", alone.point, f.trim.point);
         }

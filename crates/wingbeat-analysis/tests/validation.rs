@@ -46,7 +46,11 @@ fn published_fry_strokes_carry_the_fly() {
 #[test]
 fn balances_hover_trims_and_then_stays_where_it_is() {
     let t = trim(&fly(), &hover(100)).unwrap();
-    assert!(t.converged && t.error() < 1e-9, "{:?}", t.residual);
+    assert!(
+        t.solution.converged && t.solution.error() < 1e-9,
+        "{:?}",
+        t.solution.residual
+    );
     // Flown freely by the coupled simulation, a different integrator: within 1 % of R and 0.1
     // degree of the start after the first beat.
     let root = t.beat.root(&t.state);
@@ -82,7 +86,11 @@ fn balances_forward_flight_and_climb_trim_too() {
             ..hover(60)
         };
         let t = trim(&fly(), &problem).unwrap();
-        assert!(t.converged, "{velocity}: {:?}", t.residual);
+        assert!(
+            t.solution.converged,
+            "{velocity}: {:?}",
+            t.solution.residual
+        );
         let end = t.beat.advance(&t.state).unwrap();
         let travelled = DVec3::from_slice(&end) / t.beat.period();
         assert!((travelled - velocity).length() < 1e-6, "{travelled}"); // tolerance times R/T
@@ -95,7 +103,7 @@ fn limit_an_impossible_trim_reports_the_best_point() {
     let mut setup = fly();
     setup.gravity *= 10.0;
     let t = trim(&setup, &hover(40)).unwrap();
-    assert!(!t.converged);
+    assert!(!t.solution.converged);
     let untouched = trim(
         &setup,
         &TrimProblem {
@@ -107,7 +115,7 @@ fn limit_an_impossible_trim_reports_the_best_point() {
         },
     )
     .unwrap();
-    assert!(t.error() < untouched.error());
+    assert!(t.solution.error() < untouched.solution.error());
 }
 
 /// A body that tilts in a stream meets it from elsewhere: flight through air that moves is that through air that does not.
@@ -120,7 +128,7 @@ fn invariant_averaged_modes_in_a_stream_are_those_of_flight_through_still_air() 
                 ..hover(100)
             };
             let t = trim(setup, &problem).unwrap();
-            assert!(t.converged);
+            assert!(t.solution.converged);
             linear_model(&t.beat, &t.state).unwrap().modes
         };
         let mut streaming = fly();
@@ -158,7 +166,7 @@ fn converges_averaged_modes_of_heavy_bodies_to_floquets() {
             ..hover(100)
         };
         let t = trim(&setup, &problem).unwrap();
-        assert!(t.converged);
+        assert!(t.solution.converged);
         let averaged = linear_model(&t.beat, &t.state).unwrap().modes;
         let exact = floquet(&t.beat, &t.state).unwrap();
         let lateral = |set: &ModeSet| -> Vec<[f64; 2]> {
@@ -189,7 +197,7 @@ fn agrees_averaged_modes_in_an_induced_flow_with_those_in_a_stream() {
             false => options.induced = down,
         }
         let t = trim(&setup, &hover(100)).unwrap();
-        assert!(t.converged);
+        assert!(t.solution.converged);
         linear_model(&t.beat, &t.state).unwrap().modes
     };
     let [stream, induced] = [true, false].map(modes);
@@ -239,7 +247,7 @@ fn published_longitudinal_modes_have_the_known_structure() {
 fn balances_power_of_hover() {
     let t = trim(&fly(), &hover(100)).unwrap();
     let mut setup = t.setup.clone();
-    let angles = DVec3::new(t.body_pitch, 0.0, 0.0);
+    let angles = DVec3::new(t.solution.body_pitch, 0.0, 0.0);
     setup.mode = MotionMode::Tethered(PrescribedMotion::at_rest(DVec3::ZERO, angles));
     setup.time.steps = 300;
     let p = power(&setup).unwrap();
@@ -253,11 +261,10 @@ fn balances_power_of_hover() {
     assert!((10.0..60.0).contains(&specific), "{specific} W/kg");
 }
 
-/// The trimmed flight disturbed by a tilt [rad] and a velocity [m/s].
+/// The trimmed flight disturbed.
 struct Disturbed<'a> {
     trim: &'a Trim,
-    tilt: DVec3,
-    velocity: DVec3,
+    by: Perturbation,
 }
 
 impl Disturbed<'_> {
@@ -269,7 +276,7 @@ impl Disturbed<'_> {
     /// The same in free flight, for `beats` wingbeats.
     fn setup(&self, feedback: Option<Feedback>, beats: usize) -> FlightSetup {
         let trim = Trim {
-            state: disturbed(self.trim, self.tilt, self.velocity),
+            state: disturbed(self.trim, &self.by),
             ..self.trim.clone()
         };
         let mut setup = trim.free();
@@ -280,7 +287,7 @@ impl Disturbed<'_> {
 
     /// Departures at the ends of the first `beats` wingbeats.
     fn flown(&self, controller: Option<Steering>, latency: usize, beats: usize) -> Vec<Departure> {
-        let start = disturbed(self.trim, self.tilt, self.velocity);
+        let start = disturbed(self.trim, &self.by);
         let mut flight = SteeredBeats::new(self.trim, start, controller, latency).unwrap();
         let beat = |_| {
             flight.beat().unwrap();
@@ -294,8 +301,7 @@ impl Disturbed<'_> {
 fn hundred_beats(t: &Trim, law: Option<Law>, latency: usize) -> [f64; 3] {
     let case = Disturbed {
         trim: t,
-        tilt: DVec3::new(0.0, 10.0_f64.to_radians(), 0.0),
-        velocity: DVec3::ZERO,
+        by: Perturbation::component(7, 10.0_f64.to_radians()),
     };
     let flown = case.flown(law.map(|law| case.steering(law)), latency, 100);
     let far = flown
@@ -338,8 +344,7 @@ fn balances_integral_action_takes_back_a_steady_load() {
         let law = Law::Regulator(Regulator::new(&t, &weights, 1).unwrap());
         let case = Disturbed {
             trim: &t,
-            tilt: DVec3::ZERO,
-            velocity: DVec3::ZERO,
+            by: Perturbation::default(),
         };
         let mut setup = case.setup(Some(case.steering(law).feedback(steps, 1)), 200);
         let force = 0.05 * t.beat.mass() * 9.81;
@@ -385,8 +390,10 @@ fn balances_loops_hold_attitude_and_altitude() {
     let loops = ProportionalDerivative::new(&t, &Stiffness::default()).unwrap();
     let case = Disturbed {
         trim: &t,
-        tilt: DVec3::new(3.0, 10.0, 3.0).map(f64::to_radians),
-        velocity: DVec3::ZERO,
+        by: Perturbation {
+            tilt: DVec3::new(3.0, 10.0, 3.0).map(f64::to_radians),
+            ..Perturbation::default()
+        },
     };
     for (latency, every) in [(0, 1), (1, 1), (0, 2)] {
         let mut steering = case.steering(Law::Stabiliser(loops.clone()));
@@ -410,8 +417,10 @@ fn agrees_feedback_in_flight_with_feedback_on_the_map_of_beats() {
     let regulator = Regulator::new(&t, &weights, 1).unwrap();
     let case = Disturbed {
         trim: &t,
-        tilt: DVec3::ZERO,
-        velocity: DVec3::new(0.05, 0.03, -0.02),
+        by: Perturbation {
+            velocity: DVec3::new(0.05, 0.03, -0.02),
+            ..Perturbation::default()
+        },
     };
     let steering = case.steering(Law::Regulator(regulator));
     let expect = case.flown(Some(steering.clone()), 1, 12);

@@ -214,7 +214,7 @@ fn limit_modes_tend_to_the_rigid_body_at_first_order_in_wing_mass() {
             wing.mass = wing.mass.scaled(e);
         }
         let t = trim(&setup, &hover(60)).unwrap();
-        assert!(t.converged);
+        assert!(t.solution.converged);
         let modes = floquet(&t.beat, &t.state).unwrap();
         let longitudinal = modes.plane(Plane::Longitudinal);
         longitudinal

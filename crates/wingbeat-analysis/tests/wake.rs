@@ -31,11 +31,13 @@ fn agrees_trim_and_modes_by_flights_with_the_beat_map_where_air_forgets() {
         ..WakeSettings::default()
     };
     let flown = trim_with_wake(&setup, &problem, &settings).unwrap();
-    assert!(flown.converged, "{:?}", flown.residual);
+    assert!(flown.solution.converged, "{:?}", flown.solution.residual);
     let mapped = trim(&setup, &problem).unwrap();
-    let gap = (flown.adjustment.stroke_amplitude - mapped.adjustment.stroke_amplitude).abs();
+    let gap = (flown.solution.adjustment.stroke_amplitude
+        - mapped.solution.adjustment.stroke_amplitude)
+        .abs();
     assert!(gap < 1e-4, "{gap}"); // truncation at 60 steps
-    assert!((flown.body_pitch - mapped.body_pitch).abs() < 1e-3);
+    assert!((flown.solution.body_pitch - mapped.solution.body_pitch).abs() < 1e-3);
     let exact = longitudinal(&floquet(&mapped.beat, &mapped.state).unwrap());
     for memory in [WakeMemory::Given, WakeMemory::Carried] {
         let found = longitudinal(&wake_floquet(&flown, memory).unwrap());
@@ -82,7 +84,7 @@ fn balances_hover_trims_in_the_vortex_lattice() {
         ..WakeSettings::default()
     };
     let found = trim_with_wake(&in_lattice(20), &hover(20), &settings).unwrap();
-    assert!(found.converged, "{:?}", found.residual);
+    assert!(found.solution.converged, "{:?}", found.solution.residual);
     // Flown once more: released, it is after a wingbeat where and as it was.
     let mut flight = Simulation::new(found.setup.clone()).unwrap();
     let mut released = None;
@@ -114,7 +116,7 @@ fn balances_hover_trims_with_vortex_lift() {
         ..WakeSettings::default()
     };
     let found = trim_with_wake(&setup, &hover(20), &settings).unwrap();
-    assert!(found.converged, "{:?}", found.residual);
+    assert!(found.solution.converged, "{:?}", found.solution.residual);
 }
 
 #[test]
@@ -134,14 +136,14 @@ fn balances_sideslip_trims_in_the_vortex_lattice() {
     };
     let found = trim_with_wake(&in_lattice(20), &problem, &settings).unwrap();
     assert!(
-        found.converged && found.residual.len() == 12,
+        found.solution.converged && found.solution.residual.len() == 12,
         "{:?}",
-        found.residual
+        found.solution.residual
     );
     assert!(
-        found.body_roll > 0.01,
+        found.solution.body_roll > 0.01,
         "against the drag: {}",
-        found.body_roll
+        found.solution.body_roll
     );
     let mut flight = Simulation::new(found.setup.clone()).unwrap();
     let mut centres = vec![];

@@ -138,9 +138,9 @@ pub fn of_trim(trim: &Trim, numbers: &[Number], values: &mut [f64]) {
     for (number, value) in numbers.iter().zip(values) {
         if let Source::Trim(what) = &number.source {
             *value = match what {
-                TrimNumber::Unknown(u) => trim.value(*u).unwrap_or(f64::NAN),
-                TrimNumber::Residual => trim.error(),
-                TrimNumber::Iterations => trim.iterations as f64,
+                TrimNumber::Unknown(u) => trim.solution.value(*u).unwrap_or(f64::NAN),
+                TrimNumber::Residual => trim.solution.error(),
+                TrimNumber::Iterations => trim.solution.iterations as f64,
             };
         }
     }

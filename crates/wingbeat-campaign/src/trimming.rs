@@ -178,12 +178,12 @@ pub fn trim(setup: &FlightSetup, options: &TrimOptions) -> Result<Trim, Analysis
         steps: options.steps_per_beat,
     };
     let trim = trim_within(&open, &request.problem(&open))?;
-    match trim.is_as_asked() {
+    match trim.solution.is_as_asked() {
         true => Ok(trim),
         false => Err(AnalysisError::Numbers(format!(
             "no steady flight was found: residual {:.1e} after {} Newton steps",
-            trim.error(),
-            trim.iterations
+            trim.solution.error(),
+            trim.solution.iterations
         ))),
     }
 }

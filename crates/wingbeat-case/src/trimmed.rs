@@ -1,7 +1,7 @@
 //! A trimmed flight as a case file.
 
 use wingbeat_analysis::wake::WakeTrim;
-use wingbeat_analysis::{AnalysisError, LinearModel, Trim, rigid_animal};
+use wingbeat_analysis::{AnalysisError, LinearModel, Trim, TrimSolution, rigid_animal};
 use wingbeat_blade::DerivativeTable;
 use wingbeat_dynamics::BodyMotion;
 use wingbeat_flight::{FlightSetup, closes_loop};
@@ -22,7 +22,7 @@ use crate::written::flight::tethered;
 /// the state of body and free joints at the start of the periodic beat, impulsively started, in the
 /// trim's steps by the trim's method: what was trimmed is what flies. Feedback holds it as it begins.
 pub fn trimmed_case(case: &LoadedCase, trim: &Trim) -> String {
-    let mut raw = adjusted(case, [&trim.adjustment, &trim.difference], trim.mass_centre);
+    let mut raw = adjusted(case, &trim.solution);
     lead(&mut raw, case, &trim.setup);
     let time = &case.setup.time;
     let flown = time.steps as f64 * time.step / trim.beat.period();
@@ -60,7 +60,7 @@ pub fn trimmed_case(case: &LoadedCase, trim: &Trim) -> String {
     if let Ok(velocity) = trim.mean_velocity() {
         hold(&mut raw, velocity);
     }
-    with_start(case, raw, flight, trim.error())
+    with_start(case, raw, flight, trim.solution.error())
 }
 
 /// Feedback holds the flight as it begins, with the mean velocity `velocity` [m/s] of what was trimmed. Waypoints lead
@@ -85,8 +85,8 @@ const HELD_WITH_WINGS: f64 = 5.0;
 /// The same for a flight in air with memory, or with elastic wings: held while the wake grows, or the wings come into their
 /// motion, then released.
 pub fn wake_trimmed_case(case: &LoadedCase, trim: &WakeTrim) -> String {
-    let mut raw = adjusted(case, [&trim.adjustment, &trim.difference], trim.mass_centre);
-    if trim.unknowns.iter().any(|u| u.is_lateral()) {
+    let mut raw = adjusted(case, &trim.solution);
+    if trim.solution.unknowns.iter().any(|u| u.is_lateral()) {
         raw.air.mirror = false; // right and left part
     }
     let start = trim.start();
@@ -118,28 +118,27 @@ pub fn wake_trimmed_case(case: &LoadedCase, trim: &WakeTrim) -> String {
         ..flight
     };
     hold(&mut raw, trim.velocity);
-    with_start(case, raw, flight, trim.error())
+    with_start(case, raw, flight, trim.solution.error())
 }
 
-/// The case with the adjusted wing motion and hinges: adjustment of all wings, and what right ones have more of it
-/// than left ones.
-fn adjusted(case: &LoadedCase, by: [&Adjustment; 2], mass_centre: f64) -> Case {
+/// The case with the adjusted wing motion and hinges.
+fn adjusted(case: &LoadedCase, by: &TrimSolution) -> Case {
     let mut raw = case.raw.clone();
     let motion = &mut raw.motion;
     // Side by side: what the case has, then what trim has.
     let sides = [Side::Right, Side::Left].map(|side| {
         let own = Adjustment::from(&motion.adjust).on(side, &Adjustment::from(&motion.difference));
-        own.then(&by[0].on(side, by[1]))
+        own.then(&by.adjustment.on(side, &by.difference))
     });
     let [right, left] = sides;
     motion.adjust = written_adjustment(&right.mean(&left));
     motion.difference = written_adjustment(&right.less(&left));
-    motion.frequency_hz = (motion.frequency_hz.value() * (1.0 + by[0].frequency)).into();
+    motion.frequency_hz = (motion.frequency_hz.value() * (1.0 + by.adjustment.frequency)).into();
     motion.start = StartCase::Impulsive;
     let given = raw.joint.values_mut().flat_map(frequencies);
-    given.for_each(|f| *f *= 1.0 + by[0].frequency);
+    given.for_each(|f| *f *= 1.0 + by.adjustment.frequency);
     for hinge in raw.wing.values_mut().filter_map(|w| w.hinge_m.as_mut()) {
-        hinge[0] -= mass_centre / raw.animal.scale;
+        hinge[0] -= by.mass_centre / raw.animal.scale;
     }
     raw
 }

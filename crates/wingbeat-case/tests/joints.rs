@@ -391,9 +391,9 @@ fn agrees_trim_of_passive_hinges_with_the_flight_it_leads_to() {
     let case = LoadedCase::find("robobee", &set).unwrap_or_else(|e| panic!("{e}"));
     let problem = TrimProblem::straight(DVec3::ZERO, 0.0);
     let found = trim(&case.setup, &problem).expect("the robot");
-    assert!(found.converged, "{:?}", found.residual);
+    assert!(found.solution.converged, "{:?}", found.solution.residual);
     assert_eq!(
-        found.residual.len(),
+        found.solution.residual.len(),
         6 + 4,
         "two hinges, coordinate and speed"
     );
@@ -423,6 +423,8 @@ fn agrees_trim_of_passive_hinges_with_the_flight_it_leads_to() {
         }
     }
     let other = trim(&stiff, &problem).expect("the robot");
-    let apart = (other.adjustment.stroke_amplitude - found.adjustment.stroke_amplitude).abs();
-    assert!(!other.converged || apart > 1e-3, "{apart}");
+    let apart = (other.solution.adjustment.stroke_amplitude
+        - found.solution.adjustment.stroke_amplitude)
+        .abs();
+    assert!(!other.solution.converged || apart > 1e-3, "{apart}");
 }

@@ -41,6 +41,16 @@ pub fn refused(py: Python<'_>, key: &str, problem: &str, remedy: &str) -> PyErr 
     exception(py, "CaseError", &message, parts)
 }
 
+/// What has this name among `all`, given as `key`.
+pub fn named<T: Copy>(py: Python<'_>, key: &str, name: &str, all: &[(&str, T)]) -> PyResult<T> {
+    let found = all.iter().find(|(own, _)| *own == name);
+    found.map(|(_, value)| *value).ok_or_else(|| {
+        let names: Vec<&str> = all.iter().map(|(name, _)| *name).collect();
+        let problem = format!("`{name}` is not known");
+        refused(py, key, &problem, &names.join(", "))
+    })
+}
+
 /// What went wrong, as an exception.
 pub fn raised(py: Python<'_>, error: &Error) -> PyErr {
     let (class, parts) = match error {

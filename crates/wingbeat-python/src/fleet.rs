@@ -5,15 +5,12 @@ use std::sync::{Arc, Mutex, PoisonError};
 use numpy::{PyReadonlyArray2, PyReadwriteArray1, PyReadwriteArray2};
 use pyo3::prelude::*;
 use rayon::prelude::*;
-use wingbeat::analysis::control::{Regulator, Weights};
+use wingbeat::analysis::control::{CONTROLS, Regulator, Weights};
 use wingbeat::analysis::episode::{Course, Episode, OBSERVED, Task};
 use wingbeat::analysis::{AnalysisError, Trim};
 
-use crate::errors::{broken, raised, refused};
+use crate::errors::{broken, named, raised, refused};
 use crate::threads::detached;
-
-/// Controls of a flyer.
-const CONTROLS: usize = 4;
 
 /// An episode that is stepped over and over.
 struct Cell {
@@ -32,6 +29,15 @@ enum Autoreset {
     Disabled,
 }
 
+impl Autoreset {
+    /// All with their names.
+    const ALL: [(&'static str, Self); 3] = [
+        ("next_step", Self::NextStep),
+        ("same_step", Self::SameStep),
+        ("disabled", Self::Disabled),
+    ];
+}
+
 /// A vector of episodes of one task.
 #[pyclass(frozen, module = "wingbeat._core")]
 pub struct Fleet {
@@ -42,31 +48,60 @@ pub struct Fleet {
     regulator: Option<Regulator>,
 }
 
-/// Settings of a fleet as Python gives them: task, steps from one control to the next, wingbeats of an episode, limits
-/// of relative amplitudes and of angles [rad], delay in control steps, noise of place [m], velocity [m/s], tilt [rad] and angular
-/// velocity [rad/s], autoreset mode.
-pub type Settings = (String, usize, usize, [f64; 2], usize, [f64; 4], String);
+/// Settings of a fleet: a dictionary of Python.
+#[derive(FromPyObject)]
+#[pyo3(from_item_all)]
+pub struct Settings {
+    /// Name of the task.
+    task: String,
+    /// Integration steps from one control to the next.
+    interval: usize,
+    /// Wingbeats of an episode.
+    beats: usize,
+    /// Limit of relative amplitudes \[1\].
+    amplitude_limit: f64,
+    /// Limit of angles [rad].
+    angle_limit_rad: f64,
+    /// Control steps from sensing to observing.
+    delay: usize,
+    /// Standard deviation of places that are sensed [m].
+    position_noise_m: f64,
+    /// Of velocities [m/s].
+    velocity_noise_m_per_s: f64,
+    /// Of the tilt [rad].
+    tilt_noise_rad: f64,
+    /// Of angular velocities [rad/s].
+    rate_noise_rad_per_s: f64,
+    /// Name of the autoreset mode.
+    autoreset_mode: String,
+}
+
+impl Settings {
+    /// What they make of episodes about `trim`.
+    fn course(&self, task: Task, trim: Trim) -> Result<Course, AnalysisError> {
+        let mut course = Course::new(task, trim)?;
+        (course.interval, course.beats, course.delay) = (self.interval, self.beats, self.delay);
+        let (limits, noise) = (&mut course.limits, &mut course.sensors.noise);
+        (limits.amplitude, limits.angle) = (self.amplitude_limit, self.angle_limit_rad);
+        (noise.position, noise.velocity) = (self.position_noise_m, self.velocity_noise_m_per_s);
+        (noise.tilt, noise.rate) = (self.tilt_noise_rad, self.rate_noise_rad_per_s);
+        Ok(course)
+    }
+}
 
 impl Fleet {
     /// Episodes about the trimmed flight `trim`, of these seeds.
     pub fn of(py: Python<'_>, trim: Trim, settings: Settings, seeds: Vec<u64>) -> PyResult<Self> {
-        let (task, interval, beats, limits, delay, noise, autoreset) = settings;
-        let autoreset = match &autoreset[..] {
-            "next_step" => Autoreset::NextStep,
-            "same_step" => Autoreset::SameStep,
-            _ => Autoreset::Disabled,
-        };
-        let names = Task::ALL.map(|t| t.0).join(", ");
-        let task = Task::ALL.iter().find(|t| t.0 == task);
-        let (_, task) =
-            task.ok_or_else(|| refused(py, "task", "there is none of this name", &names))?;
+        let autoreset = named(
+            py,
+            "autoreset_mode",
+            &settings.autoreset_mode,
+            &Autoreset::ALL,
+        )?;
+        let task = named(py, "task", &settings.task, &Task::ALL)?;
         let built = detached(py, move || {
-            let mut course = Course::new(*task, trim)?;
-            (course.interval, course.beats, course.delay) = (interval, beats, delay);
-            [course.limits.amplitude, course.limits.angle] = limits;
-            let to = &mut course.sensors.noise;
-            [to.position, to.velocity, to.tilt, to.rate] = noise;
-            let is_per_beat = interval == course.trim.beat.steps() && delay == 0;
+            let course = settings.course(task, trim)?;
+            let is_per_beat = course.interval == course.trim.beat.steps() && course.delay == 0;
             let regulator =
                 is_per_beat.then(|| Regulator::new(&course.trim, &Weights::default(), 0).ok());
             let (course, regulator) = (Arc::new(course), regulator.flatten());
@@ -124,18 +159,7 @@ impl Cell {
     }
 }
 
-/// What an environment of the fleet is stepped by and into.
-struct Row<'a> {
-    cell: &'a mut Cell,
-    action: &'a [f32],
-    observed: &'a mut [f32],
-    last: &'a mut [f32],
-    reward: &'a mut f64,
-    terminated: &'a mut bool,
-    truncated: &'a mut bool,
-}
-
-/// The same of neighbours.
+/// Environments that are neighbours, and what they are stepped by and into.
 struct Rows<'a> {
     cells: &'a mut [Cell],
     actions: &'a [f32],
@@ -159,99 +183,69 @@ impl<'a> Rows<'a> {
         self.actions.len() == CONTROLS * n && wide == [OBSERVED * n; 2] && flat == [n; 3]
     }
 
-    fn split(self, at: usize) -> [Self; 2] {
-        let (cells, other_cells) = self.cells.split_at_mut(at);
-        let (actions, other_actions) = self.actions.split_at(CONTROLS * at);
-        let (observed, other_observed) = self.observed.split_at_mut(OBSERVED * at);
-        let (last, other_last) = self.last.split_at_mut(OBSERVED * at);
-        let (rewards, other_rewards) = self.rewards.split_at_mut(at);
-        let (terminated, other_terminated) = self.terminated.split_at_mut(at);
-        let (truncated, other_truncated) = self.truncated.split_at_mut(at);
-        let first = Self {
-            cells,
-            actions,
-            observed,
-            last,
-            rewards,
-            terminated,
-            truncated,
-        };
-        let second = Self {
-            cells: other_cells,
-            actions: other_actions,
-            observed: other_observed,
-            last: other_last,
-            rewards: other_rewards,
-            terminated: other_terminated,
-            truncated: other_truncated,
-        };
-        [first, second]
-    }
-
-    fn each(self) -> impl Iterator<Item = Row<'a>> {
-        let wide = self.observed.chunks_exact_mut(OBSERVED);
-        let wide = wide.zip(self.last.chunks_exact_mut(OBSERVED));
-        let ends = self.terminated.iter_mut().zip(self.truncated);
-        let cells = self
-            .cells
-            .iter_mut()
-            .zip(self.actions.chunks_exact(CONTROLS));
-        let rows = cells.zip(wide).zip(self.rewards.iter_mut().zip(ends));
-        rows.map(|(((cell, action), (observed, last)), (reward, ends))| Row {
-            cell,
-            action,
-            observed,
-            last,
-            reward,
-            terminated: ends.0,
-            truncated: ends.1,
+    /// Takes the first `count` out of them; none where there are fewer.
+    fn split_off(&mut self, count: usize) -> Option<Self> {
+        Some(Self {
+            cells: self.cells.split_off_mut(..count)?,
+            actions: self.actions.split_off(..CONTROLS * count)?,
+            observed: self.observed.split_off_mut(..OBSERVED * count)?,
+            last: self.last.split_off_mut(..OBSERVED * count)?,
+            rewards: self.rewards.split_off_mut(..count)?,
+            terminated: self.terminated.split_off_mut(..count)?,
+            truncated: self.truncated.split_off_mut(..count)?,
         })
     }
 
     /// Steps all, over threads in groups of at most `most`; by itself if that is all.
     fn step(
-        self,
+        mut self,
         most: usize,
         autoreset: Autoreset,
         regulator: &Option<Regulator>,
     ) -> Result<(), AnalysisError> {
         let count = self.cells.len();
         if count <= most {
-            return self.each().try_for_each(|r| r.step(autoreset, regulator));
+            return (0..count).try_for_each(|k| self.step_one(k, autoreset, regulator));
         }
         let groups = count.div_ceil(most);
-        let [first, second] = self.split(most * groups.div_ceil(2));
+        let first = self.split_off(most * groups.div_ceil(2));
+        let first = first.expect("more than that");
         let (one, other) = rayon::join(
             || first.step(most, autoreset, regulator),
-            || second.step(most, autoreset, regulator),
+            || self.step(most, autoreset, regulator),
         );
         one.and(other)
     }
-}
 
-impl Row<'_> {
-    fn step(
-        self,
+    /// Steps number `k`.
+    fn step_one(
+        &mut self,
+        k: usize,
         autoreset: Autoreset,
         regulator: &Option<Regulator>,
     ) -> Result<(), AnalysisError> {
-        let cell = self.cell;
-        if cell.is_done && autoreset == Autoreset::NextStep {
-            cell.reset(None, regulator)?;
-            (*self.reward, *self.terminated, *self.truncated) = (0.0, false, false);
-            cell.observe(self.observed);
-            return Ok(());
-        }
-        let action = std::array::from_fn(|i| f64::from(self.action[i]));
-        let outcome = cell.episode.step(&action);
-        (*self.reward, *self.terminated) = (outcome.reward, outcome.is_lost);
-        *self.truncated = outcome.is_over && !outcome.is_lost;
-        cell.is_done = outcome.is_lost || outcome.is_over;
-        cell.observe(self.observed);
+        let (cell, own) = (&mut self.cells[k], OBSERVED * k..OBSERVED * (k + 1));
+        let observed = &mut self.observed[own.clone()];
+        let (reward, lost, over) = match cell.is_done && autoreset == Autoreset::NextStep {
+            true => {
+                cell.reset(None, regulator)?;
+                (0.0, false, false)
+            }
+            false => {
+                let action = &self.actions[CONTROLS * k..CONTROLS * (k + 1)];
+                let action = std::array::from_fn(|i| f64::from(action[i]));
+                let outcome = cell.episode.step(&action);
+                cell.is_done = outcome.is_lost || outcome.is_over;
+                let over = outcome.is_over && !outcome.is_lost;
+                (outcome.reward, outcome.is_lost, over)
+            }
+        };
+        (self.rewards[k], self.terminated[k], self.truncated[k]) = (reward, lost, over);
+        cell.observe(observed);
         if cell.is_done && autoreset == Autoreset::SameStep {
-            self.last.copy_from_slice(self.observed);
+            self.last[own].copy_from_slice(observed);
             cell.reset(None, regulator)?;
-            cell.observe(self.observed);
+            cell.observe(observed);
         }
         Ok(())
     }
@@ -259,6 +253,21 @@ impl Row<'_> {
 
 #[pymethods]
 impl Fleet {
+    /// Names of the tasks.
+    #[classattr]
+    #[pyo3(name = "TASKS")]
+    fn tasks() -> [&'static str; 4] {
+        Task::ALL.map(|(name, _)| name)
+    }
+
+    /// Numbers of an action.
+    #[classattr]
+    const CONTROLS: usize = CONTROLS;
+
+    /// Numbers of an observation.
+    #[classattr]
+    const OBSERVED: usize = OBSERVED;
+
     /// Begins new episodes where `mask` says, of these seeds where there are any; observations into `observed`, shape
     /// (environments, 17).
     fn reset(
@@ -337,12 +346,7 @@ impl Fleet {
     /// fit: controls within a wingbeat, a delay.
     fn regulate(&self, mut actions: PyReadwriteArray2<'_, f32>) -> PyResult<bool> {
         let limits = &self.course.limits;
-        let sizes = [
-            limits.amplitude,
-            limits.angle,
-            limits.amplitude,
-            limits.angle,
-        ];
+        let sizes = limits.sizes();
         let mut cells = self.cells.lock().unwrap_or_else(PoisonError::into_inner);
         let rows = actions.as_slice_mut()?.as_chunks_mut::<CONTROLS>().0;
         for (cell, row) in cells.iter_mut().zip(rows) {

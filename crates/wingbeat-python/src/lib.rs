@@ -17,6 +17,7 @@
 //! | `run` | flights that were flown |
 //! | `frame` | surfaces and wakes of one instant |
 //! | `fleet` | many episodes at once, for who learns |
+//! | `solution` | what trims in any air find |
 //! | `mechanics` | trim, stability, controls, power |
 //! | `wake` | trim in air with a memory |
 #![warn(missing_docs)]
@@ -30,6 +31,7 @@ mod frame;
 mod mechanics;
 mod own;
 mod run;
+mod solution;
 mod stepping;
 mod threads;
 mod wake;
@@ -52,6 +54,8 @@ mod _core {
     use crate::own::Sensed;
     #[pymodule_export]
     use crate::run::Run;
+    #[pymodule_export]
+    use crate::solution::TrimSolution;
     #[pymodule_export]
     use crate::stepping::Stepper;
     #[pymodule_export]

@@ -12,6 +12,7 @@ use wingbeat::math::DVec3;
 use crate::arrays::array;
 use crate::errors::{raised, refused};
 use crate::fleet::{Fleet, Settings};
+use crate::solution::TrimSolution;
 use crate::worker::analyse;
 
 /// What is asked of a trim, as Python has it: mean velocity forward, right and up [m/s]; turn to the right [rad/s];
@@ -158,59 +159,10 @@ impl Trim {
 
 #[pymethods]
 impl Trim {
-    /// Whether it is steady flight, and within the bounds that were asked.
+    /// What was found.
     #[getter]
-    fn is_as_asked(&self) -> bool {
-        self.trim.is_as_asked()
-    }
-
-    /// Whether the residual is within the tolerance.
-    #[getter]
-    fn converged(&self) -> bool {
-        self.trim.converged
-    }
-
-    /// The residuals; see `wingbeat.Trim`.
-    #[getter]
-    fn residual<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        array(py, self.trim.residual.clone(), &[self.trim.residual.len()])
-    }
-
-    /// Newton steps made.
-    #[getter]
-    fn iterations(&self) -> usize {
-        self.trim.iterations
-    }
-
-    /// The adjustment of all wings, in the order of `wingbeat.Adjustment`.
-    #[getter]
-    fn adjustment(&self) -> [f64; 8] {
-        self.trim.adjustment.numbers().map(|(_, x)| x)
-    }
-
-    /// What right wings have more of it than left ones.
-    #[getter]
-    fn difference(&self) -> [f64; 8] {
-        self.trim.difference.numbers().map(|(_, x)| x)
-    }
-
-    /// Roll of the body at the start of the beat [rad].
-    #[getter]
-    fn body_roll_rad(&self) -> f64 {
-        self.trim.body_roll
-    }
-
-    /// Names of the unknowns outside their bounds, and of those at one.
-    #[getter]
-    fn at_bounds(&self) -> [Vec<&'static str>; 2] {
-        let names = |list: &[Unknown]| list.iter().map(|u| u.name()).collect();
-        [names(&self.trim.outside), names(&self.trim.at_bound)]
-    }
-
-    /// Pitch of the body at the start of the beat [rad].
-    #[getter]
-    fn body_pitch_rad(&self) -> f64 {
-        self.trim.body_pitch
+    fn solution(&self) -> TrimSolution {
+        TrimSolution(self.trim.solution.clone())
     }
 
     /// Period of the wingbeat [s].
@@ -286,8 +238,7 @@ impl Trim {
         Ok(powers(&p))
     }
 
-    /// Episodes about it, one for each seed; settings: task, steps from one control to the next, wingbeats, limits, delay, noise,
-    /// autoreset mode.
+    /// Episodes about it, one for each seed.
     fn fleet(&self, py: Python<'_>, settings: Settings, seeds: Vec<u64>) -> PyResult<Fleet> {
         Fleet::of(py, self.trim.clone(), settings, seeds)
     }

@@ -13,7 +13,7 @@ use wingbeat::results::{Outcome, ResultDir, Summary};
 use wingbeat::{Error, results};
 
 use crate::arrays::array;
-use crate::errors::{raised, refused};
+use crate::errors::{named, raised, refused};
 use crate::frame::Frame;
 
 /// A flight that was flown, in memory or in a result directory.
@@ -206,12 +206,10 @@ impl Run {
         into: Option<PathBuf>,
         overwrite: bool,
     ) -> PyResult<Vec<PathBuf>> {
-        let found = Format::ALL.iter().find(|f| f.0 == format);
-        let names = Format::ALL.map(|f| f.0).join(", ");
-        let (_, format) = found.ok_or_else(|| refused(py, "format", "unknown", &names))?;
+        let format = named(py, "format", format, &Format::ALL)?;
         let dir = self.directory(py, "an export")?;
         let into = into.unwrap_or_else(|| dir.path().to_owned());
-        let files = py.detach(|| export(&dir, *format, &into, overwrite));
+        let files = py.detach(|| export(&dir, format, &into, overwrite));
         files.map_err(|e| raised(py, &e.into()))
     }
 

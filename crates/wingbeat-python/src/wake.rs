@@ -4,12 +4,13 @@ use pyo3::prelude::*;
 use wingbeat::analysis::wake::{
     WakeMemory, WakeSettings, trim_with_wake, wake_modes, wake_monodromy,
 };
-use wingbeat::analysis::{TrimProblem, Unknown, power_with_wake};
+use wingbeat::analysis::{TrimProblem, power_with_wake};
 use wingbeat::case::{LoadedCase, wake_trimmed_case};
 
 use crate::arrays::array;
-use crate::errors::raised;
+use crate::errors::{named, raised};
 use crate::mechanics::{ModeParts, modes, powers};
+use crate::solution::TrimSolution;
 use crate::worker::analyse;
 
 /// Trims the flight, its feedback left out.
@@ -37,59 +38,16 @@ pub struct WakeTrim {
 
 #[pymethods]
 impl WakeTrim {
-    /// Whether it is steady flight, and within the bounds that were asked.
+    /// What was found.
     #[getter]
-    fn is_as_asked(&self) -> bool {
-        self.trim.is_as_asked()
+    fn solution(&self) -> TrimSolution {
+        TrimSolution(self.trim.solution.clone())
     }
 
-    /// Whether the residual is within the tolerance.
+    /// Flights flown.
     #[getter]
-    fn converged(&self) -> bool {
-        self.trim.converged
-    }
-
-    /// The residuals; see `wingbeat.WakeTrim`.
-    #[getter]
-    fn residual<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        array(py, self.trim.residual.clone(), &[self.trim.residual.len()])
-    }
-
-    /// Quasi-Newton steps made, and flights flown.
-    #[getter]
-    fn effort(&self) -> (usize, usize) {
-        (self.trim.iterations, self.trim.flights)
-    }
-
-    /// The adjustment of all wings, in the order of `wingbeat.Adjustment`.
-    #[getter]
-    fn adjustment(&self) -> [f64; 8] {
-        self.trim.adjustment.numbers().map(|(_, x)| x)
-    }
-
-    /// What right wings have more of it than left ones.
-    #[getter]
-    fn difference(&self) -> [f64; 8] {
-        self.trim.difference.numbers().map(|(_, x)| x)
-    }
-
-    /// Roll of the body at its release [rad].
-    #[getter]
-    fn body_roll_rad(&self) -> f64 {
-        self.trim.body_roll
-    }
-
-    /// Names of the unknowns outside their bounds, and of those at one.
-    #[getter]
-    fn at_bounds(&self) -> [Vec<&'static str>; 2] {
-        let names = |list: &[Unknown]| list.iter().map(|u| u.name()).collect();
-        [names(&self.trim.outside), names(&self.trim.at_bound)]
-    }
-
-    /// Pitch of the body at its release [rad].
-    #[getter]
-    fn body_pitch_rad(&self) -> f64 {
-        self.trim.body_pitch
+    fn flights(&self) -> usize {
+        self.trim.flights
     }
 
     /// The trimmed flight as the text of a case; none where no case says it.
@@ -108,18 +66,19 @@ impl WakeTrim {
     }
 
     /// Monodromy matrix of the free wingbeat by rows, and Floquet's modes; held fixed when the body is disturbed: the wake of
-    /// the trimmed flight (`is_given`), or the disturbance during the hold.
+    /// the trimmed flight (`given`), or the disturbance during the hold (`carried`).
     fn stability<'py>(
         &self,
         py: Python<'py>,
-        is_given: bool,
+        wake: &str,
     ) -> PyResult<(Bound<'py, PyAny>, Vec<ModeParts>)> {
+        let memories = [
+            ("given", WakeMemory::Given),
+            ("carried", WakeMemory::Carried),
+        ];
+        let memory = named(py, "wake", wake, &memories)?;
         let trim = self.trim.clone();
         let found = analyse(py, move || {
-            let memory = match is_given {
-                true => WakeMemory::Given,
-                false => WakeMemory::Carried,
-            };
             let matrix = wake_monodromy(&trim, memory)?;
             wake_modes(&trim, &matrix).map(|set| (matrix, set))
         })?;

@@ -176,6 +176,13 @@ def test_refuses_settings(settings):
     assert caught.value.remedy
 
 
+def test_refuses_names_that_the_core_does_not_know():
+    for task, mode, key in (("dance", "disabled", "task"), ("hover", "sometimes", "autoreset_mode")):
+        with pytest.raises(wingbeat.CaseError, match="disabled|hover") as caught:
+            wingbeat.gym._Fleet(1, task, mode)
+        assert caught.value.key == key
+
+
 FLY = wingbeat.Flight.preset("fruit-fly-blade")
 
 

@@ -110,11 +110,11 @@ impl HistoryWriter {
         }
     }
 
-    /// Takes a record; writes a row if one is due.
+    /// Takes a record into the next row, which [`Self::flush`] writes.
     ///
     /// # Errors
     /// A file that cannot be written, e.g. on a full disk; joints that do not fit together.
-    pub fn append(&mut self, record: &Record, is_due: bool) -> Result<(), IoError> {
+    pub fn take(&mut self, record: &Record) -> Result<(), IoError> {
         let columns = match self.columns.take() {
             Some(columns) => columns,
             None => self.begin(record)?,
@@ -124,10 +124,7 @@ impl HistoryWriter {
         self.pending.resize(columns.iter().len(), 0.0);
         columns.fold(&mut self.newest, is_first, &mut self.pending);
         self.columns = Some(columns);
-        match is_due {
-            true => self.flush(),
-            false => Ok(()),
-        }
+        Ok(())
     }
 
     /// The columns; a new file begins with their names.

@@ -213,8 +213,10 @@ impl RunWriter {
         let beat_ends = time
             .steps_per_beat()
             .is_some_and(|n| record.step.is_multiple_of(n));
-        self.history
-            .append(record, due || beat_ends || framed || last)?;
+        self.history.take(record)?;
+        if due || beat_ends || framed || last {
+            self.history.flush()?;
+        }
         if let Some(each) = &mut self.each {
             each.take(record, &self.case.setup);
         }

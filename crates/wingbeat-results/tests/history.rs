@@ -48,7 +48,10 @@ fn records(case: &LoadedCase) -> Vec<Record> {
 
 fn written(case: &LoadedCase, records: &[Record], path: &Path) {
     let mut writer = HistoryWriter::create(path, &case.setup).unwrap();
-    records.iter().for_each(|r| writer.append(r, true).unwrap());
+    for record in records {
+        writer.take(record).unwrap();
+        writer.flush().unwrap();
+    }
 }
 
 fn read(path: &Path, case: &LoadedCase) -> Vec<Record> {

@@ -16,13 +16,14 @@ pub(crate) fn hover() -> Result<(Trim, ModeSet), Error> {
 
 pub(crate) fn main() -> Result<(), Error> {
     let (trim, modes) = hover()?;
+    let found = &trim.solution;
     println!(
         "residual {:.1e} after {} Newton steps: body pitch {:.2} deg, stroke amplitude {:+.2} %, mean stroke {:+.2} deg",
-        trim.error(),
-        trim.iterations,
-        trim.body_pitch.to_degrees(),
-        100.0 * trim.adjustment.stroke_amplitude,
-        trim.adjustment.stroke_offset.to_degrees(),
+        found.error(),
+        found.iterations,
+        found.body_pitch.to_degrees(),
+        100.0 * found.adjustment.stroke_amplitude,
+        found.adjustment.stroke_offset.to_degrees(),
     );
     for mode in &modes.modes {
         let period = mode.period().map_or("none".into(), |t| format!("{t:.3} s"));

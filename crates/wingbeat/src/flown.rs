@@ -181,9 +181,9 @@ impl Run {
         let dir = new_dir(dir.as_ref())?;
         let mut history = HistoryWriter::create(&dir.join("history.csv"), &self.setup)?;
         for record in &self.records {
-            history.append(record, true)?;
+            history.take(record)?;
+            history.flush()?;
         }
-        history.flush()?;
         let summary = self.summary();
         dir.write("summary.txt", summary.to_text().as_bytes())?;
         dir.write("summary.json", summary.to_json().as_bytes())?;

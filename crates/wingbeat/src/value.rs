@@ -186,7 +186,7 @@ impl Flight {
     }
 
     /// Steady flight as a periodic orbit, see [`wingbeat_analysis::trim_within`]. The trimmed animal flies
-    /// on as `Flight::from(trim.free())`. Whether it was found says [`Trim::converged`].
+    /// on as `Flight::from(trim.free())`. Whether it was found says `trim.solution.converged`.
     ///
     /// ```
     /// use wingbeat::Flight;
@@ -194,7 +194,7 @@ impl Flight {
     /// let mut hover = flight.hover();
     /// hover.settings.steps = 40; // per wingbeat
     /// let trim = flight.trim(&hover)?;
-    /// assert!(trim.converged && trim.error() < 1e-9);
+    /// assert!(trim.solution.converged && trim.solution.error() < 1e-9);
     /// assert!(trim.mean_velocity()?.length() < 1e-6); // m/s
     /// # Ok::<(), wingbeat::Error>(())
     /// ```

@@ -59,7 +59,11 @@ fn behaves_gust_carries_off_downwind_while_it_blows() {
 fn behaves_hover_is_trimmed_and_has_one_neutral_heading() {
     trim_and_modes::main().expect("a trim");
     let (trim, modes) = trim_and_modes::hover().expect("a trim");
-    assert!(trim.converged, "residual {:e}", trim.error());
+    assert!(
+        trim.solution.converged,
+        "residual {:e}",
+        trim.solution.error()
+    );
     let neutral = modes.modes.iter().filter(|m| m.is_neutral());
     assert_eq!(neutral.count(), 1, "hover is the same in every heading");
 }

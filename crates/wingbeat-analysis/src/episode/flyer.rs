@@ -13,6 +13,7 @@ use super::task::Start;
 use crate::AnalysisError;
 use crate::beat::State;
 use crate::departure::{Controls, adjustments};
+use crate::disturbance::disturbed;
 use crate::trim::Trim;
 
 /// The equations of the flyers of a trimmed flight, with their intermediate results: what they share, so that hundreds that
@@ -136,7 +137,7 @@ impl Flyer {
             }
         };
         self.commands.fill(Transition::default());
-        self.y = start.state(trim);
+        self.y = disturbed(trim, &start.by);
         self.steps = 0;
         let model = &mut *locked(&self.model);
         model.turn_to(&self.commands);

@@ -172,13 +172,7 @@ impl Episode {
     /// One control step under `controls`, fractions of their limits.
     pub fn step(&mut self, controls: &[f64; CONTROLS]) -> Outcome {
         let course = Arc::clone(&self.course);
-        let limits = &course.limits;
-        let sizes = [
-            limits.amplitude,
-            limits.angle,
-            limits.amplitude,
-            limits.angle,
-        ];
+        let sizes = course.limits.sizes();
         let command: Controls = std::array::from_fn(|i| sizes[i] * controls[i].clamp(-1.0, 1.0));
         self.looks += 1;
         let over = self.looks as f64 >= course.beats as f64 * course.controls_per_beat();

@@ -3,12 +3,11 @@
 use std::f64::consts::TAU;
 
 use wingbeat_air::{Gust, GustShape};
-use wingbeat_math::{DMat3, DQuat, DVec3, SplitMix64};
+use wingbeat_math::{DVec3, SplitMix64};
 
-use crate::beat::{Beat, JOINTS, State};
+use crate::beat::Beat;
 use crate::departure::{CONTROLS, Departure};
-use crate::level::Level;
-use crate::trim::Trim;
+use crate::level::Perturbation;
 
 /// A task.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -95,15 +94,11 @@ impl Draw {
     }
 }
 
-/// How an episode begins: disturbances of the trimmed flight, level axes.
+/// How an episode begins.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Start {
-    /// Rotation vector roll, pitch, heading [rad].
-    pub tilt: DVec3,
-    /// Velocity [m/s].
-    pub velocity: DVec3,
-    /// Angular velocity [rad/s].
-    pub rate: DVec3,
+    /// What the trimmed flight is disturbed by, its velocity along axes that stay level.
+    pub by: Perturbation,
     /// A gust on the way.
     pub gust: Option<Gust>,
 }
@@ -114,26 +109,13 @@ impl Start {
         let [tilt, rate] = task.disturbance();
         let speed = beat.wing_length() / beat.period();
         Self {
-            tilt: tilt * draw.vector(),
-            velocity: 0.05 * speed * draw.vector(),
-            rate: rate / beat.period() * draw.vector(),
+            by: Perturbation {
+                tilt: tilt * draw.vector(),
+                velocity: 0.05 * speed * draw.vector(),
+                rate: rate / beat.period() * draw.vector(),
+            },
             gust: (task == Task::Gust).then(|| gust(speed, beat.period(), draw)),
         }
-    }
-
-    /// The state of the flyer.
-    pub fn state(&self, trim: &Trim) -> State {
-        let root = trim.beat.root(&trim.state);
-        let level = Level::new(root.r, trim.beat.gravity());
-        let turned = level.to_n * DMat3::from_quat(DQuat::from_scaled_axis(self.tilt));
-        let own = DVec3::from_slice(&trim.state[7..]) / trim.beat.mass();
-        trim.beat.state_with(
-            DVec3::ZERO,
-            turned * level.to_root.transpose(),
-            turned * level.to_n.transpose() * own + level.to_n * self.velocity,
-            root.w + level.to_root * self.rate,
-            &trim.state[JOINTS..],
-        )
     }
 }
 

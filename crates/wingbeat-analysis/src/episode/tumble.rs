@@ -79,8 +79,8 @@ impl<'a> Tumbles<'a> {
         let mut law = self.law.clone();
         let mut under_way = VecDeque::from(vec![[0.0; CONTROLS]; self.latency]);
         let mut recovery = Recovery {
-            tilt: start.tilt.length(),
-            rate: start.rate.length(),
+            tilt: start.by.tilt.length(),
+            rate: start.by.rate.length(),
             beats: None,
             strayed: 0.0,
         };

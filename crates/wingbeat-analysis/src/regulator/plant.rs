@@ -6,6 +6,7 @@ use crate::AnalysisError;
 use crate::beat::{Beat, JOINTS};
 use crate::departure::{CONTROLS, Controls, Departure, adjustments};
 use crate::level::{Level, Perturbation};
+use crate::modes::Scales;
 use crate::monodromy::monodromy;
 use crate::part::{Orbit, Part};
 use crate::trim::Trim;
@@ -47,8 +48,7 @@ impl Plant {
     }
 
     fn new(trim: &Trim, orbit: &Orbit, sides: &[f64], part: Part) -> Result<Self, AnalysisError> {
-        let root = trim.beat.root(&trim.state);
-        let level = Level::new(root.r, trim.beat.gravity());
+        let level = Level::of(&trim.beat, &trim.state);
         let joints = &orbit.joints[part.number];
         let states = STATES + joints.len();
         let mut all = vec![0.0; 3];
@@ -131,8 +131,9 @@ impl Plant {
 
 /// Natural sizes of the states of a plant.
 pub(crate) fn natural_sizes(beat: &Beat) -> Vec<f64> {
-    let (length, period) = (beat.wing_length(), beat.period());
-    let sizes = [length, length / period, 1.0 / period, 1.0];
+    let length = beat.wing_length();
+    let of = Scales::new(length, beat.period());
+    let sizes = [length, of.velocity, of.rate, 1.0];
     let seen = (0..STATES).map(|k| sizes[k / 3]);
     seen.chain(beat.joint_sizes().iter().copied()).collect()
 }

@@ -3,7 +3,8 @@
 //! With one mode of every wing fewer, the last is neither disturbed nor looked at: its columns and rows of the flown departures are
 //! left out before the map is made of them. So the check costs an eigenproblem and no flight.
 
-use super::wings::{BODY, ElasticMonodromy, map_between};
+use super::differences::map_between;
+use super::wings::{BODY, ElasticMonodromy};
 use crate::AnalysisError;
 use crate::eigen::eigen;
 
@@ -31,12 +32,12 @@ impl ElasticMonodromy {
         };
         let departures = self.departures.each_ref().map(part);
         Ok(Some(Self {
-            matrix: map_between(&departures[0], &departures[1], kept.len())?,
+            matrix: map_between(&departures, kept.len())?,
             departures,
             order: kept.len(),
             wakes: self.wakes,
             wings: self.wings.iter().map(|n| n - 1).collect(),
-            scales: self.scales,
+            period: self.period,
         }))
     }
 }

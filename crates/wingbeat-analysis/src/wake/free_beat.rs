@@ -5,6 +5,8 @@ use wingbeat_flight::{FlightSetup, MotionMode, Record, Simulation, StartState};
 use wingbeat_math::{DMat3, DQuat};
 
 use crate::AnalysisError;
+use crate::level::{Level, Perturbation};
+use crate::modes::Scales;
 
 /// How a flight that was trimmed starts.
 pub(super) fn start(setup: &FlightSetup) -> &StartState {
@@ -12,6 +14,17 @@ pub(super) fn start(setup: &FlightSetup) -> &StartState {
         MotionMode::Free(start) => start,
         MotionMode::Tethered(_) => unreachable!("trimmed flights are free"),
     }
+}
+
+/// The level frame of its attitude then.
+pub(super) fn level(setup: &FlightSetup) -> Level {
+    Level::new(start(setup).rotation(), setup.gravity)
+}
+
+/// The natural sizes of its perturbations.
+pub(super) fn scales(setup: &FlightSetup) -> Scales {
+    let period = setup.time.period.unwrap_or(1.0);
+    Scales::new(setup.animal.wing_length(), period)
 }
 
 /// Wingbeat of a setup in steps.
@@ -32,6 +45,12 @@ pub(super) fn steps_per_beat(setup: &FlightSetup) -> Result<usize, AnalysisError
 pub(super) fn rotation(r: &Record) -> DMat3 {
     let [w, x, y, z] = r.root_quaternion;
     DMat3::from_quat(DQuat::from_xyzw(x, y, z, w))
+}
+
+/// What the flyer of `setup` looks like from `level`.
+pub(super) fn seen(setup: &FlightSetup, level: &Level, r: &Record) -> Perturbation {
+    let velocity = r.momentum / setup.animal.mass();
+    Perturbation::seen(level, rotation(r), velocity, r.root_angular_velocity)
 }
 
 /// The motion into which the root is released, from that at the end of the hold.

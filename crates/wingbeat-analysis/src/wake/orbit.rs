@@ -12,6 +12,7 @@ use wingbeat_flight::elastic::ElasticState;
 use wingbeat_flight::{AirMemory, AirModel, FlightSetup, Past, Record, Simulation, system_of};
 use wingbeat_math::{DVec3, larger, rotation_vector};
 
+use super::free_beat::scales;
 use crate::AnalysisError;
 use crate::beat::periodic::check_periodic;
 use crate::beat::{changing_air, check_steady, steadied};
@@ -160,14 +161,9 @@ fn repeat_wakes(setup: &FlightSetup, before: &Past, after: &mut Past) -> Result<
 
 /// How much the wakes of the strips have changed, over wing length and wingbeat \[1\].
 fn change_of_wakes(setup: &FlightSetup, before: &Past, after: &Past) -> f64 {
-    let unit = speed(setup);
+    let unit = scales(setup).velocity;
     let both = numbers(before).into_iter().zip(numbers(after));
     both.map(|(a, b)| (a - b).abs() / unit).fold(0.0, larger)
-}
-
-/// Natural size of velocities \[m/s\]: a wing length a wingbeat.
-pub(super) fn speed(setup: &FlightSetup) -> f64 {
-    setup.animal.wing_length() / setup.time.period.unwrap_or(1.0)
 }
 
 /// States of the wakes of all strips \[m/s\].

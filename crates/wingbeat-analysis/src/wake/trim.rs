@@ -5,7 +5,6 @@ use wingbeat_flight::{
     AirModel, FlightSetup, MotionMode, Past, PrescribedMotion, Record, StartState,
 };
 use wingbeat_math::DVec3;
-use wingbeat_model::motion::Adjustment;
 
 use super::free_beat::{free_beat, rotation, start, steps_per_beat};
 use super::orbit::{check_alike, check_orbit, has_orbit, periodic_beat};
@@ -13,9 +12,9 @@ use super::sway::sway;
 use crate::AnalysisError;
 use crate::beat::steadied;
 use crate::progress;
-use crate::root::{Map, Search, largest, matrix_of, moved};
+use crate::root::{Map, Search, matrix_of, moved};
+use crate::solution::TrimSolution;
 use crate::steady::{self, Measures, Residuals, Snapshot, TrimProblem};
-use crate::unknown::{Unknown, adjusted};
 
 /// How the flights are flown.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -45,34 +44,12 @@ impl Default for WakeSettings {
 /// A trimmed flight in air with memory, or the best point found.
 #[derive(Clone, Debug)]
 pub struct WakeTrim {
-    /// Whether the residual is within the tolerance.
-    pub converged: bool,
-    /// As [`crate::Trim::residual`].
-    pub residual: Vec<f64>,
-    /// As [`crate::Trim::aside`].
-    pub aside: f64,
-    /// Quasi-Newton steps made.
-    pub iterations: usize,
+    /// The controls found, and the residuals.
+    pub solution: TrimSolution,
     /// Flights flown.
     pub flights: usize,
-    /// What was chosen, and what was given.
-    pub unknowns: Vec<Unknown>,
-    /// Unknowns whose values are outside the bounds of the problem: steady flight, but not as asked.
-    pub outside: Vec<Unknown>,
-    /// Unknowns at a bound.
-    pub at_bound: Vec<Unknown>,
-    /// The adjustment of all wings.
-    pub adjustment: Adjustment,
-    /// What right wings have more of it than left ones.
-    pub difference: Adjustment,
-    /// Shift of the mass centre along b1 [m].
-    pub mass_centre: f64,
     /// Mean velocity that was asked for, N components [m/s].
     pub velocity: DVec3,
-    /// Pitch of the body at its release \[rad\].
-    pub body_pitch: f64,
-    /// Roll of the body at its release, right side down \[rad\].
-    pub body_roll: f64,
     /// Elastic wings and wakes of strips at the start of the periodic beat, where the air has no wakes in space; else empty.
     pub past: Past,
     /// Motion of the body over that beat, whose means are velocity and attitude; where [`Self::past`] is empty, none.
@@ -84,16 +61,6 @@ pub struct WakeTrim {
 }
 
 impl WakeTrim {
-    /// Largest residual.
-    pub fn error(&self) -> f64 {
-        largest(&self.residual)
-    }
-
-    /// Whether it is steady flight, and within the bounds that were asked.
-    pub fn is_as_asked(&self) -> bool {
-        self.converged && self.outside.is_empty()
-    }
-
     /// Whether the whole orbit is periodic: body, elastic wings, wakes of strips.
     pub fn is_orbit(&self) -> bool {
         !self.past.is_empty()
@@ -111,7 +78,7 @@ impl WakeTrim {
 /// # Errors
 /// As [`check_alike`]; a wingbeat that is not a whole number of steps; a steady turn, which a body that is held cannot fly;
 /// unknowns that the problem does not determine, or too few; a first flight that fails. A trim that does not converge
-/// is no error: see [`WakeTrim::converged`].
+/// is no error: see [`TrimSolution::converged`].
 pub fn trim_with_wake(
     setup: &FlightSetup,
     problem: &TrimProblem,
@@ -188,11 +155,10 @@ impl Flights<'_> {
         let start = self.start();
         let (x, iterations) = search.from(self, start)?;
         let mut found = self.fly(&x)?;
-        found.converged = found.error() <= self.settings.tolerance;
-        found.iterations = iterations;
-        if found.converged {
-            steady::check_symmetric(found.aside, ROUNDING[usize::from(self.has_orbit)])?;
-        }
+        let rounding = ROUNDING[usize::from(self.has_orbit)];
+        found
+            .solution
+            .conclude(iterations, self.settings.tolerance, rounding)?;
         Ok(found)
     }
 
@@ -222,29 +188,17 @@ impl Flights<'_> {
         };
         progress::task(&format!("flight {}{best}", self.flights), 0, 0);
         let problem = self.problem;
-        let (unknowns, values) = problem.with_given(&x[self.residuals.controls()..]);
-        let a = adjusted(self.setup, &unknowns, problem.angles(), &values);
-        let period = period(&a.setup);
-        let setup = self.timed(a.setup, period, self.start_at(x, [a.pitch, a.roll]));
+        let chosen = &x[self.residuals.controls()..];
+        let (mut solution, setup) = TrimSolution::at(self.setup, problem, chosen);
+        let (period, angles) = (period(&setup), [solution.body_pitch, solution.body_roll]);
+        let setup = self.timed(setup, period, self.start_at(x, angles));
         let (ends, past, roots) = self.beat(&setup)?;
-        let (residual, aside) = self.residuals_between(&setup, period, &ends);
-        self.best = self.best.min(largest(&residual));
-        let [outside, at_bound] = problem.beyond(&unknowns, &values);
+        (solution.residual, solution.aside) = self.residuals_between(&setup, period, &ends);
+        self.best = self.best.min(solution.error());
         Ok(WakeTrim {
-            converged: false,
-            residual,
-            aside,
-            iterations: 0,
+            solution,
             flights: self.flights,
-            unknowns,
-            outside,
-            at_bound,
-            adjustment: a.adjustment,
-            difference: a.difference,
-            mass_centre: a.mass_centre,
             velocity: problem.velocity,
-            body_pitch: a.pitch,
-            body_roll: a.roll,
             past,
             orbit: self.has_orbit.then(|| sway(&roots, 1.0 / period)),
             beats: self.beats,
@@ -329,7 +283,7 @@ impl Flights<'_> {
 
 impl Map for Flights<'_> {
     fn residual(&mut self, x: &[f64]) -> Result<Vec<f64>, AnalysisError> {
-        self.fly(x).map(|found| found.residual)
+        self.fly(x).map(|found| found.solution.residual)
     }
 
     /// By one-sided differences, over steps beside which the roughness of the map is small.

@@ -8,23 +8,21 @@
 
 use faer::linalg::solvers::Solve;
 use faer::{Mat, c64};
-use wingbeat_dynamics::BodyMotion;
 use wingbeat_flight::elastic::{ElasticState, ElasticWing, ElasticWings};
-use wingbeat_flight::{AirMemory, FlightError, MotionMode, Past, Record, Simulation, StartState};
-use wingbeat_math::{
-    DMat3, DQuat, DVec3, EulerSequence, MassProperties, rotation_vector, solve_small,
-};
+use wingbeat_flight::{AirMemory, FlightError, MotionMode, Past, Record, Simulation};
+use wingbeat_math::{DQuat, DVec3, MassProperties, rotation_vector};
 use wingbeat_structure::{FrameMotion, Mode, NODE, modes};
 
-use super::free_beat::{rotation, start, steps_per_beat};
+use super::differences::{departures, map_between};
+use super::free_beat::{level, scales, seen, steps_per_beat};
 use super::orbit::numbers;
 use super::trim::WakeTrim;
 use crate::AnalysisError;
+use crate::disturbance::Disturbance;
 use crate::eigen::{Eigenpair, eigen};
 use crate::level::{Level, Perturbation};
 use crate::modes::{ModeSet, Scales};
 use crate::moving::moving;
-use crate::progress;
 
 /// Components of a departure of the body.
 pub(super) const BODY: usize = 9;
@@ -49,7 +47,8 @@ pub struct ElasticMonodromy {
     pub wings: Vec<usize>,
     /// The departures that it maps, one column a disturbance: at first and a beat later \[1\].
     pub(super) departures: [Vec<f64>; 2],
-    pub(super) scales: Scales,
+    /// Period of a wingbeat [s].
+    pub(super) period: f64,
 }
 
 /// The map of the departures of body, wings and wakes over a beat, `count` modes of each wing.
@@ -59,47 +58,15 @@ pub struct ElasticMonodromy {
 pub fn elastic_monodromy(trim: &WakeTrim, count: usize) -> Result<ElasticMonodromy, AnalysisError> {
     let rig = Rig::new(trim, count)?;
     let n = rig.order();
-    let (mut before, mut after) = (vec![0.0; n * n], vec![0.0; n * n]);
-    for k in 0..n {
-        let fly = |s: f64| {
-            progress::task("disturbed flights", 2 * k + usize::from(s < 0.0), 2 * n);
-            rig.fly(k, s * PART)
-        };
-        let (plus, minus) = (fly(1.0)?, fly(-1.0)?);
-        for i in 0..n {
-            before[n * i + k] = (plus[0][i] - minus[0][i]) / (2.0 * PART);
-            after[n * i + k] = (plus[1][i] - minus[1][i]) / (2.0 * PART);
-        }
-    }
+    let departures = departures(n, |_| PART, |k, part| rig.fly(k, part))?;
     Ok(ElasticMonodromy {
-        matrix: map_between(&before, &after, n)?,
-        departures: [before, after],
+        matrix: map_between(&departures, n)?,
+        departures,
         order: n,
         wakes: rig.wakes.len(),
         wings: rig.wings.iter().map(|w| w.modes.len()).collect(),
-        scales: rig.scales,
+        period: rig.scales.period,
     })
-}
-
-/// The map of order `n` from the columns of `before` to those of `after`.
-///
-/// # Errors
-/// Columns that depend on each other.
-pub(super) fn map_between(
-    before: &[f64],
-    after: &[f64],
-    n: usize,
-) -> Result<Vec<f64>, AnalysisError> {
-    // after = M before: rows of M solve before^T m = after row.
-    let mut matrix = Vec::with_capacity(n * n);
-    for after in after.chunks_exact(n) {
-        let mut transposed: Vec<f64> = (0..n * n).map(|e| before[n * (e % n) + e / n]).collect();
-        let mut row = after.to_vec();
-        solve_small(&mut transposed, &mut row)
-            .map_err(|e| AnalysisError::Numbers(format!("the disturbances are dependent: {e}")))?;
-        matrix.extend(row);
-    }
-    Ok(matrix)
 }
 
 /// Floquet's modes of a flyer with elastic wings about its trimmed flight, with `count` modes of each wing.
@@ -119,7 +86,7 @@ pub fn elastic_modes(map: &ElasticMonodromy) -> Result<ModeSet, AnalysisError> {
     let one = Scales {
         velocity: 1.0,
         rate: 1.0,
-        ..map.scales
+        period: map.period,
     };
     let wings = vec![1.0; map.order - map.wakes - BODY];
     let parts = own_parts(&pairs, map.wakes);
@@ -193,17 +160,11 @@ impl<'a> Rig<'a> {
         let elastic = ElasticWings::new(&setup.animal, setup.gravity)?;
         let both = elastic.wings().iter().zip(&trim.past.wings);
         let wings = both.map(|(w, s)| WingBasis::new(w, s, count));
-        let length = setup.animal.wing_length();
-        let period = setup.time.period.unwrap_or(1.0);
         Ok(Self {
             trim,
             steps: steps_per_beat(setup)?,
-            level: Level::new(start(setup).rotation(), setup.gravity),
-            scales: Scales {
-                velocity: length / period,
-                rate: 1.0 / period,
-                period,
-            },
+            level: level(setup),
+            scales: scales(setup),
             wings: wings.collect::<Result<_, _>>()?,
             wakes: numbers(&trim.past),
         })
@@ -225,14 +186,13 @@ impl<'a> Rig<'a> {
         let mut past = self.trim.past.clone();
         setup.time.steps = SETTLING + self.steps;
         if k < BODY {
-            let mut x = [0.0; BODY];
-            x[k] = part * self.scales.array()[k];
-            let by = Perturbation::from_array(x);
-            setup.mode = MotionMode::Free(self.disturbed(&by));
+            let by = Perturbation::component(k, part * self.scales.array()[k]);
+            let by = Disturbance::new(&self.level, &by);
+            setup.mode = MotionMode::Free(by.start(self.trim.start()));
         } else if k < BODY + self.shapes() {
             self.disturb(&mut past.wings, k - BODY, part);
         } else {
-            let by = part * self.speed();
+            let by = part * self.scales.velocity;
             disturb_wakes(&mut past, k - BODY - self.shapes(), by);
         }
         let mut flight = Simulation::after(setup, &past)?;
@@ -245,26 +205,6 @@ impl<'a> Rig<'a> {
         }
         let after = looked.pop().unwrap_or_default();
         Ok([looked.pop().unwrap_or_default(), after])
-    }
-
-    /// The start with a disturbance of the body.
-    fn disturbed(&self, by: &Perturbation) -> StartState {
-        let level = &self.level;
-        let tilt = DMat3::from_quat(DQuat::from_scaled_axis(by.tilt));
-        let turn = level.to_n * tilt * level.to_n.transpose();
-        let trimmed = start(&self.trim.setup);
-        let root = BodyMotion {
-            p: trimmed.position,
-            r: turn * trimmed.rotation(),
-            v: turn * trimmed.velocity + level.to_n * tilt * by.velocity,
-            w: trimmed.angular_velocity + level.to_root * by.rate,
-        };
-        StartState {
-            angles: EulerSequence::BODY_231.angles(root.r),
-            velocity: root.v,
-            angular_velocity: root.w,
-            ..trimmed.clone()
-        }
     }
 
     /// Disturbs component `k` of the wings.
@@ -289,15 +229,9 @@ impl<'a> Rig<'a> {
         }
     }
 
-    /// Natural size of the states of wakes \[m/s\]: a wing length a wingbeat.
-    fn speed(&self) -> f64 {
-        self.scales.velocity
-    }
-
     /// What a record, its wings and wakes look like, over natural sizes.
     fn seen(&self, r: &Record, past: &Past) -> Vec<f64> {
-        let velocity = r.momentum / self.trim.setup.animal.mass();
-        let body = Perturbation::seen(&self.level, rotation(r), velocity, r.root_angular_velocity);
+        let body = seen(&self.trim.setup, &self.level, r);
         let sizes = self.scales.array();
         let mut all: Vec<f64> = (body.to_array().iter().zip(sizes))
             .map(|(x, s)| x / s)
@@ -310,7 +244,7 @@ impl<'a> Rig<'a> {
             all.extend(basis.amplitudes(at, &velocity).map(|x| x * period));
         }
         let wakes = numbers(past).into_iter().zip(&self.wakes);
-        all.extend(wakes.map(|(z, at)| (z - at) / self.speed()));
+        all.extend(wakes.map(|(z, at)| (z - at) / self.scales.velocity));
         all
     }
 }

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
 from wingbeat import _core
 from wingbeat._own import Adjustment
-from wingbeat.errors import AnalysisError, CaseError
+from wingbeat.errors import AnalysisError
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -148,6 +148,7 @@ class _Trimmed(Generic[_Core]):
 
     def __init__(self, core: _Core) -> None:
         self._core: _Core = core
+        self._solution = core.solution
 
     def __repr__(self) -> str:
         found = "converged" if self.converged else "NOT converged"
@@ -156,7 +157,7 @@ class _Trimmed(Generic[_Core]):
     @property
     def converged(self) -> bool:
         """Whether steady flight was found; :attr:`outside_bounds` says whether it is as asked."""
-        return self._core.converged
+        return self._solution.converged
 
     @property
     def residual(self) -> NDArray[Any]:
@@ -164,37 +165,46 @@ class _Trimmed(Generic[_Core]):
         horizontal and vertical drift per beat over wing length; of flight that turns, slips or has lateral unknowns three
         of each: forward, right, down. Then those of free joints.
         """
-        return self._core.residual
+        return self._solution.residual
+
+    @property
+    def iterations(self) -> int:
+        """Steps of Newton's method made, in air with a memory of a quasi-Newton method."""
+        return self._solution.iterations
 
     @property
     def adjustment(self) -> Adjustment:
         """What trim adds to the motion of all wings."""
-        return Adjustment(*self._core.adjustment)
+        return Adjustment(*self._solution.adjustment)
 
     @property
     def difference(self) -> Adjustment:
         """What right wings have more of it than left ones."""
-        return Adjustment(*self._core.difference)
+        return Adjustment(*self._solution.difference)
 
     @property
     def outside_bounds(self) -> tuple[str, ...]:
         """Unknowns outside their bounds, or by which strokes are turned inside out: the flight is steady, but not as asked."""
-        return tuple(self._core.at_bounds[0])
+        return tuple(self._solution.at_bounds[0])
 
     @property
     def at_bound(self) -> tuple[str, ...]:
         """Unknowns at a bound."""
-        return tuple(self._core.at_bounds[1])
+        return tuple(self._solution.at_bounds[1])
 
     @property
     def body_roll_rad(self) -> float:
         """Roll of the body at the start of the wingbeat, right side down [rad]."""
-        return self._core.body_roll_rad
+        return self._solution.body_roll_rad
 
     @property
     def body_pitch_rad(self) -> float:
         """Pitch of the body at the start of the wingbeat, in air with a memory at its release [rad]."""
-        return self._core.body_pitch_rad
+        return self._solution.body_pitch_rad
+
+    def flight(self) -> Flight:
+        """The trimmed flight, to be flown on; in air with a memory held, released, and the free wingbeat."""
+        return _flight(self._core.case_text)
 
     def power(self) -> Power:
         """Mean mechanical power over the free wingbeat that was trimmed."""
@@ -203,7 +213,7 @@ class _Trimmed(Generic[_Core]):
 
     def _check(self) -> None:
         """Refuses to say anything of a flight that is not as asked."""
-        if self._core.is_as_asked:
+        if self._solution.is_as_asked:
             return
         remedy = "start nearer to it (flight.pitch_deg, motion), or choose other unknowns"
         if self.converged:
@@ -218,18 +228,9 @@ class Trim(_Trimmed[_core.Trim]):
     """
 
     @property
-    def iterations(self) -> int:
-        """Newton steps made."""
-        return self._core.iterations
-
-    @property
     def period_s(self) -> float:
         """Period of the wingbeat [s]."""
         return self._core.period_s
-
-    def flight(self) -> Flight:
-        """The trimmed flight, to be flown on."""
-        return _flight(self._core.case_text)
 
     @cached_property
     def _controls(self) -> tuple[list[tuple[str, str]], NDArray[Any], NDArray[Any]]:
@@ -271,28 +272,17 @@ class WakeTrim(_Trimmed[_core.WakeTrim]):
     """
 
     @property
-    def iterations(self) -> int:
-        """Quasi-Newton steps made."""
-        return self._core.effort[0]
-
-    @property
     def flights(self) -> int:
         """Flights flown."""
-        return self._core.effort[1]
-
-    def flight(self) -> Flight:
-        """The trimmed flight: held, released, and the free wingbeat."""
-        return _flight(self._core.case_text)
+        return self._core.flights
 
     def stability(self, *, wake: str = "carried") -> WakeModel:
         """Derivative of the free wingbeat by the state of the body, and its modes: 18 more flights. Held fixed when the body is
         disturbed: the wake of the trimmed flight (``given``), or the disturbance during the hold, so that the wake goes with it
         (``carried``). Neither is the whole problem of body and wake; the two bracket it.
         """
-        if wake not in ("given", "carried"):
-            raise CaseError(f"wake = {wake!r}: there is none of this name", key="wake", remedy="given, carried")
         self._check()
-        matrix, modes = self._core.stability(wake == "given")
+        matrix, modes = self._core.stability(wake)
         return WakeModel(matrix, STATES, STATE_UNITS, _modes(modes))
 
 

@@ -35,8 +35,8 @@ if TYPE_CHECKING:
 
 __all__ = ["TASKS", "Environment", "VectorEnvironment"]
 
-TASKS = ("hover", "recover", "path", "gust")
-_OBSERVED, _CONTROLS = 17, 4
+TASKS = tuple(_core.Fleet.TASKS)
+_OBSERVED, _CONTROLS = _core.Fleet.OBSERVED, _core.Fleet.CONTROLS
 
 
 def _size(key: str, number: float, most: float) -> float:
@@ -110,14 +110,19 @@ class _Fleet(_Uncopied):
                 key="controls_per_beat",
                 remedy="a divisor of steps_per_beat",
             )
-        beats = whole("beats", beats, 1, 1_000_000)
-        limits = (_size("amplitude_limit", amplitude_limit, 0.5), _size("angle_limit_rad", angle_limit_rad, 0.5))
-        noise = [
-            _size("position_noise_m", position_noise_m, 1e3),
-            _size("velocity_noise_m_per_s", velocity_noise_m_per_s, 1e3),
-            _size("tilt_noise_rad", tilt_noise_rad, 3.0),
-            _size("rate_noise_rad_per_s", rate_noise_rad_per_s, 1e5),
-        ]
+        settings = {
+            "task": task,
+            "interval": steps // controls,
+            "beats": whole("beats", beats, 1, 1_000_000),
+            "amplitude_limit": _size("amplitude_limit", amplitude_limit, 0.5),
+            "angle_limit_rad": _size("angle_limit_rad", angle_limit_rad, 0.5),
+            "delay": whole("delay", delay, 0, 10_000),
+            "position_noise_m": _size("position_noise_m", position_noise_m, 1e3),
+            "velocity_noise_m_per_s": _size("velocity_noise_m_per_s", velocity_noise_m_per_s, 1e3),
+            "tilt_noise_rad": _size("tilt_noise_rad", tilt_noise_rad, 3.0),
+            "rate_noise_rad_per_s": _size("rate_noise_rad_per_s", rate_noise_rad_per_s, 1e5),
+            "autoreset_mode": autoreset,
+        }
         flight = Flight.preset("fruit-fly-blade") if flight is None else flight
         if not isinstance(flight, Flight):
             remedy = "Flight.preset(NAME) or Flight.from_case(FILE)"
@@ -125,8 +130,6 @@ class _Fleet(_Uncopied):
         _check_plain(flight)
         trim = flight.trim(steps=steps)
         trim._check()
-        delay = whole("delay", delay, 0, 10_000)
-        settings = (task, steps // controls, beats, limits, delay, noise, autoreset)
         self.count = whole("num_envs", count, 1, 1_000_000)
         self.period_s = trim.period_s
         seeds = np.random.default_rng().integers(2**63, size=self.count)  # until reset() gives others

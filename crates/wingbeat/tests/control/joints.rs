@@ -33,7 +33,10 @@ fn kicked() -> String {
     open.feedback = None;
     let flight = wingbeat::Flight::from(open);
     let trim = flight.trim(&flight.hover()).unwrap();
-    format!("flight.pitch_deg={}", trim.body_pitch.to_degrees() + KICK)
+    format!(
+        "flight.pitch_deg={}",
+        trim.solution.body_pitch.to_degrees() + KICK
+    )
 }
 
 /// The regulator knows what the abdomen remembers, whose motion it does not see: a kick dies out. Laid out on the body alone it grew
@@ -78,7 +81,11 @@ fn behaves_an_undamped_joint_is_held_and_the_stabiliser_refuses_joints() {
     for share in [0.5, 0.2, 0.1, 0.02, 0.0] {
         let less = format!("{damping}{:e}", share * 1.7e-11);
         found = trim_from(&open(&[&less]), &problem, found.point.clone()).unwrap();
-        assert!(found.converged, "{share}: {}", found.error());
+        assert!(
+            found.solution.converged,
+            "{share}: {}",
+            found.solution.error()
+        );
     }
     assert!(Regulator::new(&found, &Weights::default(), 1).is_ok());
     let stabiliser = Simulation::new(nodding(1, &["control.controller=stabiliser"]));

@@ -71,7 +71,7 @@ fn exact_control_of_a_case_is_the_controller_built_in_rust() {
     let regulator = Regulator::new(&trim, &weights, 1).unwrap();
     let held = Held::Known(Reference::trimmed(&trim).unwrap());
     let mut steering =
-        Steering::new(Law::Regulator(regulator), held, &plain).adjusted(&trim.adjustment);
+        Steering::new(Law::Regulator(regulator), held, &plain).adjusted(&trim.solution.adjustment);
     steering.limits = Limits {
         amplitude: 0.2,
         angle: 12.0_f64.to_radians(),

@@ -176,7 +176,7 @@ fn trimmed(setup: &FlightSetup) -> WakeTrim {
         ..WakeSettings::default()
     };
     let found = trim_with_wake(setup, &problem(), &settings).unwrap();
-    assert!(found.converged, "{:?}", found.residual);
+    assert!(found.solution.converged, "{:?}", found.solution.residual);
     found
 }
 
@@ -316,7 +316,7 @@ fn agrees_a_trim_of_a_trimmed_case_with_the_first() {
     let again = LoadedCase::from_text("written", &text, Path::new("."), &[]);
     let setup = again.unwrap().setup;
     let pitch = setup.angles_at_release().x;
-    let begun = (pitch - first.body_pitch).abs();
+    let begun = (pitch - first.solution.body_pitch).abs();
     assert!(begun < 1e-4, "{begun:e}"); // what the harmonics beyond the twelfth have: 2e-5
     let problem = TrimProblem {
         body_pitch: pitch,
@@ -327,10 +327,13 @@ fn agrees_a_trim_of_a_trimmed_case_with_the_first() {
         ..WakeSettings::default()
     };
     let second = trim_with_wake(&setup, &problem, &settings).unwrap();
-    let turned = (second.body_pitch - first.body_pitch).abs();
-    let amplitude = second.adjustment.stroke_amplitude.abs();
-    println!("{} steps, {turned:e} {amplitude:e}", second.iterations);
-    assert!(second.converged && second.iterations <= 2);
+    let turned = (second.solution.body_pitch - first.solution.body_pitch).abs();
+    let amplitude = second.solution.adjustment.stroke_amplitude.abs();
+    println!(
+        "{} steps, {turned:e} {amplitude:e}",
+        second.solution.iterations
+    );
+    assert!(second.solution.converged && second.solution.iterations <= 2);
     assert!(
         turned < 1e-6 && amplitude < 1e-6, // the tolerance of both
         "{turned:e} {amplitude:e}"
@@ -385,10 +388,10 @@ fn limit_trim_and_modes_of_stiff_wings_are_those_of_rigid_ones() {
         .iter_mut()
         .for_each(|w| w.structure = None);
     let flat = trim(&rigid, &problem()).unwrap();
-    let value = flat.value(Unknown::StrokeAmplitude).unwrap();
-    let apart = (bent.adjustment.stroke_amplitude - value).abs();
+    let value = flat.solution.value(Unknown::StrokeAmplitude).unwrap();
+    let apart = (bent.solution.adjustment.stroke_amplitude - value).abs();
     assert!(apart < 0.02, "{apart} of {value}");
-    assert!((bent.body_pitch - flat.body_pitch).abs() < 0.02);
+    assert!((bent.solution.body_pitch - flat.solution.body_pitch).abs() < 0.02);
     let [a, b] = [
         largest(&elastic_floquet(&bent, 1).unwrap()),
         largest(&floquet_of_trim(&flat).unwrap()),

@@ -97,7 +97,7 @@ fn trimmed_of(case: &LoadedCase) -> WakeTrim {
         ..WakeSettings::default()
     };
     let found = trim_with_wake(&case.setup, &problem, &settings).unwrap();
-    assert!(found.converged, "{:?}", found.residual);
+    assert!(found.solution.converged, "{:?}", found.solution.residual);
     assert!(found.is_orbit() && found.past.wings.is_empty());
     found
 }

@@ -1,79 +1,30 @@
 //! What is reported of a trim.
 
 use serde_json::{Map, Value, json};
-use wingbeat::analysis::wake::WakeTrim;
 use wingbeat::analysis::{
-    Bound, Residuals, Trim, TrimProblem, UNKNOWNS, Unknown, UnknownKind, stroke_amplitude,
+    Bound, Residuals, TrimProblem, TrimSolution, UNKNOWNS, Unknown, UnknownKind, stroke_amplitude,
     turned_inside_out,
 };
 use wingbeat::case::LoadedCase;
 use wingbeat::flight::FlightSetup;
 use wingbeat::math::DVec3;
-use wingbeat::model::motion::Adjustment;
 use wingbeat::results::fixed::signed;
 
 use crate::command::report::{Report, line};
 use crate::command::terminal::tell;
 
-/// What is reported of a trim of either kind.
-pub(crate) struct Found {
-    pub(crate) converged: bool,
-    pub(crate) residual: Vec<f64>,
-    pub(crate) iterations: usize,
-    pub(crate) unknowns: Vec<Unknown>,
-    pub(crate) outside: Vec<Unknown>,
-    pub(crate) at_bound: Vec<Unknown>,
-    pub(crate) adjustment: Adjustment,
-    pub(crate) difference: Adjustment,
-    pub(crate) mass_centre: f64,
-    pub(crate) body_pitch: f64,
-    pub(crate) body_roll: f64,
-    /// Largest stroke angle of a wing from end to end \[rad\].
-    pub(crate) stroke: f64,
-    /// Which wings pass through each other.
-    pub(crate) crossing_wings: Vec<String>,
-}
-
-/// Largest stroke angle of a wing from end to end \[rad\].
-fn stroke(setup: &FlightSetup) -> f64 {
-    let strokes = setup.animal.wings.iter().map(stroke_amplitude);
-    strokes.fold(0.0, f64::max)
-}
-
-/// What both kinds of trim have under the same names.
-macro_rules! found_from {
-    ($($trim:ty),*) => {$(
-        impl From<&$trim> for Found {
-            fn from(t: &$trim) -> Self {
-                Self {
-                    converged: t.converged,
-                    residual: t.residual.clone(),
-                    iterations: t.iterations,
-                    unknowns: t.unknowns.clone(),
-                    outside: t.outside.clone(),
-                    at_bound: t.at_bound.clone(),
-                    adjustment: t.adjustment,
-                    difference: t.difference,
-                    mass_centre: t.mass_centre,
-                    body_pitch: t.body_pitch,
-                    body_roll: t.body_roll,
-                    stroke: stroke(&t.setup),
-                    crossing_wings: t.setup.crossing_wings(),
-                }
-            }
-        }
-    )*};
-}
-
-found_from!(Trim, WakeTrim);
-
-/// The trim.
-pub(super) fn tell(report: &mut Report, case: &LoadedCase, problem: &TrimProblem, t: &Found) {
+/// The trim: what was found, and the setup with it.
+pub(super) fn tell(
+    report: &mut Report,
+    case: &LoadedCase,
+    problem: &TrimProblem,
+    (t, setup): (&TrimSolution, &FlightSetup),
+) {
     heading(report, case, problem);
     verdict(report, t);
     unknowns(report, t);
     residuals(report, problem, t);
-    warn(report, t);
+    warn(report, t, setup);
 }
 
 /// What was trimmed, to which flight.
@@ -107,7 +58,7 @@ fn heading(report: &mut Report, case: &LoadedCase, problem: &TrimProblem) {
 }
 
 /// Whether it was found.
-fn verdict(report: &mut Report, t: &Found) {
+fn verdict(report: &mut Report, t: &TrimSolution) {
     let is_within = t.outside.is_empty();
     let verdict = match (t.converged, is_within) {
         (true, true) => "trimmed",
@@ -118,7 +69,7 @@ fn verdict(report: &mut Report, t: &Found) {
         report,
         "{verdict} after {} Newton steps, largest residual {:.1e}",
         t.iterations,
-        largest(&t.residual)
+        t.error()
     );
     report.value("converged", t.converged);
     report.value("within_bounds", is_within);
@@ -126,7 +77,7 @@ fn verdict(report: &mut Report, t: &Found) {
 }
 
 /// The unknowns, a line each.
-fn unknowns(report: &mut Report, t: &Found) {
+fn unknowns(report: &mut Report, t: &TrimSolution) {
     let width = t.unknowns.iter().map(|u| u.name().len()).max();
     let width = width.unwrap_or(0).max(16) + 2;
     for &u in &t.unknowns {
@@ -145,19 +96,19 @@ fn unknowns(report: &mut Report, t: &Found) {
 }
 
 /// Strokes with which nothing flies.
-fn warn(report: &mut Report, t: &Found) {
-    let stroke = t.stroke.to_degrees();
+fn warn(report: &mut Report, t: &TrimSolution, setup: &FlightSetup) {
+    let strokes = setup.animal.wings.iter().map(stroke_amplitude);
+    let stroke = strokes.fold(0.0, f64::max).to_degrees();
+    let crossing_wings = setup.crossing_wings();
     match stroke > 180.0 {
         true => tell!(
             "warning: strokes of {stroke:.0} deg: wings pass through each other or through the body; choose other --unknowns (frequency, for instance), or a slower flight"
         ),
-        false => (t.crossing_wings.iter()).for_each(|text| tell!("warning: {text}")),
+        false => (crossing_wings.iter()).for_each(|text| tell!("warning: {text}")),
     }
     report.value("stroke_deg", stroke);
-    report.value("crossing_wings", t.crossing_wings.as_slice());
-    let strokes = [Unknown::StrokeAmplitude, Unknown::StrokeAmplitudeDifference];
-    let changes = [t.adjustment, t.difference].map(|a| a.stroke_amplitude);
-    if let Some(unknown) = turned_inside_out(&strokes, &changes) {
+    report.value("crossing_wings", crossing_wings);
+    if let Some(unknown) = turned_inside_out(&t.unknowns, &t.values) {
         tell!(
             "warning: {} of {}: below -100 % a stroke is turned inside out, back and forth exchanged, which is another motion; choose other --unknowns (frequency or feathering_offset, for instance), or a flight nearer to the motion of the case",
             unknown.name(),
@@ -167,7 +118,7 @@ fn warn(report: &mut Report, t: &Found) {
 }
 
 /// The residuals, a line each; those of free joints in one.
-fn residuals(report: &mut Report, problem: &TrimProblem, t: &Found) {
+fn residuals(report: &mut Report, problem: &TrimProblem, t: &TrimSolution) {
     let mut values = Map::new();
     let mut one = |name: &str, key: &str, r: f64| {
         line!(report, "  residual of {name:<28}{r:>10.1e}");
@@ -209,7 +160,7 @@ fn aside(problem: &TrimProblem) -> String {
 }
 
 /// What was found of the unknowns, units in the names.
-pub(super) fn values(unknowns: &[Unknown], t: &Found) -> Map<String, Value> {
+pub(super) fn values(unknowns: &[Unknown], t: &TrimSolution) -> Map<String, Value> {
     let one = |u: &Unknown| {
         let (_, unit, value) = value(*u, t);
         (format!("{}{unit}", u.name()), json!(value))
@@ -218,24 +169,10 @@ pub(super) fn values(unknowns: &[Unknown], t: &Found) -> Map<String, Value> {
 }
 
 /// An unknown in words; the unit its name ends with for programs, and the value in it.
-fn value(u: Unknown, t: &Found) -> (String, &'static str, f64) {
-    let (a, d) = (&t.adjustment, &t.difference);
+fn value(u: Unknown, t: &TrimSolution) -> (String, &'static str, f64) {
     let x = match u {
-        Unknown::StrokeAmplitude => a.stroke_amplitude,
-        Unknown::StrokeOffset => a.stroke_offset,
-        Unknown::Frequency => a.frequency,
-        Unknown::StrokePlane => a.stroke_plane,
-        Unknown::FeatheringOffset => a.feathering_offset,
-        Unknown::FeatheringLead => a.feathering_lead,
-        Unknown::DeviationOffset => a.deviation_offset,
-        Unknown::BodyPitch => t.body_pitch,
-        Unknown::MassCentre => t.mass_centre,
-        Unknown::BodyRoll => t.body_roll,
-        Unknown::StrokeAmplitudeDifference => d.stroke_amplitude,
-        Unknown::StrokeOffsetDifference => d.stroke_offset,
-        Unknown::StrokePlaneDifference => d.stroke_plane,
-        Unknown::FeatheringOffsetDifference => d.feathering_offset,
-        Unknown::DeviationOffsetDifference => d.deviation_offset,
+        Unknown::MassCentre => t.mass_centre, // [m]
+        _ => t.value(u).unwrap_or(0.0),
     };
     let [suffix, unit] = unit(u);
     let (shown, places) = match unit {

@@ -10,7 +10,7 @@ use wingbeat::analysis::control::{
     Weights, disturbed,
 };
 use wingbeat::analysis::episode::{Recovery, Tumbles};
-use wingbeat::analysis::{AnalysisError, Trim};
+use wingbeat::analysis::{AnalysisError, Perturbation, Trim};
 use wingbeat::draw::figures::stabilised::{BeatRow, stabilised};
 use wingbeat::math::DVec3;
 use wingbeat::results::fixed::fixed;
@@ -96,10 +96,13 @@ pub(crate) fn run(args: &StabiliseArgs) -> Result<(), Failure> {
 
 fn fly(args: &StabiliseArgs, report: &mut Report, figure: Option<Target>) -> Result<(), Failure> {
     let (case, trim) = trimmed(&args.trimming, report)?;
-    let tilt = DVec3::from_slice(&args.tilt).map(f64::to_radians);
+    let by = Perturbation {
+        tilt: DVec3::from_slice(&args.tilt).map(f64::to_radians),
+        ..Perturbation::default()
+    };
     let latency = args.latency.unwrap_or(DEFAULT_LATENCY);
     let controller = watched("feedback", || controller(args, &trim, latency))?;
-    let start = disturbed(&trim, tilt, DVec3::ZERO);
+    let start = disturbed(&trim, &by);
     let mut flight = SteeredBeats::new(&trim, start, controller, latency)?;
     let mut rows = vec![row(&flight)];
     let mut lost = None;

@@ -5,7 +5,7 @@ use wingbeat::analysis::{Lost, Sweep, Swept, sweep};
 use wingbeat::draw::figures::swept::{SpeedRow, swept};
 use wingbeat::math::DVec3;
 
-use super::found::{Found, values};
+use super::found::values;
 use super::trimming::{Trimming, watched};
 use crate::command::failure::{FAILED, Failure};
 use crate::command::report::{Report, line};
@@ -47,7 +47,7 @@ fn row(flight: &Swept) -> SpeedRow {
         power: [p.aerodynamic, p.perfect_storage, p.no_storage].map(|x| p.body_specific(x)),
         stroke_amplitude: flight.stroke_amplitude,
         frequency: 1.0 / flight.trim.beat.period(),
-        body_pitch: flight.trim.body_pitch,
+        body_pitch: flight.trim.solution.body_pitch,
     }
 }
 
@@ -175,6 +175,6 @@ fn value(flight: &Swept) -> Value {
         "frequency_hz": r.frequency,
         "body_pitch_deg": r.body_pitch.to_degrees(),
         "crossing_wings_part_of_beat": crossing(flight).map_or(0.0, |(_, part)| part),
-        "unknowns": values(&flight.trim.unknowns, &Found::from(&flight.trim)),
+        "unknowns": values(&flight.trim.solution.unknowns, &flight.trim.solution),
     })
 }

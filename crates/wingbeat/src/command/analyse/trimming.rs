@@ -9,7 +9,7 @@ use wingbeat::analysis::{
 use wingbeat::case::{IoError, LoadedCase};
 use wingbeat::math::DVec3;
 
-use super::found::{self, Found};
+use super::found;
 use crate::command::failure::{FAILED, Failure};
 use crate::command::options;
 use crate::command::report::{Report, ReportArgs, line};
@@ -214,8 +214,8 @@ pub(crate) fn trimmed(args: &Trimming, report: &mut Report) -> Result<(LoadedCas
     args.without_hold()?;
     let problem = args.problem(&case)?;
     let found = watched("trimming", || trim_within(&case.setup, &problem))?;
-    found::tell(report, &case, &problem, &Found::from(&found));
-    match found.is_as_asked() {
+    found::tell(report, &case, &problem, (&found.solution, &found.setup));
+    match found.solution.is_as_asked() {
         true => Ok((case, found)),
         false => Err(not_trimmed()),
     }
@@ -263,7 +263,7 @@ pub(crate) fn trimmed_with_wake(
     let found = watched("trimming", || {
         trim_with_wake(&case.setup, &problem, &settings)
     })?;
-    found::tell(report, &case, &problem, &Found::from(&found));
+    found::tell(report, &case, &problem, (&found.solution, &found.setup));
     line!(
         report,
         "  {} flights of {} wingbeats in all",
@@ -272,7 +272,7 @@ pub(crate) fn trimmed_with_wake(
     );
     report.value("flights", found.flights);
     report.value("wingbeats", found.beats);
-    match found.is_as_asked() {
+    match found.solution.is_as_asked() {
         true => Ok((case, found)),
         false => Err(not_trimmed()),
     }

@@ -1,0 +1,104 @@
+//! What solves the equations of steady flight, in whatever air: the controls found, and what is left of the equations.
+
+use wingbeat_flight::FlightSetup;
+use wingbeat_model::motion::Adjustment;
+
+use crate::AnalysisError;
+use crate::root::largest;
+use crate::steady::{TrimProblem, check_symmetric};
+use crate::unknown::{Unknown, adjusted};
+
+/// The solution of a [`TrimProblem`], or the best point found.
+#[derive(Clone, Debug)]
+pub struct TrimSolution {
+    /// Whether the residual is within the tolerance.
+    pub converged: bool,
+    /// The residuals, [`Residuals::names`](crate::Residuals::names); then the change of every coordinate and speed of a free joint
+    /// over its natural size.
+    pub residual: Vec<f64>,
+    /// Largest lateral residual where only those of the plane of symmetry are asked, else 0 \[1\].
+    pub aside: f64,
+    /// Steps of Newton's method made, in air with memory of a quasi-Newton method.
+    pub iterations: usize,
+    /// What was chosen, and what was given.
+    pub unknowns: Vec<Unknown>,
+    /// Values of the unknowns \[1 or rad\].
+    pub values: Vec<f64>,
+    /// Unknowns whose values are outside the bounds of the problem: steady flight, but not as asked.
+    pub outside: Vec<Unknown>,
+    /// Unknowns at a bound.
+    pub at_bound: Vec<Unknown>,
+    /// The adjustment of all wings.
+    pub adjustment: Adjustment,
+    /// What right wings have more of it than left ones.
+    pub difference: Adjustment,
+    /// Shift of the mass centre along b1 [m].
+    pub mass_centre: f64,
+    /// Pitch of the body at the start of the beat, in air with memory at its release \[rad\].
+    pub body_pitch: f64,
+    /// Roll of the body then, right side down \[rad\].
+    pub body_roll: f64,
+}
+
+impl TrimSolution {
+    /// The point at which the unknowns of `problem` have the values `chosen`, its residuals not known yet; and the setup with them.
+    pub(crate) fn at(
+        setup: &FlightSetup,
+        problem: &TrimProblem,
+        chosen: &[f64],
+    ) -> (Self, FlightSetup) {
+        let (unknowns, values) = problem.with_given(chosen);
+        let a = adjusted(setup, &unknowns, problem.angles(), &values);
+        let [outside, at_bound] = problem.beyond(&unknowns, &values);
+        let point = Self {
+            converged: false,
+            residual: vec![],
+            aside: 0.0,
+            iterations: 0,
+            unknowns,
+            values,
+            outside,
+            at_bound,
+            adjustment: a.adjustment,
+            difference: a.difference,
+            mass_centre: a.mass_centre,
+            body_pitch: a.pitch,
+            body_roll: a.roll,
+        };
+        (point, a.setup)
+    }
+
+    /// Found after `iterations` steps: whether the residuals are within `tolerance`.
+    ///
+    /// # Errors
+    /// Lateral residuals beyond `rounding` of what was trimmed in the plane of symmetry.
+    pub(crate) fn conclude(
+        &mut self,
+        iterations: usize,
+        tolerance: f64,
+        rounding: f64,
+    ) -> Result<(), AnalysisError> {
+        self.iterations = iterations;
+        self.converged = self.error() <= tolerance;
+        match self.converged {
+            true => check_symmetric(self.aside, rounding),
+            false => Ok(()), // elsewhere rounding grows with the numbers
+        }
+    }
+
+    /// The value of an unknown, in its own unit; none if it was neither chosen nor given.
+    pub fn value(&self, unknown: Unknown) -> Option<f64> {
+        let mut pairs = self.unknowns.iter().zip(&self.values);
+        pairs.find(|(u, _)| **u == unknown).map(|(_, x)| *x)
+    }
+
+    /// Largest residual.
+    pub fn error(&self) -> f64 {
+        largest(&self.residual)
+    }
+
+    /// Whether it is steady flight, and within the bounds that were asked.
+    pub fn is_as_asked(&self) -> bool {
+        self.converged && self.outside.is_empty()
+    }
+}
