@@ -173,7 +173,7 @@ const BEATS: [Entry<BeatMeans>; 6] = [
     ),
 ];
 
-const SUMMARY: [Entry<Summary>; 17] = [
+const SUMMARY: [Entry<Summary>; 18] = [
     ("steps", "1", "steps made", |s| s.steps as f64),
     ("time_s", "s", "time flown", |s| s.time_s),
     ("mass_kg", "kg", "mass of the animal", |s| s.mass_kg),
@@ -188,6 +188,12 @@ const SUMMARY: [Entry<Summary>; 17] = [
         "1",
         "largest energy residual over what is in play",
         |s| s.energy_residual_relative,
+    ),
+    (
+        "joint_residual_relative",
+        "1",
+        "what passive joints lose or gain beside their springs and dampers, over what is in play",
+        |s| s.joint_residual_relative,
     ),
     (
         "momentum_residual_relative",

@@ -110,7 +110,7 @@ def test_refuses_controllers_where_no_wing_steers(preset, keys, why):
 
 def test_behaves_points_under_a_changed_program_are_flown_again(tmp_path):
     def flown(answer: str) -> int:
-        flight = steered(Flight.preset("fruit-fly-blade"), tmp_path, answer, **{"sensors.seed": 1})
+        flight = steered(Flight.preset("fruit-fly-blade"), tmp_path, answer)
         points = {"time.beats": [1]}
         return campaign.map(points, campaign.Serial(), base=flight, keep=["power_watt"], out=tmp_path / "kept").flown
 

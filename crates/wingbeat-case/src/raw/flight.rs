@@ -185,8 +185,8 @@ pub struct DynamicsCase {
     #[default(StabilisationCase::Baumgarte)]
     #[schemars(extend("with" = "formulation = quaternion"))]
     pub stabilisation: StabilisationCase,
-    /// Integrator. Default: `hamming` with air, `bdf` where joints leave something free in a vortex lattice, `order_eight`
-    /// without air. A wake needs `hamming` or `bdf`.
+    /// Integrator. Default: `hamming` with air, `bdf` where joints leave something free in a vortex lattice or beside elastic
+    /// wings, `order_eight` without air and elastic wings. A wake needs `hamming` or `bdf`.
     ///
     /// Change it to see what hangs on the method; to `bdf` where forces alternate from step to step.
     #[serde(skip_serializing_if = "Open::is_open")]
@@ -240,7 +240,7 @@ pub enum IntegratorCase {
     /// Hamming's predictor-corrector, order 4.
     Hamming,
     /// Backward differences, order 4: with a wake, where the air that moves with the wings weighs
-    /// much beside the animal.
+    /// much beside the animal. Order 2 where elastic wings hang on free joints, which need it.
     Bdf,
     /// Adams-Bashforth-Moulton, order 4.
     Adams,

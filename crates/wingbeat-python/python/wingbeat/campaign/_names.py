@@ -23,6 +23,7 @@ SUMMARY = (
     "final_lift_newton",
     "final_thrust_newton",
     "energy_residual_relative",
+    "joint_residual_relative",
     "momentum_residual_relative",
     "violation_position_m",
     "violation_orientation",
