@@ -139,7 +139,7 @@ const POTENTIAL_FLOOR: f64 = 1e-6;
 /// What passive joints lose or gain beside their springs and dampers; 0 where there are none.
 fn joint_residual(s: &EachStep) -> f64 {
     match s.passive_work.range() > 0.0 {
-        true => ratio(s.driven.residual.most, energy_scale(s)),
+        true => ratio(s.driven.most, energy_scale(s)),
         false => 0.0,
     }
 }

@@ -6,8 +6,7 @@
 
 use serde::{Deserialize, Serialize};
 use wingbeat_flight::Record;
-
-use super::each_step::Extent;
+use wingbeat_math::larger;
 
 /// Work of the drives by the balance of energy less that by their power, from step to step \[J\].
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
@@ -17,7 +16,8 @@ pub(crate) struct DrivenWork {
     /// Difference at the first step, and integral of the power since \[J\].
     first: f64,
     sum: f64,
-    pub(super) residual: Extent,
+    /// Largest magnitude of the difference \[J\].
+    pub(super) most: f64,
 }
 
 impl DrivenWork {
@@ -37,7 +37,7 @@ impl DrivenWork {
         }
         self.last.insert(0, (r.step, r.time, power));
         self.last.truncate(3);
-        self.residual.take(work - self.first - self.sum);
+        self.most = larger(self.most, (work - self.first - self.sum).abs());
     }
 
     /// Mean power of a step: of the cubic through the last four [Moulton 1926], the trapezium where there are fewer.
