@@ -77,7 +77,8 @@ pub struct BeamCase {
     #[schemars(length(min = 2), extend("or" = "flap_newton_m2"))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub flap_table_newton_m2: Option<Vec<[f64; 2]>>,
-    /// EI against bending in the plane of the wing at root and tip. Left out: a hundred times that out of the plane.
+    /// EI against bending in the plane of the wing at root and tip. Left out: a hundred times that out of the plane, and where
+    /// `axial_newton` is left out, too, the shear of a solid plate as stiff in its plane.
     ///
     /// Change it to what was measured.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -99,7 +100,8 @@ pub struct BeamCase {
     #[schemars(length(min = 2), extend("or" = "torsion_newton_m2"))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub torsion_table_newton_m2: Option<Vec<[f64; 2]>>,
-    /// EA against stretch at root and tip. Left out: that of a plate as stiff in its plane.
+    /// EA against stretch at root and tip. Left out: that of a plate as stiff in its plane, of one a hundred times as stiff there as
+    /// out of it at least.
     ///
     /// Change it where the beam is coupled to stretch, or built of parts.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -110,6 +112,18 @@ pub struct BeamCase {
     #[schemars(length(min = 2), extend("or" = "axial_newton"))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub axial_table_newton: Option<Vec<[f64; 2]>>,
+    /// GA against transverse shear, times the shear correction, at root and tip; along the chord and across it (Timoshenko).
+    /// Left out where `lag_newton_m2` or `axial_newton` is given: so large that shear changes nothing (Euler and Bernoulli).
+    ///
+    /// Change it for sandwiches and short beams, where shear counts.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub shear_newton: Option<[f64; 2]>,
+    /// The same as rows [r/R, GA].
+    ///
+    /// Change it to what was measured.
+    #[schemars(length(min = 2), extend("or" = "shear_newton"))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub shear_table_newton: Option<Vec<[f64; 2]>>,
     /// Stiffness that couples stretch, twist and bending, as rows [r/R, stretch-twist, stretch-flap, stretch-lag, twist-flap,
     /// twist-lag, flap-lag]: the first three in N m, the others in N m2. Axes of the sections of a right wing: outward, to the
     /// leading edge, to the upper side; curvatures are right-handed turns about them. A left wing is the mirror image.
