@@ -326,6 +326,15 @@ fn refuses_impossible_beams_by_name() {
             b.mass = None;
             b.masses.push(point(0.5, 0.2));
         }),
+        // All of the wing's 0.1 kg, and all but rounding: nothing, or a mass of rounding, is left.
+        ("beam.mass", |b| {
+            b.mass = None;
+            b.masses.push(point(0.5, 0.1));
+        }),
+        ("beam.mass", |b| {
+            b.mass = None;
+            b.masses.push(point(0.5, 0.1 * (1.0 - 1e-15)));
+        }),
         ("stations", |b| b.stations = Some(vec![0.0, 0.6, 0.5, 1.0])),
         ("stations", |b| b.stations = Some(vec![0.0, 0.6])),
         ("coupling", |b| {
