@@ -2,6 +2,7 @@
 
 use wingbeat::analysis::{About, estimate, wing_modes};
 
+use wingbeat::flight::Simulation;
 use wingbeat::results::{Outcome, Summary};
 
 use super::{case, fly, strings};
@@ -88,6 +89,34 @@ fn behaves_structures_in_other_units_are_doubted() {
     ] {
         let said = doubts(&set).join("; ");
         assert!(said.contains(says), "{set:?}: {said}");
+    }
+}
+
+#[test]
+fn behaves_errors_of_elastic_wings_advise_what_is_possible() {
+    let error = |set: &[String]| {
+        let mut flight = match Simulation::new(case(set).setup) {
+            Ok(flight) => flight,
+            Err(e) => return e.to_string(),
+        };
+        let failed = std::iter::repeat_with(|| flight.step().map(drop));
+        let failed = failed.take(20).find_map(Result::err);
+        failed.expect("a step fails").to_string()
+    };
+    // EI of 1e30: rounding of places times the stiffness is more than all loads.
+    let stiff = error(&beam(1e30, 1e-4, &[]));
+    assert!(stiff.contains("rounding of its shape"), "{stiff}");
+    let strict = [
+        "corrector.tolerance=1e-30",
+        "corrector.max_passes=2",
+        "dynamics.integrator=hamming",
+        "air.model=none",
+    ];
+    for set in [beam(1e-4, 1e-4, &strict), strings(&strict)] {
+        let said = error(&set);
+        let is_elastic = set.len() > strict.len();
+        // `order_eight` refuses elastic wings.
+        assert_eq!(said.contains("order_eight"), !is_elastic, "{said}");
     }
 }
 
