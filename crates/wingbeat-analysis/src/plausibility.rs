@@ -16,6 +16,7 @@
 mod air;
 mod doubts;
 mod elastic;
+mod joints;
 mod lift;
 mod limit;
 mod numbers;

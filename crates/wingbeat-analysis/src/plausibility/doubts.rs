@@ -6,10 +6,10 @@ use wingbeat_math::DVec3;
 use wingbeat_model::{DeformingMesh, Wing};
 
 use super::air::stream;
-use super::elastic;
 use super::limit::{Doubts, Limit, rounded};
 use super::numbers::{Estimate, WingEstimate};
 use super::sides::against_each_other;
+use super::{elastic, joints};
 
 const FREQUENCY: Limit = Limit {
     low: 0.05,
@@ -162,6 +162,7 @@ pub(super) fn doubts(setup: &FlightSetup, e: &Estimate) -> Vec<String> {
         MotionMode::Free(_) => free_flight(setup, e, &mut list),
         MotionMode::Tethered(_) => list.see(&TETHERED_LIFT, LIFT_NAME, e.lift_over_weight, ""),
     }
+    joints::doubts(setup, e.frequency, &mut list);
     let Doubts(mut list) = list;
     list.extend(air_from_behind(setup, e));
     list.extend(drag_of_small_insects(setup, e));
