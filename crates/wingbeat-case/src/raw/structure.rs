@@ -204,7 +204,7 @@ pub struct BeamMassCase {
 #[serde(rename_all = "snake_case")]
 pub enum ShellRule {
     /// EI of the wing along the span `10^0.08 R^2.97`, along the chord `10^-1.73 c^2.08` [Combes & Daniel 2003, J. Exp. Biol.
-    /// 206:2979], spread evenly.
+    /// 206:2979], spread evenly; R and c before `animal.scale`, which enlarges the wing that the rule made.
     CombesDaniel,
 }
 

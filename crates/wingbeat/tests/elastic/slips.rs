@@ -1,6 +1,6 @@
 //! Structures that are not what was meant: doubted before a flight, not trusted after it.
 
-use wingbeat::analysis::{About, estimate, wing_modes};
+use wingbeat::analysis::{About, estimate, power, wing_modes};
 
 use wingbeat::flight::Simulation;
 use wingbeat::results::{Outcome, Summary};
@@ -90,6 +90,26 @@ fn behaves_structures_in_other_units_are_doubted() {
         let said = doubts(&set).join("; ");
         assert!(said.contains(says), "{set:?}: {said}");
     }
+}
+
+#[test]
+fn balances_power_of_damping_with_that_of_the_muscles_in_vacuum() {
+    let set = [
+        "flight.mode=tethered",
+        "air.model=none",
+        "time.beats=6",
+        "wing.right.structure.damping_s=1e-3",
+    ];
+    let powers = |set: &[String]| power(&case(set).setup).unwrap();
+    let found = powers(&beam(1e-3, 1e-3, &set));
+    // Nothing else takes power; second order in the step, 80 a beat.
+    assert!(
+        (found.damping / found.perfect_storage - 1.0).abs() < 1e-2,
+        "{found:?}"
+    );
+    assert!(found.damping > 0.0);
+    let rigid = powers(&strings(&set[..3]));
+    assert!(rigid.damping.abs() <= 0.0, "{rigid:?}");
 }
 
 #[test]
