@@ -11,7 +11,7 @@ use super::limit::{Doubts, Limit, rounded};
 /// Hinges of insects and robots vibrate at one to ten times their wingbeat.
 const RATIO: Limit = Limit {
     low: 0.0,
-    high: 1000.0,
+    high: 100.0,
     hints: ["", "it will not turn; is the stiffness in N m/rad?"],
 };
 
