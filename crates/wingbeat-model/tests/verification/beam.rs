@@ -89,8 +89,10 @@ fn exact_first_frequency_with_a_mass_at_the_tip() {
     }
 }
 
+type Change = fn(&mut WingBeam);
+
 /// A rectangle of a chord \[m\] and span 0.5 m on a round spar of EI 0.5 N m2, 0.1 kg/m, in elements of 25 to the span.
-fn on_a_round_spar(chord: f64, change: fn(&mut WingBeam)) -> ElasticBody {
+fn on_a_round_spar(chord: f64, change: Change) -> ElasticBody {
     let at = |k: usize| DVec3::new(chord * (0.5 - (k / 5) as f64), (k % 5) as f64 / 8.0, 0.0);
     let mesh = GridMesh {
         rows: 1,
@@ -114,7 +116,7 @@ fn on_a_round_spar(chord: f64, change: fn(&mut WingBeam)) -> ElasticBody {
 fn exact_first_frequency_of_a_slender_beam_whatever_its_chord() {
     let expected = 1.875_104_07_f64.powi(2) / 0.25 * (0.5_f64 / 0.1).sqrt();
     // What is changed, and the frequency of its first mode over that of bending out of the plane.
-    let changes: [(fn(&mut WingBeam), f64); 4] = [
+    let changes: [(Change, f64); 4] = [
         (|_| (), 1.0),
         (|b| b.axial = Some(SpanLaw::constant(100.0)), 1.0),
         (|b| b.lag = Some(SpanLaw::constant(5e-3)), 0.1),
