@@ -40,6 +40,9 @@ const DAMPING: Limit = Limit {
     ],
 };
 
+/// Panels of a sheet up to which its first frequency takes less than half a second, the elastic body built again.
+const PANELS: usize = 300;
+
 /// First frequency in vacuum \[Hz\] of a wing that is elastic, can be built and is not large; an error where rounding hides it.
 type First = Result<Option<f64>, StructureError>;
 
@@ -57,6 +60,10 @@ fn of_wing(wing: &Wing) -> First {
     let Some(structure) = &wing.structure else {
         return Ok(None);
     };
+    let panels = wing.mesh.rows * wing.mesh.cols;
+    if matches!(structure.members, Members::Shell(_)) && panels > PANELS {
+        return Ok(None);
+    }
     let Ok(body) = structure.body(&wing.blank()) else {
         return Ok(None); // the flight says why
     };
