@@ -15,7 +15,10 @@
 
 mod air;
 mod doubts;
+mod elastic;
+mod joints;
 mod lift;
+mod limit;
 mod numbers;
 mod sides;
 
@@ -57,6 +60,15 @@ pub fn estimate(setup: &FlightSetup) -> Estimate {
     let wings = animal.wings.iter().zip(reports);
     let wing = |(w, r)| estimate.wing(w, r, carried(setup, w));
     estimate.wings = wings.map(wing).collect();
+    let first = elastic::first_frequencies(&animal.wings);
+    for (w, first) in estimate.wings.iter_mut().zip(first) {
+        w.hides_frequency = first.is_err();
+        w.first_frequency = first.unwrap_or_default();
+        w.frequency_ratio = w
+            .first_frequency
+            .zip(estimate.frequency)
+            .map(|(f, beat)| f / beat);
+    }
     estimate.doubts = doubts(setup, &estimate);
     estimate
 }

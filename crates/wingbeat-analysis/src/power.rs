@@ -27,6 +27,8 @@ pub struct Power {
     pub no_storage: f64,
     /// Largest total power of a step.
     pub peak: f64,
+    /// Mean of what the damping of elastic wings takes.
+    pub damping: f64,
     /// Mass of the animal [kg].
     pub mass: f64,
 }
@@ -139,6 +141,7 @@ fn over_beat(limbs: &Limbs, flight: &mut Simulation, steps: usize) -> Result<Pow
         elastic,
     } = limbs;
     let mut sums = Power::default();
+    let (begun, before) = (flight.record().time, flight.record().dissipated);
     for _ in 0..steps {
         let record = flight.step()?;
         let joints = joint_powers(record);
@@ -167,7 +170,9 @@ fn over_beat(limbs: &Limbs, flight: &mut Simulation, steps: usize) -> Result<Pow
         sums.peak = sums.peak.max(total);
     }
     let n = steps as f64;
+    let now = flight.record();
     Ok(Power {
+        damping: (now.dissipated - before) / (now.time - begun),
         aerodynamic: sums.aerodynamic / n,
         inertial_positive: sums.inertial_positive / n,
         perfect_storage: (sums.perfect_storage / n).max(0.0),

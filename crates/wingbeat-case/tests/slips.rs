@@ -404,3 +404,42 @@ mode = \"tethered\"
         "{doubts:?}"
     );
 }
+
+#[test]
+fn refuses_hinges_that_differ_where_half_of_the_air_is_computed() {
+    let left = |stiffness: &str| {
+        format!(
+            "joint.hinge-left={{ child = \"left\", kind = \"revolute\", axis = [0, 1, 0], element = [{{ stiffness_newton_m_per_rad = {stiffness}, damping_newton_m_s_per_rad = 2e-10 }}, {{ stop = {{ lower_deg = -75, upper_deg = 75, stiffness_newton_m_per_rad = 2e-5, damping_s_per_rad = 1e-4 }} }}] }}"
+        )
+    };
+    let said = refusal("robobee", &[&left("2.4")]);
+    for part in [
+        "joint.hinge-left.element[0].stiffness_newton_m_per_rad",
+        "joint.hinge-right",
+        "air.mirror",
+    ] {
+        assert!(said.contains(part), "{said}");
+    }
+    let wholly = ["air.mirror=false".to_owned(), left("2.4")];
+    LoadedCase::find("robobee", &wholly).unwrap();
+    LoadedCase::find("robobee", &[left("2.4e-6")]).unwrap();
+}
+
+#[test]
+fn behaves_hinges_in_other_units_and_beyond_their_stops_are_doubted() {
+    let doubts = |set: &str| {
+        let case = LoadedCase::find("robobee", &[set.to_owned()]).unwrap();
+        wingbeat_analysis::estimate(&case.setup).doubts.join("; ")
+    };
+    let spring = doubts("joint.hinge-right.element[0].stiffness_newton_m_per_rad=2.4");
+    assert!(
+        spring.contains("joint `hinge-right`: frequency of what hangs on its spring")
+            && spring.contains("is above 100:"),
+        "{spring}"
+    );
+    let start = doubts("joint.hinge-right.start_deg=[90]");
+    let says = "joint `hinge-right` starts at 90.0 deg, beyond its stop from -75.0 to 75.0 deg";
+    assert!(start.contains(says), "{start}");
+    let sound = doubts("joint.hinge-right.start_deg=[70]");
+    assert!(!sound.contains("joint `"), "{sound}");
+}

@@ -21,7 +21,7 @@ pub enum FlightError {
     WingStructure(#[from] wingbeat_model::structure::WingStructureError),
     /// Shape and loads of elastic wings did not come to agree.
     #[error(
-        "t = {time:.6e} s: shape and loads of {} did not agree after {passes} passes: unbalanced forces {unbalanced:.2e} of those at the nodes, allowed {tolerance:.0e}; try a smaller step (time.steps_per_beat), more damping (structure.damping_s), or look whether the wing is too soft for its loads or touches itself",
+        "t = {time:.6e} s: shape and loads of {} did not agree after {passes} passes: unbalanced forces {unbalanced:.2e} of those at the nodes, allowed {tolerance:.0e}; try a smaller step (time.steps_per_beat), more damping (structure.damping_s), or look whether the wing is too soft for its loads, touches itself, or is so stiff in one way (EI, GJ, EA or moduli in other units) that rounding of its shape outweighs its loads: `wingbeat check` doubts that",
         wings.join(" and ")
     )]
     ElasticNotConverged {
@@ -128,7 +128,11 @@ pub enum FlightError {
     #[error(
         "step {step} (t = {time:.6e} s): {} after {passes} corrector passes: scaled residual {residual:.2e}, allowed {tolerance:.2e}; try a smaller step, more passes, or relaxation below {relaxation}{}{}",
         if *in_air { "bodies and air did not agree" } else { "the motion of the bodies did not converge" },
-        if *in_air { " (light bodies with large wings need it), and look whether wings cut through each other or the body" } else { "; integrator = \"order_eight\" chooses its steps itself" },
+        match (in_air, elastic) {
+            (true, _) => " (light bodies with large wings need it), and look whether wings cut through each other or the body",
+            (false, true) => "; of elastic wings more damping (structure.damping_s), and look at the units of what they are made of (`wingbeat check` helps)",
+            (false, false) => "; integrator = \"order_eight\" chooses its steps itself",
+        },
         if *residual < NEARLY * tolerance { "; it is nearly there, where the air's answer may be no smoother: a larger corrector.tolerance takes it" } else { "" }
     )]
     NotConverged {
@@ -146,6 +150,8 @@ pub enum FlightError {
         relaxation: f64,
         /// Whether there is air.
         in_air: bool,
+        /// Whether wings are elastic.
+        elastic: bool,
     },
     /// The setup contradicts itself.
     #[error("{}: {problem}", match &value[..] { "" => (*key).to_owned(), value => format!("{key} = {value}") })]

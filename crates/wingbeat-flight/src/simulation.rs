@@ -466,6 +466,7 @@ fn failure(e: StepError<FlightError>, step: usize, time: f64, setup: &FlightSetu
             tolerance: settings.tolerance,
             relaxation: settings.relaxation,
             in_air: !matches!(setup.air, AirModel::None),
+            elastic: setup.animal.is_elastic(),
         },
     }
 }

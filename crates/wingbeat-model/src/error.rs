@@ -238,6 +238,22 @@ pub enum MemberError {
         /// Which region, counted from 0.
         number: usize,
     },
+    /// A region of which later ones leave nothing.
+    #[error(
+        "region[{number}]: regions after it cover all of its panels, and the last counts; put it after them, or remove it"
+    )]
+    CoveredRegion {
+        /// Which region, counted from 0.
+        number: usize,
+    },
+    /// A clamped vein that begins where the sheet is held.
+    #[error(
+        "vein[{number}].clamped: true has no effect: the sheet is held where this vein begins; remove it, or free the edge there (shell.clamped_root = false)"
+    )]
+    HeldVein {
+        /// Which vein, counted from 0.
+        number: usize,
+    },
     /// Veins that leave no mass for the sheet.
     #[error(
         "the veins weigh {veins:e} kg and the whole wing {wing:e} kg: nothing is left for the sheet; give shell.density_kg_m3 in place of the mass of the wing, or veins of less radius_m or density_kg_m3"

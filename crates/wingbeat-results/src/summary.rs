@@ -2,6 +2,7 @@
 
 mod alternation;
 pub mod beats;
+mod bent;
 mod comparison;
 mod driven;
 mod each_step;
@@ -120,6 +121,7 @@ impl Summary {
             beats: s.beats,
         };
         let mut warnings = trust::warnings(setup, &summary);
+        bent::warnings(setup, &s.each.bent, &mut warnings);
         trust::flown_crossings(
             setup,
             &s.each.crossings.map_or(vec![], |c| c.found()),

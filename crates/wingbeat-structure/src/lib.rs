@@ -45,7 +45,7 @@ pub use error::StructureError;
 pub use follower::{Follower, Share};
 pub use frame::FrameMotion;
 pub use loads::{Loading, NodeLoad};
-pub use modes::{Mode, modes};
+pub use modes::{Mode, first_frequency, modes};
 pub use shell::{Lamina, Shell, ShellError, ShellMesh};
 pub use statics::{StaticSettings, equilibrium};
 pub use structure::{Damping, Structure};

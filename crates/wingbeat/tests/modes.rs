@@ -228,6 +228,25 @@ fn agrees_modes_about_a_steady_state_with_those_flutter_begins_from() {
 }
 
 #[test]
+fn behaves_modes_of_wings_on_hinges_say_that_these_are_held() {
+    let scratch = Scratch::new("hinged-modes");
+    let dir = &scratch.0;
+    let said = |text: &str| {
+        std::fs::write(dir.join("c.toml"), text).unwrap();
+        let told = wingbeat(dir, &["modes", "c.toml", "--count", "1"]);
+        assert!(told.status.success(), "{told:?}");
+        String::from_utf8_lossy(&told.stdout).into_owned()
+    };
+    let hinged = format!(
+        "{}[joint.hinge]\nchild = \"right\"\nkind = \"revolute\"\naxis = [0, 1, 0]\n",
+        FILM.replace("shed = [\"trailing\"]", "model = \"none\"")
+            .replace("body = false\nmirror = false\n", "")
+    );
+    assert!(said(&hinged).contains("its hinge is held"));
+    assert!(!said(FILM).contains("its hinge is held"));
+}
+
+#[test]
 fn exact_report_and_shapes_of_the_command_hold_the_modes() {
     let scratch = Scratch::new("modes");
     let dir = &scratch.0;

@@ -6,41 +6,10 @@ use wingbeat_math::DVec3;
 use wingbeat_model::{DeformingMesh, Wing};
 
 use super::air::stream;
+use super::limit::{Doubts, Limit, rounded};
 use super::numbers::{Estimate, WingEstimate};
 use super::sides::against_each_other;
-
-/// A number outside these limits is doubted.
-struct Limit {
-    low: f64,
-    high: f64,
-    /// What may have gone wrong where it is lower, and where it is higher.
-    hints: [&'static str; 2],
-}
-
-impl Limit {
-    fn doubt(&self, what: &str, x: f64, unit: &str) -> Option<String> {
-        let [low, high] = self.hints;
-        let (side, hint) = match x {
-            x if x < self.low => ("below", low),
-            x if x > self.high => ("above", high),
-            _ => return None,
-        };
-        let limit = if side == "below" { self.low } else { self.high };
-        Some(format!(
-            "{what} {}{unit} is {side} {limit}{unit}: {hint}",
-            rounded(x)
-        ))
-    }
-}
-
-/// Three digits, as people write them.
-fn rounded(x: f64) -> String {
-    if x != 0.0 && !(1e-2..1e5).contains(&x.abs()) {
-        return format!("{x:.2e}");
-    }
-    let digits = (2 - x.abs().max(1e-9).log10().floor() as i32).clamp(0, 4);
-    format!("{x:.*}", digits as usize)
-}
+use super::{elastic, joints};
 
 const FREQUENCY: Limit = Limit {
     low: 0.05,
@@ -186,18 +155,6 @@ const TURN: Limit = Limit {
     hints: ["", "twist is in degrees: deformation.twist"],
 };
 
-/// Doubts about the numbers of a flight.
-#[derive(Default)]
-struct Doubts(Vec<String>);
-
-impl Doubts {
-    /// Looks at the number `x` of the quantity `what`, if there is one.
-    fn see(&mut self, limit: &Limit, what: &str, x: impl Into<Option<f64>>, unit: &str) {
-        let doubt = x.into().and_then(|x| limit.doubt(what, x, unit));
-        self.0.extend(doubt);
-    }
-}
-
 pub(super) fn doubts(setup: &FlightSetup, e: &Estimate) -> Vec<String> {
     let mut list = Doubts::default();
     list.see(&FREQUENCY, "wingbeat frequency", e.frequency, " Hz");
@@ -205,6 +162,7 @@ pub(super) fn doubts(setup: &FlightSetup, e: &Estimate) -> Vec<String> {
         MotionMode::Free(_) => free_flight(setup, e, &mut list),
         MotionMode::Tethered(_) => list.see(&TETHERED_LIFT, LIFT_NAME, e.lift_over_weight, ""),
     }
+    joints::doubts(setup, e.frequency, &mut list);
     let Doubts(mut list) = list;
     list.extend(air_from_behind(setup, e));
     list.extend(drag_of_small_insects(setup, e));
@@ -306,6 +264,7 @@ fn wing_doubts(setup: &FlightSetup, wing: &Wing, w: &WingEstimate) -> Vec<String
         list.see(&TIP_STEP, "way of the tip in a step", step, " chords");
         lattice_sizes(air, wing, chord, &mut list);
     }
+    elastic::doubts(wing, w, &mut list);
     let Doubts(mut list) = list;
     let outward = wing.side.sign() * wing.hinge_b.y;
     // One wing alone may span both sides.

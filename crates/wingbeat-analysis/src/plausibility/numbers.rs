@@ -18,6 +18,12 @@ pub struct WingEstimate {
     pub reynolds: Option<f64>,
     /// Reduced frequency of the mean chord; none where nothing flaps or moves \[1\].
     pub reduced_frequency: Option<f64>,
+    /// First frequency in vacuum, the hinge held \[Hz\]; none of rigid wings and of structures too large to say it at once.
+    pub first_frequency: Option<f64>,
+    /// Whether stiffnesses differ by more than rounding, which hides it.
+    pub hides_frequency: bool,
+    /// It over the wingbeat frequency \[1\].
+    pub frequency_ratio: Option<f64>,
 }
 
 /// What is expected of a flight.
@@ -61,6 +67,9 @@ impl Estimate {
             reynolds: (self.viscosity).map(|nu| speed * report.mean_chord / nu),
             reduced_frequency: flaps.then(|| std::f64::consts::PI * f * report.mean_chord / speed),
             report,
+            first_frequency: None,
+            hides_frequency: false,
+            frequency_ratio: None,
         }
     }
 }

@@ -10,7 +10,7 @@ use wingbeat_model::Animal;
 
 use super::fault::Built;
 use super::flight::bends;
-use super::mirrored::mirrored;
+use super::mirrored::{check_halves, mirrored};
 use super::names::body_names;
 use super::numbers::vector;
 use super::{element, segment, wing};
@@ -20,6 +20,7 @@ use crate::raw::{Case, JointCase, JointKind, TravelCase, TurnCase};
 /// All joints, those mirrored to left wings among them.
 pub(super) fn build_all(case: &Case, animal: &Animal) -> Built<Vec<Joint>> {
     check_scale(case)?;
+    check_halves(case)?;
     let mut joints = vec![];
     for (name, joint) in &case.joint {
         joints.push(build(case, animal, name, joint)?);

@@ -2,8 +2,10 @@
 
 use wingbeat_model::Animal;
 
+use super::fault::Built;
 use super::names::body_names;
-use crate::raw::{Case, ElementCase, JointCase, JointKind, SeriesCase, TravelCase};
+use crate::error::Fault;
+use crate::raw::{AirModel, Case, ElementCase, JointCase, JointKind, SeriesCase, TravelCase};
 use crate::sides::mirror_name;
 
 /// The joint of a right wing for a left wing that has none, and the other way round, unless that wing is not to be mirrored: points and displacements are
@@ -44,6 +46,53 @@ pub(super) fn mirrored(
     }
     let name = mirror_name(name).unwrap_or_else(|| format!("{name}-{counterpart}"));
     Some((name, image))
+}
+
+/// Refuses joints of a right and a left wing whose springs, dampers or stops differ where one half of the air is computed.
+pub(super) fn check_halves(case: &Case) -> Built<()> {
+    if !case.air.mirror || case.air.model != AirModel::VortexLattice {
+        return Ok(());
+    }
+    for (name, joint) in &case.joint {
+        let counterpart = mirror_name(&joint.child);
+        let of_other = |(_, j): &(&String, &JointCase)| Some(&j.child) == counterpart.as_ref();
+        let Some((other, image)) = case.joint.iter().find(of_other) else {
+            continue;
+        };
+        let pairs = joint.element.iter().zip(&image.element).enumerate();
+        for (k, (a, b)) in pairs.filter(|(_, (a, b))| a.direction == b.direction) {
+            let differs = numbers(a).into_iter().zip(numbers(b)).find(|(x, y)| x != y);
+            if let Some(((key, x), (_, y))) = differs {
+                return Err(Fault::new(
+                    format!("joint.{name}.element[{k}].{key}"),
+                    format!("{}, and that of joint.{other} is {}", said(x), said(y)),
+                    "the same on either side where one half of the air is computed (air.mirror = true)",
+                    "give one joint of the two, which brings its mirror image along, or air.mirror = false",
+                ));
+            }
+        }
+    }
+    Ok(())
+}
+
+fn said(x: Option<f64>) -> String {
+    x.map_or("left out".to_owned(), |x| x.to_string())
+}
+
+/// What has no sign of an element, by keys.
+fn numbers(e: &ElementCase) -> [(&'static str, Option<f64>); 6] {
+    let stop = e.stop.as_ref();
+    [
+        ("stiffness_newton_m_per_rad", e.stiffness_newton_m_per_rad),
+        ("stiffness_newton_per_m", e.stiffness_newton_per_m),
+        ("damping_newton_m_s_per_rad", e.damping_newton_m_s_per_rad),
+        ("damping_newton_s_per_m", e.damping_newton_s_per_m),
+        (
+            "stop.stiffness_newton_m_per_rad",
+            stop.map(|s| s.stiffness_newton_m_per_rad),
+        ),
+        ("stop.damping_s_per_rad", stop.map(|s| s.damping_s_per_rad)),
+    ]
 }
 
 fn point([x, y, z]: [f64; 3]) -> [f64; 3] {

@@ -78,9 +78,11 @@ fn of_lattice(error: &AirError) -> (String, &'static str) {
             format!("air.gust[{gust}].table"),
             "put the rows in the order of their times",
         ),
-        AirError::MirrorPairs { .. }
-        | AirError::Asymmetric { .. }
-        | AirError::AsymmetricAir { .. } => (
+        AirError::Asymmetric { .. } => (
+            "air.mirror".to_owned(),
+            "set it to false: both sides are computed; wings on joints that begin alike come apart by rounding where springs are stiffer than steps resolve (joint.NAME.element)",
+        ),
+        AirError::MirrorPairs { .. } | AirError::AsymmetricAir { .. } => (
             "air.mirror".to_owned(),
             "set it to false: both sides are computed",
         ),

@@ -14,9 +14,6 @@ use crate::raw::{
     BeamCase, BeamMassCase, RegionCase, ShellCase, ShellRule, StructureCase, VeinCase,
 };
 
-/// In-plane over out-of-plane stiffness of a beam where nothing is said.
-const LAG: f64 = 100.0;
-
 /// Elements of a beam where nothing is said.
 const ELEMENTS: usize = 10;
 
@@ -94,14 +91,13 @@ fn beam(path: &str, case: &BeamCase) -> Built<WingBeam> {
         "newton_m2",
         (case.flap_newton_m2, case.flap_table_newton_m2.as_ref()),
     )?;
-    let lag = (case.lag_newton_m2, case.lag_table_newton_m2.as_ref());
     let mass = (case.mass_kg_per_m, case.mass_table_kg_per_m.as_ref());
     Ok(WingBeam {
         axis_fraction: case.axis_fraction,
         elements: case.elements.unwrap_or(ELEMENTS),
         stations: case.stations.clone(),
-        lag: given(lag).unwrap_or_else(|| flap.scaled(LAG)),
         flap,
+        lag: given((case.lag_newton_m2, case.lag_table_newton_m2.as_ref())),
         torsion: law(
             path,
             "torsion",
@@ -112,6 +108,7 @@ fn beam(path: &str, case: &BeamCase) -> Built<WingBeam> {
             ),
         )?,
         axial: given((case.axial_newton, case.axial_table_newton.as_ref())),
+        shear: given((case.shear_newton, case.shear_table_newton.as_ref())),
         coupling: coupling(&case.coupling_table_newton_m_m2),
         mass: given(mass),
         masses: case.mass.iter().map(lumped).collect(),

@@ -77,7 +77,8 @@ pub struct BeamCase {
     #[schemars(length(min = 2), extend("or" = "flap_newton_m2"))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub flap_table_newton_m2: Option<Vec<[f64; 2]>>,
-    /// EI against bending in the plane of the wing at root and tip. Left out: a hundred times that out of the plane.
+    /// EI against bending in the plane of the wing at root and tip. Left out: a hundred times that out of the plane, and where
+    /// `axial_newton` is left out, too, the shear of a solid plate as stiff in its plane.
     ///
     /// Change it to what was measured.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -99,7 +100,8 @@ pub struct BeamCase {
     #[schemars(length(min = 2), extend("or" = "torsion_newton_m2"))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub torsion_table_newton_m2: Option<Vec<[f64; 2]>>,
-    /// EA against stretch at root and tip. Left out: that of a plate as stiff in its plane.
+    /// EA against stretch at root and tip. Left out: that of a plate as stiff in its plane, of one a hundred times as stiff there as
+    /// out of it at least.
     ///
     /// Change it where the beam is coupled to stretch, or built of parts.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -110,6 +112,18 @@ pub struct BeamCase {
     #[schemars(length(min = 2), extend("or" = "axial_newton"))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub axial_table_newton: Option<Vec<[f64; 2]>>,
+    /// GA against transverse shear, times the shear correction, at root and tip; along the chord and across it (Timoshenko).
+    /// Left out where `lag_newton_m2` or `axial_newton` is given: so large that shear changes nothing (Euler and Bernoulli).
+    ///
+    /// Change it for sandwiches and short beams, where shear counts.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub shear_newton: Option<[f64; 2]>,
+    /// The same as rows [r/R, GA].
+    ///
+    /// Change it to what was measured.
+    #[schemars(length(min = 2), extend("or" = "shear_newton"))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub shear_table_newton: Option<Vec<[f64; 2]>>,
     /// Stiffness that couples stretch, twist and bending, as rows [r/R, stretch-twist, stretch-flap, stretch-lag, twist-flap,
     /// twist-lag, flap-lag]: the first three in N m, the others in N m2. Axes of the sections of a right wing: outward, to the
     /// leading edge, to the upper side; curvatures are right-handed turns about them. A left wing is the mirror image.
@@ -151,7 +165,7 @@ pub struct BeamCase {
     #[schemars(length(min = 2), extend("or" = "inertia_kg_m"))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub inertia_table_kg_m: Option<Vec<[f64; 2]>>,
-    /// Lumped masses, each rigid with the nearest node of the beam. They are part of `mass_kg` of the wing, and beside
+    /// Lumped masses, each rigid with the nearest node of the beam. They are part of `mass_kg` of the wing and weigh less than it in all, or they are beside
     /// `mass_kg_per_m`.
     ///
     /// Change it for stores, ballast, and models whose mass is given at nodes.
@@ -190,7 +204,7 @@ pub struct BeamMassCase {
 #[serde(rename_all = "snake_case")]
 pub enum ShellRule {
     /// EI of the wing along the span `10^0.08 R^2.97`, along the chord `10^-1.73 c^2.08` [Combes & Daniel 2003, J. Exp. Biol.
-    /// 206:2979], spread evenly.
+    /// 206:2979], spread evenly; R and c before `animal.scale`, which enlarges the wing that the rule made.
     CombesDaniel,
 }
 

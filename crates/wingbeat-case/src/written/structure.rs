@@ -126,6 +126,7 @@ fn beam_case(beam: &WingBeam) -> BeamCase {
         lag,
         torsion,
         axial,
+        shear,
         coupling,
         mass,
         mass_fraction,
@@ -134,9 +135,10 @@ fn beam_case(beam: &WingBeam) -> BeamCase {
     } = beam;
     let plain = |law: &SpanLaw| span(law, |x| x);
     let (flap_newton_m2, flap_table_newton_m2) = plain(flap);
-    let (lag_newton_m2, lag_table_newton_m2) = plain(lag);
+    let (lag_newton_m2, lag_table_newton_m2) = lag.as_ref().map(plain).unwrap_or_default();
     let (torsion_newton_m2, torsion_table_newton_m2) = plain(torsion);
     let (axial_newton, axial_table_newton) = axial.as_ref().map(plain).unwrap_or_default();
+    let (shear_newton, shear_table_newton) = shear.as_ref().map(plain).unwrap_or_default();
     let (mass_kg_per_m, mass_table_kg_per_m) = mass.as_ref().map(plain).unwrap_or_default();
     let (inertia_kg_m, inertia_table_kg_m) = inertia.as_ref().map(plain).unwrap_or_default();
     BeamCase {
@@ -151,6 +153,8 @@ fn beam_case(beam: &WingBeam) -> BeamCase {
         torsion_table_newton_m2,
         axial_newton,
         axial_table_newton,
+        shear_newton,
+        shear_table_newton,
         coupling_table_newton_m_m2: coupling.0.iter().map(row).collect(),
         mass_kg_per_m,
         mass_table_kg_per_m,

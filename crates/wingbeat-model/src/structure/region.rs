@@ -52,6 +52,23 @@ impl Region {
         (place.iter().zip(ranges)).all(|(x, [from, to])| (from..=to).contains(x))
     }
 
+    /// Whether nothing of `other`, which comes before, is left where both are.
+    pub(super) fn hides(&self, other: &Self) -> bool {
+        let given = |g: &Self| {
+            [
+                g.young.is_some(),
+                g.poisson.is_some(),
+                g.shear.is_some(),
+                g.thickness.is_some(),
+                g.density.is_some(),
+                g.fibre_angle.is_some(),
+                g.prestress.is_some(),
+            ]
+        };
+        let both = given(self).into_iter().zip(given(other));
+        both.fold(true, |all, (own, others)| all && (own || !others))
+    }
+
     /// What panel `k` in it is made of.
     pub(super) fn applied(&self, grid: &GridMesh, k: usize, elsewhere: Lamina) -> Lamina {
         let young = self.young.unwrap_or(elsewhere.young);

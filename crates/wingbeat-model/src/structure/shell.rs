@@ -103,6 +103,13 @@ impl WingShell {
         for (number, vein) in self.veins.iter().enumerate() {
             let vein = vein.beams(number, grid, &mesh)?;
             veins += vein.mass;
+            let held = |n: usize| {
+                let nodes = mesh.node_of.iter().enumerate();
+                (nodes.filter(|(_, m)| **m == n)).any(|(p, _)| self.is_held(grid, p))
+            };
+            if vein.clamped.is_some_and(held) {
+                return Err(MemberError::HeldVein { number });
+            }
             builder = vein
                 .beams
                 .into_iter()
@@ -159,6 +166,11 @@ impl WingShell {
         for (number, region) in self.regions.iter().enumerate() {
             if !(0..count).any(|k| region.holds(place(k))) {
                 return Err(MemberError::EmptyRegion { number });
+            }
+            let later = &self.regions[number + 1..];
+            let counts = |k: usize| !later.iter().any(|g| g.hides(region) && g.holds(place(k)));
+            if !(0..count).any(|k| region.holds(place(k)) && counts(k)) {
+                return Err(MemberError::CoveredRegion { number });
             }
         }
         let lamina = |k: usize| {

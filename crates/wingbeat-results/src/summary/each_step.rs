@@ -7,6 +7,7 @@ use wingbeat_math::{DVec3, EulerSequence};
 use wingbeat_model::FlownCrossings;
 
 use super::alternation::Alternation;
+use super::bent::Bent;
 use super::driven::DrivenWork;
 use super::held::Departures;
 
@@ -64,6 +65,8 @@ pub(crate) struct EachStep {
     /// Sum over all steps.
     pub(super) passes_sum: usize,
     pub(super) alternation: Alternation,
+    /// Elastic wings.
+    pub(super) bent: Vec<Bent>,
     /// Under feedback.
     pub(super) departures: Option<Departures>,
     /// Of wings whose motion is not known beforehand.
@@ -130,6 +133,7 @@ impl EachStep {
     fn motion(&mut self, r: &Record, setup: &FlightSetup) {
         let wings = setup.animal.wings.len();
         self.alternation.take(r, wings);
+        Bent::take_all(&mut self.bent, r, setup);
         if let Some(departures) = &mut self.departures {
             departures.take(r, setup);
         }

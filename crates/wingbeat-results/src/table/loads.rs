@@ -128,63 +128,63 @@ pub(super) const ELASTIC: &[Quantity] = &[
     scalar(
         "deflection_quarter_{s}",
         Unit::Metre,
-        "displacement along axis 3 from rest of the middle of the chord at a quarter of the length of {s}",
+        "displacement along axis 3 from rest of the middle of the chord at a quarter of the length of {s} from the root of its surface",
         |r, s, _| Real(&mut r.elastic[s].sections[0].deflection),
     )
     .new_here(),
     scalar(
         "twist_quarter_{s}",
         Unit::Radian,
-        "twist at a quarter of the length of {s} from rest, positive like feathering",
+        "twist at a quarter of the length of {s} from the root of its surface from rest, positive like feathering",
         |r, s, _| Real(&mut r.elastic[s].sections[0].twist),
     )
     .new_here(),
     scalar(
         "camber_quarter_{s}",
         Unit::One,
-        "camber at a quarter of the length of {s}: largest height over the chord, less that at rest, positive towards -axis 3 like prescribed camber",
+        "camber at a quarter of the length of {s} from the root of its surface: largest height over the chord, less that at rest, positive towards -axis 3 like prescribed camber",
         |r, s, _| Real(&mut r.elastic[s].sections[0].camber),
     )
     .new_here(),
     scalar(
         "deflection_half_{s}",
         Unit::Metre,
-        "displacement along axis 3 from rest of the middle of the chord at half of the length of {s}",
+        "displacement along axis 3 from rest of the middle of the chord at half of the length of {s} from the root of its surface",
         |r, s, _| Real(&mut r.elastic[s].sections[1].deflection),
     )
     .new_here(),
     scalar(
         "twist_half_{s}",
         Unit::Radian,
-        "twist at half of the length of {s} from rest, positive like feathering",
+        "twist at half of the length of {s} from the root of its surface from rest, positive like feathering",
         |r, s, _| Real(&mut r.elastic[s].sections[1].twist),
     )
     .new_here(),
     scalar(
         "camber_half_{s}",
         Unit::One,
-        "camber at half of the length of {s}: largest height over the chord, less that at rest, positive towards -axis 3 like prescribed camber",
+        "camber at half of the length of {s} from the root of its surface: largest height over the chord, less that at rest, positive towards -axis 3 like prescribed camber",
         |r, s, _| Real(&mut r.elastic[s].sections[1].camber),
     )
     .new_here(),
     scalar(
         "deflection_three_quarters_{s}",
         Unit::Metre,
-        "displacement along axis 3 from rest of the middle of the chord at three quarters of the length of {s}",
+        "displacement along axis 3 from rest of the middle of the chord at three quarters of the length of {s} from the root of its surface",
         |r, s, _| Real(&mut r.elastic[s].sections[2].deflection),
     )
     .new_here(),
     scalar(
         "twist_three_quarters_{s}",
         Unit::Radian,
-        "twist at three quarters of the length of {s} from rest, positive like feathering",
+        "twist at three quarters of the length of {s} from the root of its surface from rest, positive like feathering",
         |r, s, _| Real(&mut r.elastic[s].sections[2].twist),
     )
     .new_here(),
     scalar(
         "camber_three_quarters_{s}",
         Unit::One,
-        "camber at three quarters of the length of {s}: largest height over the chord, less that at rest, positive towards -axis 3 like prescribed camber",
+        "camber at three quarters of the length of {s} from the root of its surface: largest height over the chord, less that at rest, positive towards -axis 3 like prescribed camber",
         |r, s, _| Real(&mut r.elastic[s].sections[2].camber),
     )
     .new_here(),

@@ -6,6 +6,7 @@ use std::time::{Duration, Instant};
 use serde_json::{Value, json};
 use wingbeat::analysis::{Estimate, WingEstimate};
 use wingbeat::flight::{AirModel, FlightError, FlightSetup, Simulation};
+use wingbeat::results::fixed::fixed;
 
 use crate::command::pace::Pace;
 use crate::command::report::{Report, entry};
@@ -42,6 +43,19 @@ pub(crate) fn tell(report: &mut Report, e: &Estimate) {
     for w in &e.wings {
         entry!(report, "motion", "`{}`: {}", w.report.name, motion(w));
     }
+    for (w, f) in (e.wings.iter()).filter_map(|w| Some((w, w.first_frequency?))) {
+        let beats = w
+            .frequency_ratio
+            .map(|r| format!(", {} times that of the wingbeat", three(r)));
+        entry!(
+            report,
+            "bending",
+            "`{}`: first frequency in vacuum, hinge held, {} Hz{}",
+            w.report.name,
+            three(f),
+            beats.unwrap_or_default()
+        );
+    }
     report.value("wings", e.wings.iter().map(wing).collect::<Vec<Value>>());
     let speed = e.flight_speed;
     if let Some(f) = e.frequency {
@@ -61,6 +75,14 @@ pub(crate) fn tell(report: &mut Report, e: &Estimate) {
     );
     report.value("inertia_roll_pitch_yaw_kg_m2", json!([x, y, z]));
     lift(report, e);
+}
+
+/// Three digits.
+fn three(x: f64) -> String {
+    match (1e-2..1e5).contains(&x) {
+        true => fixed(x, (2 - x.log10().floor() as i32).max(0) as usize),
+        false => format!("{x:.2e}"),
+    }
 }
 
 /// How a wing moves, as far as it does.
@@ -113,6 +135,8 @@ fn wing(w: &WingEstimate) -> Value {
         "tip_speed_m_s": w.tip_speed,
         "reynolds_number": w.reynolds,
         "reduced_frequency": w.reduced_frequency,
+        "first_frequency_hz": w.first_frequency,
+        "first_frequency_over_wingbeat": w.frequency_ratio,
     })
 }
 

@@ -308,6 +308,16 @@ fn refuses_veins_and_regions_that_say_nothing() {
             format!("{region}span_range = [0.5, 0.51]\nthickness_m = 1e-4"),
             "no panel",
         ),
+        (
+            &[],
+            format!("{vein}radius_m = [1e-4, 1e-4]\nyoung_pa = 1e9\nclamped = true"),
+            "vein[0].clamped: true has no effect",
+        ),
+        (
+            &[],
+            format!("{region}thickness_m = 1e-4\n{region}thickness_m = 2e-4"),
+            "region[0]: regions after it cover",
+        ),
         (&[], format!("{region}density_kg_m3 = 1e3"), "spread evenly"),
         (
             &[
@@ -342,6 +352,9 @@ fn refuses_veins_and_regions_that_say_nothing() {
         let said = load(set, &lists).unwrap_err();
         assert!(said.contains(says), "{lists}: {said}");
     }
+    // A later region that changes something else leaves the first what it is.
+    let both = format!("{region}thickness_m = 1e-4\n{region}poisson = 0.2");
+    load(&[], &both).unwrap();
     // A spar alone holds a wing.
     load(
         &[no_root],

@@ -52,7 +52,9 @@ pub(crate) fn run(args: &ModesArgs) -> Result<(), Failure> {
         let case = LoadedCase::find(&args.case, &args.set)?;
         let found = watched("modes", || wing_modes(&case.setup, about, args.count))?;
         let wings = &case.setup.animal.wings;
-        tell(report, &case.name, args.steady, wings, &found);
+        let joints = case.setup.joints.iter();
+        let hinged: Vec<usize> = joints.map(|j| j.child).collect();
+        tell(report, (&case.name, args.steady), wings, &hinged, &found);
         let value = |w: &WingModes| values(&wings[w.wing], w);
         report.value("case", case.name.as_str());
         report.value("about", if args.steady { "steady" } else { "rest" });
@@ -64,7 +66,14 @@ pub(crate) fn run(args: &ModesArgs) -> Result<(), Failure> {
     })
 }
 
-fn tell(report: &mut Report, name: &str, steady: bool, wings: &[Wing], found: &[WingModes]) {
+/// `hinged`: bodies that hang on joints.
+fn tell(
+    report: &mut Report,
+    (name, steady): (&str, bool),
+    wings: &[Wing],
+    hinged: &[usize],
+    found: &[WingModes],
+) {
     let about = match steady {
         true => "the deformed steady state",
         false => "the wing at rest",
@@ -78,6 +87,12 @@ fn tell(report: &mut Report, name: &str, steady: bool, wings: &[Wing], found: &[
             continue;
         }
         line!(report, "\nwing {}, {:.4e} kg", wing.name, w.mass);
+        if hinged.contains(&(w.wing + 1)) {
+            line!(
+                report,
+                "  its hinge is held: what turns about it freely vibrates otherwise"
+            );
+        }
         let deflection = w.deflection.iter().map(|d| d.length());
         if steady {
             let most = deflection.fold(0.0, f64::max);

@@ -48,6 +48,7 @@ fn tell(report: &mut Report, p: &Power, muscle: f64) {
         "W/kg total",
         "W/kg muscle"
     );
+    let damping = Some(("damping of elastic wings", "damping", p.damping));
     let rows = [
         (
             "against the air, relative to the body",
@@ -67,6 +68,7 @@ fn tell(report: &mut Report, p: &Power, muscle: f64) {
         ("muscles, no elastic storage", "no_storage", p.no_storage),
         ("peak of all wings", "peak", p.peak),
     ];
+    let rows = rows.into_iter().chain(damping.filter(|_| p.damping > 0.0));
     let mut values = Map::new();
     for (name, key, x) in rows {
         let (body, muscle) = (p.body_specific(x), p.muscle_specific(x, muscle));

@@ -1,0 +1,171 @@
+//! What of the structure of a wing is implausible: units, and masses out of place.
+
+use std::f64::consts::PI;
+
+use wingbeat_model::deformation::SpanLaw;
+use wingbeat_model::{Members, Wing, WingBeam, WingShell, WingStructure};
+use wingbeat_structure::{StructureError, first_frequency};
+
+use super::limit::{Doubts, Limit, rounded};
+use super::numbers::WingEstimate;
+
+/// Wings of insects vibrate at two to ten times their wingbeat [Combes & Daniel 2003; Ennos 1988], spars of robots up to a few hundred.
+const RATIO: Limit = Limit {
+    low: 1.0,
+    high: 1000.0,
+    hints: [
+        "so soft a wing does not follow its root; are moduli in Pa, EI and GJ in N m2, thickness and radii in m?",
+        "it will hardly bend; are moduli in Pa, EI and GJ in N m2, thickness and radii in m? A rigid wing has no structure",
+    ],
+};
+
+const THICKNESS: Limit = Limit {
+    low: 0.0,
+    high: 0.25,
+    hints: ["", "no sheet; is it in m?"],
+};
+
+const OFFSET: Limit = Limit {
+    low: 0.0,
+    high: 2.0,
+    hints: ["", "it lies far outside the wing; is offset_m in m?"],
+};
+
+const DAMPING: Limit = Limit {
+    low: 0.0,
+    high: 1.0,
+    hints: [
+        "",
+        "the wing creeps back and does not vibrate; damping_s is twice the damping ratio over the angular frequency",
+    ],
+};
+
+/// Panels of a sheet up to which its first frequency takes less than half a second, the elastic body built again.
+const PANELS: usize = 300;
+
+/// First frequency in vacuum \[Hz\] of a wing that is elastic, can be built and is not large; an error where rounding hides it.
+type First = Result<Option<f64>, StructureError>;
+
+/// Those of all wings; mirror images share theirs.
+pub(super) fn first_frequencies(wings: &[Wing]) -> Vec<First> {
+    let mut found: Vec<First> = vec![];
+    for (k, wing) in wings.iter().enumerate() {
+        let like = (0..k).find(|&j| are_alike(&wings[j], wing));
+        found.push(like.map_or_else(|| of_wing(wing), |j| found[j].clone()));
+    }
+    found
+}
+
+fn of_wing(wing: &Wing) -> First {
+    let Some(structure) = &wing.structure else {
+        return Ok(None);
+    };
+    let panels = wing.mesh.rows * wing.mesh.cols;
+    if matches!(structure.members, Members::Shell(_)) && panels > PANELS {
+        return Ok(None);
+    }
+    let Ok(body) = structure.body(&wing.blank()) else {
+        return Ok(None); // the flight says why
+    };
+    let turns = matches!(structure.members, Members::Beam(_));
+    let first = first_frequency(&body.structure, turns);
+    first.map(|w| w.map(|w| w / (2.0 * PI)))
+}
+
+/// Whether the two are the same or mirror images.
+fn are_alike(a: &Wing, b: &Wing) -> bool {
+    let [m, n] = [a, b].map(|w| &w.mesh);
+    let shape = |w: &Wing| [w.mesh.rows, w.mesh.cols];
+    let alike = m.nodes.iter().zip(&n.nodes).all(|(p, q)| {
+        p.x.total_cmp(&q.x).is_eq()
+            && p.y.abs().total_cmp(&q.y.abs()).is_eq()
+            && p.z.total_cmp(&q.z).is_eq()
+    });
+    let weight = a.mass.mass.total_cmp(&b.mass.mass).is_eq();
+    a.structure == b.structure && shape(a) == shape(b) && weight && alike
+}
+
+/// Doubts about what `wing` is made of.
+pub(super) fn doubts(wing: &Wing, w: &WingEstimate, list: &mut Doubts) {
+    let Some(structure) = &wing.structure else {
+        return;
+    };
+    let ratio = "first frequency in vacuum over the wingbeat frequency";
+    let before = list.0.len();
+    list.see(&RATIO, ratio, w.frequency_ratio, "");
+    if let (Members::Beam(beam), true) = (&structure.members, list.0.len() == before) {
+        each_way(wing, beam, w, list);
+    }
+    if w.hides_frequency {
+        list.0.push("its stiffnesses differ by more than numbers of 16 digits hold: steps will find no solution; are EI and GJ in N m2, EA and GA in N, moduli in Pa?".to_owned());
+    }
+    damping(structure, w, list);
+    let chord = w.report.mean_chord;
+    match &structure.members {
+        Members::Beam(beam) => masses(beam, chord, list),
+        Members::Shell(shell) => sizes(shell, chord, list),
+    }
+}
+
+/// Bending and twist alone, of an even beam as stiff as this one is at half of its length: where one is soft the first frequency hides the other.
+fn each_way(wing: &Wing, beam: &WingBeam, w: &WingEstimate, list: &mut Doubts) {
+    let Some(beat) = w.first_frequency.zip(w.frequency_ratio).map(|(f, r)| f / r) else {
+        return;
+    };
+    let [length, chord, mass] = [w.report.length, w.report.mean_chord, wing.mass.mass];
+    let middle = |law: &SpanLaw| law.at(0.5, 0.0);
+    let bending = 3.516 * (middle(&beam.flap) / (mass * length.powi(3))).sqrt();
+    let inertia = mass * chord * chord / 12.0;
+    let twist = 0.5 * PI * (middle(&beam.torsion) / (inertia * length)).sqrt();
+    for (what, omega) in [("flap", bending), ("torsion", twist)] {
+        let what = format!(
+            "frequency that structure.beam.{what}_newton_m2 alone gives over the wingbeat frequency"
+        );
+        let high = omega / (2.0 * PI * beat);
+        list.see(&Limit { low: 0.0, ..RATIO }, &what, high, "");
+    }
+}
+
+/// Damping ratio of the first mode.
+fn damping(structure: &WingStructure, w: &WingEstimate, list: &mut Doubts) {
+    let Some(omega) = w.first_frequency.map(|f| 2.0 * PI * f).filter(|w| *w > 0.0) else {
+        return;
+    };
+    let d = structure.damping;
+    let damped = 0.5 * (d.strain_rate * omega + d.mass / omega);
+    list.see(&DAMPING, "damping ratio of the first mode", damped, "");
+}
+
+fn masses(beam: &WingBeam, chord: f64, list: &mut Doubts) {
+    for (k, mass) in beam.masses.iter().enumerate() {
+        let what = format!("offset of the lumped mass structure.beam.mass[{k}]");
+        list.see(&OFFSET, &what, mass.offset.length() / chord, " mean chords");
+    }
+}
+
+fn sizes(shell: &WingShell, chord: f64, list: &mut Doubts) {
+    let largest = match &shell.thickness {
+        SpanLaw::Linear { root, tip } => root.max(*tip),
+        SpanLaw::Table(rows) => rows.iter().map(|row| row.1).fold(0.0, f64::max),
+    };
+    let unit = " mean chords";
+    list.see(
+        &THICKNESS,
+        "structure.shell.thickness",
+        largest / chord,
+        unit,
+    );
+    for (k, region) in shell.regions.iter().enumerate() {
+        let what = format!("structure.region[{k}].thickness_m");
+        list.see(&THICKNESS, &what, region.thickness.map(|h| h / chord), unit);
+    }
+    for (k, vein) in shell.veins.iter().enumerate() {
+        let wide = 2.0 * vein.radius[0].max(vein.radius[1]) / chord;
+        if wide > THICKNESS.high {
+            list.0.push(format!(
+                "structure.vein[{k}].radius_m: {} mean chords from side to side, no vein; is it in m?",
+                rounded(wide)
+            ));
+        }
+    }
+}

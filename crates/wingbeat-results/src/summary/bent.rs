@@ -1,0 +1,83 @@
+//! How far loads moved the tips of elastic wings.
+
+use serde::{Deserialize, Serialize};
+use wingbeat_flight::{FlightSetup, Record};
+use wingbeat_math::DVec3;
+use wingbeat_model::{Members, Wing};
+
+use super::verdict::Warnings;
+
+/// Largest over a flight, of one elastic wing.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub(super) struct Bent {
+    /// Displacement of the tip over the larger of length and chord \[1\].
+    displaced: f64,
+    /// Distance of the tip from the root over that at rest, of wings that are held at the root alone; 0 of others \[1\].
+    stretched: f64,
+}
+
+/// Displacement over length that no wing comes back from by itself: its tip is turned by 60 degrees or more \[1\].
+const FAR: f64 = 1.0;
+
+/// Distance of tip from root over that at rest that no material bears \[1\].
+const TORN: f64 = 1.1;
+
+impl Bent {
+    /// With the middle of the tip of `wing` displaced by `tip` \[m\], wing components.
+    fn take(&mut self, wing: &Wing, tip: DVec3) {
+        let mesh = &wing.mesh;
+        let chord = |col: usize| [0, mesh.rows].map(|row| mesh.nodes[mesh.node(row, col)]);
+        let [root, end] = [0, mesh.cols].map(chord);
+        let wide = [root, end].map(|[a, b]| a.distance(b));
+        let [root, end] = [root, end].map(|[a, b]| a.midpoint(b));
+        let length = end.distance(root);
+        let size = length.max(wide[0]).max(wide[1]);
+        self.displaced = self.displaced.max(tip.length() / size);
+        if is_held_at_the_root_alone(wing) {
+            self.stretched = self.stretched.max((end + tip).distance(root) / length);
+        }
+    }
+
+    /// Takes the next step of a flight, of all elastic wings.
+    pub(super) fn take_all(all: &mut Vec<Self>, r: &Record, setup: &FlightSetup) {
+        all.resize(r.elastic.len(), Self::default());
+        for ((bent, wing), e) in all.iter_mut().zip(elastic(setup)).zip(&r.elastic) {
+            bent.take(wing, e.tip);
+        }
+    }
+}
+
+fn elastic(setup: &FlightSetup) -> impl Iterator<Item = &Wing> {
+    (setup.animal.wings.iter()).filter(|w| w.structure.is_some())
+}
+
+fn is_held_at_the_root_alone(wing: &Wing) -> bool {
+    match wing.structure.as_ref().map(|s| &s.members) {
+        Some(Members::Shell(s)) => {
+            let elsewhere = s.clamps_leading_edge || s.clamps_perimeter || s.rigid_fraction > 0.0;
+            s.clamps_root && !elsewhere && s.veins.iter().all(|v| !v.is_clamped)
+        }
+        _ => true,
+    }
+}
+
+/// Wings that were torn or bent double.
+pub(super) fn warnings(setup: &FlightSetup, all: &[Bent], list: &mut Warnings) {
+    let remedy = "Look at the units of its structure, at its mass and at the loads (`wingbeat check` helps).";
+    for (wing, bent) in elastic(setup).zip(all) {
+        let name = &wing.name;
+        let Bent {
+            displaced,
+            stretched,
+        } = bent;
+        if *stretched > TORN {
+            list.fault(format!(
+                "The wing `{name}` was torn: its tip was {stretched:.2} times as far from its root as at rest. {remedy}"
+            ));
+        } else if *displaced > FAR {
+            list.limit(format!(
+                "The wing `{name}` was bent double: its tip was displaced by {displaced:.2} times its length. {remedy}"
+            ));
+        }
+    }
+}
