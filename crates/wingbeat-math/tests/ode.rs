@@ -410,12 +410,17 @@ fn growth_of_a_vibration(mut method: Bdf, w: f64) -> f64 {
         }),
     );
     let size = |past: &Multistep| past.newest()[0].hypot(past.newest()[1] / w);
-    let mut sizes = vec![];
-    for _ in 0..200 {
+    method.scales = vec![1.0, w];
+    let mut grown = 0.0;
+    for step in 0..80 {
         method.advance(&mut past, rates).expect("a step");
-        sizes.push(size(&past));
+        let now = size(&past);
+        // Linear: of one size again, far above what passes leave.
+        let all = past.y.iter_mut().chain(&mut past.f).flatten();
+        all.for_each(|x| *x /= now);
+        grown += if step < 40 { 0.0 } else { now.ln() };
     }
-    (sizes[199] / sizes[99]).powf(0.01)
+    (grown / 40.0).exp()
 }
 
 /// Roots of the characteristic polynomial of `y' = i w y`: of order four 1.0137 and 1.106 at 0.6 and 1. That of order two damps all
@@ -425,6 +430,7 @@ fn exact_growth_of_vibrations_by_bdf() {
     let method = Bdf::new(
         1.0,
         Convergence {
+            tolerance: 1e-11,
             accelerated_from: Some(1),
             ..CONVERGENCE
         },
@@ -450,7 +456,7 @@ fn exact_growth_of_vibrations_by_bdf() {
     }
     for rho in [0.5, 0.8] {
         let found = growth_of_a_vibration(method.clone().order_two(rho), 1e3);
-        assert!((found - rho).abs() < 1e-3, "{rho}: {found}");
+        assert!((found / rho - 1.0).abs() < 0.05, "{rho}: {found}"); // a double root: 4 % over these steps
     }
 }
 
