@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from wingbeat._flight import Progress
 
-__all__ = ["Fleet", "Flight", "Frame", "Run", "Sensed", "Stepper", "Trim", "TrimSolution", "WakeTrim", "main", "presets", "schema", "version"]
+__all__ = ["Fleet", "Flight", "Frame", "Run", "Sensed", "Stepper", "Trim", "TrimSolution", "WakeTrim", "hash_of_files", "main", "presets", "schema", "version"]
 
 _Array = NDArray[Any]
 _Mode = tuple[str, str, float, float, list[float], list[tuple[str, float, float]]]
