@@ -18,9 +18,16 @@ pub(crate) fn contents(plan: &Plan, base: &LoadedCase, folder: &Path) -> Content
     let axes = plan.axes.iter();
     let values = axes.flat_map(|axis| axis.keys.iter().zip(&axis.values));
     let lines = values.flat_map(|(key, values)| values.iter().map(|value| pair(key, value)));
-    lines
-        .filter_map(|line| content(&line, Some(base), folder).map(|digest| (line, digest)))
-        .collect()
+    let mut found = Contents::new();
+    for line in lines {
+        if found.contains_key(&line) {
+            continue; // large files are read once
+        }
+        if let Some(digest) = content(&line, Some(base), folder) {
+            found.insert(line, digest);
+        }
+    }
+    found
 }
 
 /// SHA-256 of the files that `KEY=VALUE` names, of the one of `base` that it chooses a column of, and of those that are words

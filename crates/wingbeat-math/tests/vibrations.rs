@@ -1,0 +1,70 @@
+//! What backward differences make of undamped vibrations, fast ones beside the step too.
+
+use std::convert::Infallible;
+
+use wingbeat_math::ode::{Bdf, Convergence, Multistep};
+
+const CONVERGENCE: Convergence = Convergence {
+    tolerance: 1e-11,
+    max_passes: 60,
+    relaxation: 1.0,
+    accelerated_from: Some(1),
+};
+
+/// Growth per step of an undamped vibration of the angular frequency `w` per step.
+fn growth_of_a_vibration(mut method: Bdf, w: f64) -> f64 {
+    let at = |k: i32| [(w * f64::from(k)).cos(), -w * (w * f64::from(k)).sin()];
+    let rates = |y: &[f64], dy: &mut [f64]| {
+        (dy[0], dy[1]) = (y[1], -w * w * y[0]);
+        Ok::<(), Infallible>(())
+    };
+    let mut past = Multistep::from_start(
+        std::array::from_fn(|k| at(k as i32).to_vec()),
+        std::array::from_fn(|k| {
+            let mut dy = vec![0.0; 2];
+            rates(&at(k as i32), &mut dy).expect("rates");
+            dy
+        }),
+    );
+    let size = |past: &Multistep| past.newest()[0].hypot(past.newest()[1] / w);
+    method.scales = vec![1.0, w];
+    let mut grown = 0.0;
+    for step in 0..80 {
+        method.advance(&mut past, rates).expect("a step");
+        let now = size(&past);
+        // Linear: of one size again, far above what passes leave.
+        let all = past.y.iter_mut().chain(&mut past.f).flatten();
+        all.for_each(|x| *x /= now);
+        grown += if step < 40 { 0.0 } else { now.ln() };
+    }
+    (grown / 40.0).exp()
+}
+
+/// Roots of the characteristic polynomial of `y' = i w y`: of order four 1.0137 and 1.106 at 0.6 and 1. That of order two damps all
+/// vibrations, the fastest as is asked.
+#[test]
+fn exact_growth_of_vibrations_by_bdf() {
+    let method = Bdf::new(1.0, CONVERGENCE, vec![1.0; 2]);
+    for (w, grows) in [(0.6, 1.0137), (1.0, 1.106)] {
+        let found = growth_of_a_vibration(method.clone(), w);
+        assert!((found - grows).abs() < 1e-3, "{w}: {found}");
+    }
+    for w in [0.1_f64, 0.3, 0.6, 1.0, 2.0, 10.0] {
+        // (3 - 2 i w) z^2 - 4 z + 1 = 0: z = 1 / (2 - sqrt(1 + 2 i w)).
+        let root = (1.0 + 4.0 * w * w).sqrt();
+        let (re, im) = ((0.5 * (root + 1.0)).sqrt(), (0.5 * (root - 1.0)).sqrt());
+        let expected = 1.0 / (2.0 - re).hypot(im);
+        let found = growth_of_a_vibration(method.clone().order_two(0.0), w);
+        println!("{w}: {found} {expected}");
+        assert!(
+            (found - expected).abs() < 1e-3 && found < 1.0,
+            "{w}: {found} {expected}"
+        );
+        let light = growth_of_a_vibration(method.clone().order_two(0.8), w);
+        assert!(light < 1.0 && light > found, "{w}: {light}");
+    }
+    for rho in [0.5, 0.8] {
+        let found = growth_of_a_vibration(method.clone().order_two(rho), 1e3);
+        assert!((found / rho - 1.0).abs() < 0.05, "{rho}: {found}"); // a double root: 4 % over these steps
+    }
+}
