@@ -3,6 +3,7 @@
 use wingbeat_math::solve_small;
 
 use crate::added_mass::{seen, wrench};
+use crate::mirror::MirrorSymmetry;
 use crate::shape::ShapeMass;
 use crate::{AddedMass, BodyMotion, DynamicsError, Solution, System, Workspace, Wrench};
 
@@ -138,6 +139,10 @@ pub trait Formulation: Send + Sync {
         self.add_mass((t, y), added, loads, ws, out)?;
         self.rates(t, y, loads, ws, dy)
     }
+
+    /// Leaves of the rates `dy` of the state `y` those of a motion that is its own image in `mirror`; the Euler form, which has no free
+    /// joints, leaves them as they are.
+    fn symmetrise(&self, _mirror: &MirrorSymmetry, _y: &[f64], _dy: &mut [f64]) {}
 
     /// Natural size of every component of y, for norms of differences.
     fn scales(&self) -> Vec<f64>;

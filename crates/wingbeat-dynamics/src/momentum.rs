@@ -33,6 +33,7 @@ use crate::configuration::{Configuration, ConfigurationTable};
 use crate::formulation::add_by_response;
 use crate::inverse::{multipliers, reactions};
 use crate::mechanism::Mechanism;
+use crate::mirror::MirrorSymmetry;
 use crate::prescribed::Turning;
 use crate::shape::ShapeMass;
 use crate::workspace::MOMENTUM_STATE;
@@ -307,6 +308,19 @@ impl Formulation for MomentumForm {
         let moving = added::accelerate(&self.system, (t, added), loads, ws);
         added::add(&moving, ws, loads);
         Ok(())
+    }
+
+    fn symmetrise(&self, mirror: &MirrorSymmetry, _y: &[f64], dy: &mut [f64]) {
+        let rates = State::of(dy);
+        State {
+            centre: mirror.kept(rates.centre),
+            attitude: mirror.kept_attitude(rates.attitude),
+            momentum: mirror.kept(rates.momentum),
+            angular: mirror.kept_axial(rates.angular),
+        }
+        .write(dy);
+        let (dq, du) = dy[DIM..].split_at_mut(self.system.coordinates());
+        mirror.lead_joints(&self.system, dq, du);
     }
 
     fn rates_with(

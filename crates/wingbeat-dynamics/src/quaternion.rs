@@ -12,6 +12,7 @@ use crate::inverse::multipliers;
 use crate::joint::Joint;
 use crate::mechanism::Mechanism;
 use crate::mechanism::form::{AbsoluteForm, AbsoluteScratch, Stabilization};
+use crate::mirror::MirrorSymmetry;
 use crate::{
     BodyMotion, DynamicsError, Formulation, JointType, Solution, System, TravelLaw, Violation,
     Workspace, Wrench,
@@ -149,6 +150,10 @@ impl Formulation for QuaternionForm {
         out.budget = budget(&self.system, &s.motions);
         out.load_power = load_power(loads, &s.motions);
         Ok(())
+    }
+
+    fn symmetrise(&self, mirror: &MirrorSymmetry, y: &[f64], dy: &mut [f64]) {
+        self.form.symmetrise(mirror, y, dy);
     }
 
     fn scales(&self) -> Vec<f64> {

@@ -1,8 +1,8 @@
 //! How the root body moves: freely, by one of the formulations, or as a tether prescribes.
 
 use wingbeat_dynamics::{
-    AddedMass, BodyAcceleration, BodyMotion, Formulation, RootMotion, ShapeMass, Solution, System,
-    Workspace, Wrench, tethered, tethered_motions,
+    AddedMass, BodyAcceleration, BodyMotion, Formulation, MirrorSymmetry, RootMotion, ShapeMass,
+    Solution, System, Workspace, Wrench, tethered, tethered_motions,
 };
 use wingbeat_math::{DVec3, EulerSequence};
 
@@ -169,6 +169,13 @@ impl Core {
             form.rates(t, y, loads, ws, dy)?;
         }
         Ok(())
+    }
+
+    /// Leaves of the rates `dy` of the state `y` those of a motion that is its own image in `mirror`.
+    pub fn symmetrise(&self, mirror: &MirrorSymmetry, y: &[f64], dy: &mut [f64]) {
+        if let Self::Free(form) = self {
+            form.symmetrise(mirror, y, dy);
+        }
     }
 
     /// Adds to `loads` what the air that bodies carry along exerts. `out` is scratch.

@@ -7,8 +7,8 @@ mod loads;
 use std::sync::Arc;
 
 use wingbeat_dynamics::{
-    AbsoluteForm, AddedMass, BodyMotion, Mechanism, Solution, Stabilization, Workspace, Wrench,
-    mass_centre, relative_energy,
+    AbsoluteForm, AddedMass, BodyMotion, Mechanism, MirrorSymmetry, Solution, Stabilization,
+    Workspace, Wrench, mass_centre, relative_energy,
 };
 
 use crate::air::{Air, AirScratch, Instant};
@@ -49,6 +49,9 @@ pub struct Equations {
     pub applied: Vec<AppliedLoad>,
     /// Springs between points.
     pub springs: Vec<PointSpring>,
+    /// The mirror that the motion keeps to, where one half of the air is computed and wings hang on free joints, or the flyer is light as a
+    /// whole.
+    pub mirror: Option<MirrorSymmetry>,
     /// Time step h [s].
     pub step: f64,
     /// Pass of a step from which those before speed the next ones up; none for plain passes.
@@ -275,7 +278,15 @@ impl Equations {
             }
             false => &s.total,
         };
-        (self.core).rates(t, &y[..n], loads, &mut s.dynamics, &mut dy[..n])
+        (self.core).rates(t, &y[..n], loads, &mut s.dynamics, &mut dy[..n])?;
+        self.symmetrise(&y[..n], &mut dy[..n]);
+        Ok(())
+    }
+
+    fn symmetrise(&self, y: &[f64], dy: &mut [f64]) {
+        if let Some(mirror) = &self.mirror {
+            self.core.symmetrise(mirror, y, dy);
+        }
     }
 
     /// Rates of the core's state `y` alone, without records and quadratures.
@@ -292,7 +303,9 @@ impl Equations {
     ) -> Result<(), FlightError> {
         self.known_loads(t, y, memory, s)?;
         let (ws, out) = (&mut s.dynamics, &mut s.solution);
-        (self.core).rates_with((t, y), &s.added, &mut s.total, ws, out, dy)
+        (self.core).rates_with((t, y), &s.added, &mut s.total, ws, out, dy)?;
+        self.symmetrise(y, dy);
+        Ok(())
     }
 
     /// Puts the state at time `t` [s] back onto what it must fulfil.

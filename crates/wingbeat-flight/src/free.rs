@@ -110,6 +110,7 @@ impl FreeFlight {
             applied: setup.loads.clone(),
             springs: setup.springs.clone(),
             step,
+            mirror: None,
             accelerated_from: None,
         };
         Self {

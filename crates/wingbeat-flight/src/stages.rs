@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use wingbeat_dynamics::{
-    Baumgarte, ConfigurationTable, Cycle, EulerForm, Formulation, Mechanism, MomentumForm,
-    QuaternionForm, Stabilization, System,
+    Baumgarte, ConfigurationTable, Cycle, EulerForm, Formulation, Mechanism, MirrorSymmetry,
+    MomentumForm, QuaternionForm, Stabilization, System,
 };
 
 use crate::air::{Air, wing_pairs};
@@ -42,11 +42,17 @@ pub fn stages(setup: &FlightSetup, law: &WingLaw<'_>) -> Result<Vec<Stage>, Flig
     let elastic = ElasticWings::new(&setup.animal, setup.gravity)?;
     let on_joints = !CarriedAir::new(&system, setup.animal.wings.len()).is_empty();
     let is_light = is_light_as_a_whole(setup, (&system, air.as_ref()))?;
-    let elastic = Arc::new(elastic.carried_by(on_joints, is_light));
+    let elastic = elastic.carried_by(on_joints, is_light);
+    let elastic = Arc::new(match setup.air.is_mirrored() {
+        true => elastic.mirrored(&wing_pairs(&setup.animal)),
+        false => elastic,
+    });
     check_integrator(setup, &elastic)?;
     let mechanism = Mechanism::of(&system);
     let carried = carried(setup, (&system, is_light), &elastic);
-    let is_carried = !carried.is_empty() || ((on_joints || is_light) && !elastic.is_empty());
+    let moves_by_air = on_joints || is_light;
+    let is_carried = !carried.is_empty() || (moves_by_air && !elastic.is_empty());
+    let mirror = (moves_by_air && setup.air.is_mirrored()).then(|| mirror(setup, &system));
     let accelerated_from = accelerated_from(setup, is_carried);
     let stage = |from_step: usize, core: Core| Stage {
         from_step,
@@ -58,6 +64,7 @@ pub fn stages(setup: &FlightSetup, law: &WingLaw<'_>) -> Result<Vec<Stage>, Flig
             mechanism: mechanism.clone(),
             applied: setup.loads.clone(),
             springs: setup.springs.clone(),
+            mirror: mirror.clone(),
             step: setup.time.step,
             accelerated_from,
         },
@@ -77,16 +84,21 @@ pub fn stages(setup: &FlightSetup, law: &WingLaw<'_>) -> Result<Vec<Stage>, Flig
 }
 
 /// Pass from which those before speed the next ones up: from the first where air is carried along, else where plain passes lead
-/// nowhere, as where one half of the air is computed: least squares raise what parts the halves by rounding.
+/// nowhere, as where one half of the air is computed and the form does not keep to the mirror: least squares raise what parts the halves by rounding.
 fn accelerated_from(setup: &FlightSetup, is_carried: bool) -> Option<usize> {
-    let is_mirrored = match &setup.air {
-        AirModel::VortexLattice(options) => options.mirror,
-        _ => false,
-    };
-    match is_carried && !is_mirrored {
+    let parts_halves =
+        setup.air.is_mirrored() && matches!(setup.formulation, FormulationChoice::Euler(_));
+    match is_carried && !parts_halves {
         true => Some(1),
         false => setup.air.keeps_wake().then_some(PLAIN_PASSES + 1),
     }
+}
+
+/// The mirror in which the wings are images of each other.
+fn mirror(setup: &FlightSetup, system: &System) -> MirrorSymmetry {
+    let pairs = wing_pairs(&setup.animal).into_iter();
+    let bodies = pairs.map(|pair| pair.map(|wing| wing + 1)).collect();
+    MirrorSymmetry::new(system, setup.root_at_start().r.y_axis, bodies)
 }
 
 /// Whether the flyer is light as a whole beside the air that its wings carry along.

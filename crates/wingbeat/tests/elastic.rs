@@ -11,6 +11,8 @@ use wingbeat::verify::lab::series::{harmonic, mean};
 mod blades;
 #[path = "elastic/leading_edges.rs"]
 mod leading_edges;
+#[path = "elastic/mirrored.rs"]
+mod mirrored;
 #[path = "elastic/slips.rs"]
 mod slips;
 mod support;

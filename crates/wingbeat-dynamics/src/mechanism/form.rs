@@ -19,6 +19,7 @@ use super::structure::Mechanism;
 use crate::body::kinetic_energy;
 use crate::check::check_state;
 use crate::joint::Joint;
+use crate::mirror::MirrorSymmetry;
 use crate::{Baumgarte, BodyAcceleration, BodyMotion, DynamicsError, HingeReaction, Wrench};
 
 /// Numbers per body in the state.
@@ -177,6 +178,29 @@ impl AbsoluteForm {
             a.angular.write_to_slice(&mut dy[10..]);
         }
         Ok(())
+    }
+
+    /// Leaves of the rates `dy` of the state `y` those of a motion that is its own image in `mirror`: of the root, and of the
+    /// pairs; other bodies are left as they are.
+    pub(crate) fn symmetrise(&self, mirror: &MirrorSymmetry, y: &[f64], dy: &mut [f64]) {
+        let vector = |of: &[f64], k: usize| DVec3::from_slice(&of[k..]);
+        let (root, _) = dy.split_at_mut(STATE_NUMBERS);
+        mirror.kept(vector(root, 0)).write_to_slice(root);
+        let turn = mirror.kept_attitude(DQuat::from_slice(&root[3..]));
+        turn.write_to_slice(&mut root[3..]);
+        mirror.kept(vector(root, 7)).write_to_slice(&mut root[7..]);
+        (root[10], root[12]) = (0.0, 0.0);
+        for [a, b] in mirror.pairs.iter().map(|p| p.map(|k| STATE_NUMBERS * k)) {
+            let attitude = |of: &[f64], k: usize| DQuat::from_slice(&of[k + 3..]);
+            let sign = mirror.attitude(attitude(y, a)).dot(attitude(y, b)).signum();
+            let [p, v] = [0, 7].map(|k| mirror.vector(vector(dy, a + k)));
+            let turn = mirror.attitude(attitude(dy, a)) * sign;
+            let w = vector(dy, a + 10);
+            p.write_to_slice(&mut dy[b..]);
+            turn.write_to_slice(&mut dy[b + 3..]);
+            v.write_to_slice(&mut dy[b + 7..]);
+            DVec3::new(-w.x, w.y, -w.z).write_to_slice(&mut dy[b + 10..]);
+        }
     }
 
     /// Quaternions to unit length and, if asked for, positions and velocities onto the

@@ -5,6 +5,7 @@ use wingbeat_math::{DVec3, EulerSequence, MassProperties};
 use wingbeat_structure::resultant;
 
 use super::coupling::{ElasticScratch, Moment};
+use super::image::{reflected, reflected_mass};
 use super::step::WingScratch;
 use super::wing::ElasticState;
 use super::wings::{ElasticWings, turned};
@@ -38,8 +39,13 @@ impl ElasticWings {
     /// components about the origins of the bodies.
     pub fn wrenches(&self, motions: &[BodyMotion], s: &ElasticScratch, out: &mut [Wrench]) {
         out.fill(Wrench::default());
-        for (w, ws) in self.wings.iter().zip(&s.wings) {
+        for (k, (w, ws)) in self.wings.iter().zip(&s.wings).enumerate() {
             let m = &motions[w.wing + 1];
+            if let Some(image) = self.image(k) {
+                let original = self.wings[image.of].wing + 1;
+                out[w.wing + 1] = reflected(&out[original], motions[original].r, m.r);
+                continue;
+            }
             let at = &ws.trial.configuration;
             let needed = resultant(at, &ws.residual);
             let loads = resultant(at, &ws.loads);
@@ -63,10 +69,20 @@ impl ElasticWings {
         loads: &mut [Wrench],
         out: &mut Vec<AddedMass>,
     ) {
-        for (w, ws) in self.wings.iter().zip(&s.wings) {
-            let Some(carried) = ws.carried else { continue };
-            let body = w.wing + 1;
-            let exerted = carried.wrench(&at.motions[body], &at.accelerations[body]);
+        for (k, w) in self.wings.iter().enumerate() {
+            let known = self.original(k);
+            let Some(carried) = s.wings[known].carried else {
+                continue;
+            };
+            let (body, from) = (w.wing + 1, self.wings[known].wing + 1);
+            let exerted = carried.wrench(&at.motions[from], &at.accelerations[from]);
+            let (exerted, carried) = match self.image(k) {
+                Some(_) => (
+                    reflected(&exerted, at.motions[from].r, at.motions[body].r),
+                    reflected_mass(&carried, body),
+                ),
+                None => (exerted, carried),
+            };
             loads[body] = loads[body] - exerted;
             out.push(carried);
         }
@@ -74,18 +90,18 @@ impl ElasticWings {
 
     /// Power of the air on what the wings move relative to their frames \[W\].
     pub fn air_power(&self, s: &ElasticScratch) -> f64 {
-        s.wings.iter().map(air_power).sum()
+        self.originals(s).map(air_power).sum()
     }
 
     /// Elastic energy of each wing \[J\].
-    pub fn strain_energy<'a>(&self, s: &'a ElasticScratch) -> impl Iterator<Item = f64> + 'a {
-        s.wings.iter().map(|ws| ws.solver.strain_energy())
+    pub fn strain_energy<'a>(&'a self, s: &'a ElasticScratch) -> impl Iterator<Item = f64> + 'a {
+        self.originals(s).map(|ws| ws.solver.strain_energy())
     }
 
     /// Power that the damping of the wings dissipates \[W\].
     pub fn dissipation(&self, s: &ElasticScratch) -> f64 {
         let of = |ws: &WingScratch| ws.solver.dissipation(&ws.trial);
-        s.wings.iter().map(of).sum()
+        self.originals(s).map(of).sum()
     }
 
     /// Energy that damping has dissipated since the start \[J\], at the instant last asked for.
@@ -99,13 +115,13 @@ impl ElasticWings {
             };
             before.dissipated + 0.5 * step * (before.dissipation + now)
         };
-        s.wings.iter().zip(states).map(of).sum()
+        self.originals(s).zip(states).map(of).sum()
     }
 
     /// Where the tips are, how they are twisted and what elastic energy the wings hold.
     pub fn records(&self, s: &ElasticScratch, out: &mut Vec<ElasticRecord>) {
         out.clear();
-        for (w, ws) in self.wings.iter().zip(&s.wings) {
+        for ((w, ws), original) in self.wings.iter().zip(&s.wings).zip(self.originals(s)) {
             let place = |n: usize| w.followers[n].position(&ws.trial.configuration);
             let rest = |n: usize| w.followers[n].position(w.structure.rest());
             let [lead, trail] = w.tip;
@@ -121,9 +137,9 @@ impl ElasticWings {
                     let shapes = [&ws.trial.configuration, w.structure.rest()];
                     w.stations[k].record(&w.followers, shapes)
                 }),
-                strain_energy: ws.solver.strain_energy(),
-                strain_power: ws.solver.strain_power(),
-                air_power: air_power(ws),
+                strain_energy: original.solver.strain_energy(),
+                strain_power: original.solver.strain_power(),
+                air_power: air_power(original),
                 passes: s.most,
             });
         }
@@ -139,7 +155,7 @@ impl ElasticWings {
     ) {
         let mut angular = b.angular_momentum + b.centre.cross(b.momentum);
         let mut first = mass * b.centre;
-        for (w, ws) in self.wings.iter().zip(&s.wings) {
+        for ((w, ws), strain) in self.wings.iter().zip(&s.wings).zip(self.strain_energy(s)) {
             let m = &motions[w.wing + 1];
             let rigid = std::iter::once((&w.rigid, *m)).map(|x| (-1.0, x));
             let elastic = w.bodies(m, ws.nodes()).map(|x| (1.0, x));
@@ -151,10 +167,17 @@ impl ElasticWings {
                 first += sign * of.first;
                 b.potential -= sign * self.gravity.dot(of.first);
             }
-            b.potential += ws.solver.strain_energy();
+            b.potential += strain;
         }
         b.centre = first / mass;
         b.angular_momentum = angular - b.centre.cross(b.momentum);
+    }
+}
+
+impl ElasticWings {
+    /// Of each wing the scratch of the one whose shape it has, its own or its mirror image.
+    fn originals<'a>(&'a self, s: &'a ElasticScratch) -> impl Iterator<Item = &'a WingScratch> {
+        (0..self.wings.len()).map(|k| &s.wings[self.original(k)])
     }
 }
 

@@ -131,7 +131,7 @@ impl ElasticWings {
     ) -> Result<bool, FlightError> {
         air.place(at, air_scratch)?;
         air.loads(at, memory, air_scratch, out)?;
-        for (w, ws) in self.wings.iter().zip(&mut s.wings) {
+        for (w, ws) in self.computed(&mut s.wings) {
             air.nodal_forces(w.wing, at, air_scratch, &mut ws.forces)?;
             let m = &at.motions[w.wing + 1];
             w.gather(m, &ws.trial.configuration, &ws.forces, &mut ws.loads);
@@ -140,7 +140,7 @@ impl ElasticWings {
             ws.set_residual(w);
         }
         let before = s.unbalanced;
-        let all = s.wings.iter().map(|ws| ws.unbalanced);
+        let all = self.computed(&mut s.wings).map(|(_, ws)| ws.unbalanced);
         s.unbalanced = all.fold(0.0, larger);
         // Where corrections are small and help no more, what is left is the rounding of stiff forces.
         let helps = s.unbalanced < 0.5 * before;
@@ -148,7 +148,7 @@ impl ElasticWings {
         let is_exact = is_whole && (s.moved <= ROUNDING || (s.moved <= SMALL && !helps));
         if !s.is_stepping && air.follows_accelerations() {
             self.take_answers(at, (air, memory), s, air_scratch)?;
-            let all = self.wings.iter().zip(&mut s.wings);
+            let all = self.computed(&mut s.wings);
             all.for_each(|(w, ws)| ws.carried = ws.carried_air(w));
         }
         if s.unbalanced <= self.tolerance() || is_exact || !s.is_stepping {
@@ -198,6 +198,7 @@ impl ElasticWings {
             ws.carried = None;
             accelerations[w.wing + 1] = state.acceleration();
         }
+        self.reflect(s);
     }
 
     fn set_frames(&self, at: &Moment<'_>, s: &mut ElasticScratch) {
@@ -208,7 +209,30 @@ impl ElasticWings {
         s.secants.clear();
     }
 
+    /// The wings whose shape is computed.
+    fn computed<'a>(
+        &'a self,
+        all: &'a mut [WingScratch],
+    ) -> impl Iterator<Item = (&'a ElasticWing, &'a mut WingScratch)> {
+        let both = self.wings.iter().zip(all).enumerate();
+        both.filter(|(k, _)| self.image(*k).is_none())
+            .map(|(_, both)| both)
+    }
+
+    /// Makes the trials of wings whose shape is not computed those of their mirror images.
+    fn reflect(&self, s: &mut ElasticScratch) {
+        for k in 0..self.wings.len() {
+            let Some(image) = self.image(k) else { continue };
+            let (before, rest) = s.wings.split_at_mut(k);
+            let (from, to) = (&before[image.of].trial, &mut rest[0].trial);
+            image.configuration(&from.configuration, &mut to.configuration);
+            image.numbers(&from.velocity, &mut to.velocity);
+            image.numbers(&from.acceleration, &mut to.acceleration);
+        }
+    }
+
     fn place(&self, s: &mut ElasticScratch) {
+        self.reflect(s);
         for (w, ws) in self.wings.iter().zip(&s.wings) {
             if let Some(shape) = &mut s.shapes[w.wing] {
                 w.shape(ws.nodes(), shape);
@@ -224,7 +248,7 @@ impl ElasticWings {
         s: &mut ElasticScratch,
         air_scratch: &mut AirScratch,
     ) -> Result<(), FlightError> {
-        for (w, ws) in self.wings.iter().zip(&mut s.wings) {
+        for (w, ws) in self.computed(&mut s.wings) {
             let m = &instant.motions[w.wing + 1];
             ws.answers =
                 air.wing_response(w.wing, instant, memory, air_scratch, &mut ws.response)?;
@@ -243,7 +267,7 @@ impl ElasticWings {
     fn correct(&self, s: &mut ElasticScratch) -> Result<(), FlightError> {
         s.change.clear();
         s.share = 1.0;
-        for (w, ws) in self.wings.iter().zip(&mut s.wings) {
+        for (w, ws) in self.computed(&mut s.wings) {
             s.share = s.share.min(ws.bend(w)?);
             let scale = w.structure.size() * ws.trial.weights().velocity;
             let turn = ws.trial.weights().velocity;
@@ -256,7 +280,7 @@ impl ElasticWings {
         s.secants.accelerate(&mut s.change);
         let mut from = 0;
         s.moved = 0.0;
-        for (w, ws) in self.wings.iter().zip(&mut s.wings) {
+        for (w, ws) in self.computed(&mut s.wings) {
             let free = w.structure.free_numbers();
             let wanted = &s.change[from..from + free.len()];
             from += free.len();
@@ -284,12 +308,17 @@ impl ElasticWings {
         s: &ElasticScratch,
         states: &mut [ElasticState],
     ) {
-        for ((w, ws), state) in self.wings.iter().zip(&s.wings).zip(states) {
+        for (k, (w, ws)) in self.wings.iter().zip(&s.wings).enumerate() {
             if s.is_stepping {
-                ws.solver.accept(&ws.trial, &mut state.structure);
+                let (before, rest) = states.split_at_mut(k);
+                let own = &mut rest[0].structure;
+                match self.image(k) {
+                    Some(image) => image.state(&before[image.of].structure, own),
+                    None => ws.solver.accept(&ws.trial, own),
+                }
             }
             let a = &accelerations[w.wing + 1];
-            state.frame = [a.linear, a.angular];
+            states[k].frame = [a.linear, a.angular];
         }
     }
 }

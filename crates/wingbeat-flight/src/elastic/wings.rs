@@ -4,6 +4,7 @@ use wingbeat_dynamics::{BodyAcceleration, BodyMotion, Wrench};
 use wingbeat_math::DVec3;
 use wingbeat_model::Animal;
 
+use super::image::Image;
 use super::step::{FINE_TOLERANCE, TOLERANCE};
 use super::wing::{ElasticState, ElasticWing};
 use crate::error::FlightError;
@@ -13,6 +14,8 @@ use crate::interface::Shape;
 #[derive(Debug, Default)]
 pub struct ElasticWings {
     pub(super) wings: Vec<ElasticWing>,
+    /// Those whose shape is the mirror image of another's; empty where both halves of the air are computed.
+    images: Vec<Option<Image>>,
     /// Number of wings, elastic or not.
     count: usize,
     pub(super) gravity: DVec3,
@@ -32,6 +35,7 @@ impl ElasticWings {
         let wings = animal.wings.iter().enumerate().filter_map(elastic);
         Ok(Self {
             wings: wings.collect::<Result<_, _>>()?,
+            images: vec![],
             count: animal.wings.len(),
             gravity,
             on_joints: false,
@@ -46,6 +50,35 @@ impl ElasticWings {
             is_delicate: on_joints || is_light,
             ..self
         }
+    }
+
+    /// The same in air of which one half is computed, wings of which these `pairs` are mirror images of each other: the shape of
+    /// the first of a pair is computed, and that of the second is its image.
+    pub fn mirrored(self, pairs: &[[usize; 2]]) -> Self {
+        let place = |wing: usize| self.wings.iter().position(|w| w.wing == wing);
+        let image = |w: &ElasticWing| {
+            let [of, _] = pairs.iter().find(|pair| pair[1] == w.wing)?;
+            let of = place(*of)?;
+            Some(Image::new(
+                of,
+                self.wings[of].structure.rest(),
+                w.structure.rest(),
+            ))
+        };
+        Self {
+            images: self.wings.iter().map(image).collect(),
+            ..self
+        }
+    }
+
+    /// Whose image the elastic wing number `k` is; none of wings whose shape is computed.
+    pub(super) fn image(&self, k: usize) -> Option<&Image> {
+        self.images.get(k).and_then(Option::as_ref)
+    }
+
+    /// The elastic wing whose shape is that of number `k`: itself or the one whose image it is.
+    pub(super) fn original(&self, k: usize) -> usize {
+        self.image(k).map_or(k, |image| image.of)
     }
 
     /// Where free joints carry wings: the share \[1\] of the fastest vibrations that is to be left from step to step, the least that any
