@@ -145,3 +145,29 @@ fn behaves_a_slip_of_the_finger_is_answered_with_what_was_meant() {
         assert!(problem.contains(meant), "{args:?}: {problem}");
     }
 }
+
+#[test]
+fn behaves_check_tells_the_cost_in_numbers() {
+    let scratch = Scratch::new("reports-cost");
+    let dir = &scratch.0;
+    let cost = |args: &[&str]| -> Value {
+        let text = said(dir, &[&["check", "--json"], args].concat());
+        serde_json::from_str::<Value>(&text).unwrap()["cost"].clone()
+    };
+    let tried = cost(&["rectangular-wing"]);
+    for key in ["time_s", "threads", "trial_steps", "wake_elements_at_end"] {
+        let number = tried[key].as_f64();
+        assert!(number.is_some_and(|x| x > 0.0), "{key}: {tried}");
+    }
+    let large = [
+        "wing.right.mesh.spanwise=100",
+        "wing.right.mesh.chordwise=60",
+    ];
+    let large = large.map(|set| ["--set", set]).concat();
+    let untried = cost(&[&["fruit-fly-hover"], &large[..]].concat());
+    let unknowns = untried["unknowns"].as_f64().unwrap();
+    assert!(unknowns > 4000.0, "{untried}");
+    assert_eq!(untried["matrix_byte"], 8.0 * unknowns * unknowns);
+    let why = untried["not_tried"].as_str().unwrap();
+    assert!(why.contains("--trial"), "{why}");
+}
