@@ -171,3 +171,24 @@ fn behaves_check_tells_the_cost_in_numbers() {
     let why = untried["not_tried"].as_str().unwrap();
     assert!(why.contains("--trial"), "{why}");
 }
+
+/// A fly's powers are microwatts, a hawkmoth's milliwatts; as numbers they are watts.
+#[test]
+fn behaves_powers_are_in_the_unit_that_suits_them() {
+    let scratch = Scratch::new("reports-power");
+    for (case, unit, scale) in [
+        ("fruit-fly-blade", "uW", 1e6),
+        ("hawkmoth-blade", "mW", 1e3),
+    ] {
+        let args = ["power", case, "--steps", "40"];
+        let text = said(&scratch.0, &args);
+        assert!(text.contains(&format!("{unit}  W/kg total")), "{text}");
+        let line = text.lines().find(|l| l.contains("no elastic storage"));
+        let words = line.unwrap().split_whitespace().rev();
+        let shown: f64 = words.take(3).last().unwrap().parse().unwrap();
+        let json = said(&scratch.0, &[&args[..], &["--json"]].concat());
+        let value = &serde_json::from_str::<Value>(&json).unwrap()["power"];
+        let watt = value["no_storage"]["watt"].as_f64().unwrap();
+        assert!((shown - scale * watt).abs() < 6e-4, "{shown} {watt}"); // three places
+    }
+}
