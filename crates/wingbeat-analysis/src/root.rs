@@ -11,6 +11,9 @@ pub(crate) trait Map {
 
     /// Their slopes at `x`, where they are `r`, rows by residual.
     fn slopes(&mut self, x: &[f64], r: &[f64]) -> Result<Vec<f64>, AnalysisError>;
+
+    /// Moves a point to where the search may go.
+    fn confine(&self, _x: &mut [f64]) {}
 }
 
 /// How a root is sought.
@@ -41,6 +44,7 @@ impl Search {
         map: &mut impl Map,
         mut x: Vec<f64>,
     ) -> Result<(Vec<f64>, usize), AnalysisError> {
+        map.confine(&mut x);
         let mut r = map.residual(&x)?;
         let (mut kept, mut steps) = (None, 0);
         while steps < self.iterations && largest(&r) > self.tolerance {
@@ -77,7 +81,8 @@ impl Search {
         let (factor, trials) = self.shortening;
         for _ in 0..trials {
             let along = x.iter().zip(&direction).map(|(x, d)| x - length * d);
-            let trial: Vec<f64> = along.collect();
+            let mut trial: Vec<f64> = along.collect();
+            map.confine(&mut trial);
             if let Ok(found) = map.residual(&trial)
                 && squares(&found) < squares(r)
             {
@@ -140,17 +145,28 @@ pub(crate) fn largest(r: &[f64]) -> f64 {
 mod tests {
     use super::*;
 
-    /// A circle of radius 2 and a hyperbola, which counts how often its slopes are asked for.
-    struct Curves(usize);
+    /// A circle of radius 2 and a hyperbola, which counts how often its slopes are asked for; the first coordinate may be
+    /// limited, and the largest that was asked for is kept.
+    #[derive(Default)]
+    struct Curves {
+        slopes: usize,
+        limit: Option<f64>,
+        largest: f64,
+    }
 
     impl Map for Curves {
         fn residual(&mut self, x: &[f64]) -> Result<Vec<f64>, AnalysisError> {
+            self.largest = self.largest.max(x[0]);
             Ok(vec![x[0] * x[0] + x[1] * x[1] - 4.0, x[0] * x[1] - 1.0])
         }
 
         fn slopes(&mut self, x: &[f64], _r: &[f64]) -> Result<Vec<f64>, AnalysisError> {
-            self.0 += 1;
+            self.slopes += 1;
             Ok(vec![2.0 * x[0], 2.0 * x[1], x[1], x[0]])
+        }
+
+        fn confine(&self, x: &mut [f64]) {
+            x[0] = x[0].min(self.limit.unwrap_or(f64::INFINITY));
         }
     }
 
@@ -166,12 +182,34 @@ mod tests {
         // x + y = sqrt(4 + 2), x - y = sqrt(4 - 2).
         let exact = 0.5 * (6.0_f64.sqrt() + 2.0_f64.sqrt());
         let slopes = [false, true].map(|updates| {
-            let mut map = Curves(0);
+            let mut map = Curves::default();
             let (x, steps) = search(updates).from(&mut map, vec![4.0, 0.1]).unwrap();
             assert!((x[0] - exact).abs() < 1e-13, "{x:?} in {steps} steps");
-            assert!(updates || map.0 == steps);
-            map.0
+            assert!(updates || map.slopes == steps);
+            map.slopes
         });
         assert!(slopes[1] < slopes[0], "{slopes:?}");
+    }
+
+    /// The search starts and stays inside, and finds the root there; where it lies beyond, it ends at the limit.
+    #[test]
+    fn exact_a_confined_search_stays_inside() {
+        let exact = 0.5 * (6.0_f64.sqrt() + 2.0_f64.sqrt());
+        for (limit, found) in [(exact + 0.01, exact), (exact - 0.1, exact - 0.1)] {
+            let search = Search {
+                tolerance: 1e-13,
+                iterations: 40,
+                updates: false,
+                reach: 0.5,
+                shortening: (0.5, 20),
+            };
+            let mut map = Curves {
+                limit: Some(limit),
+                ..Curves::default()
+            };
+            let (x, _) = search.from(&mut map, vec![4.0, 0.1]).unwrap();
+            assert!((x[0] - found).abs() < 1e-12, "{x:?}");
+            assert!(map.largest <= limit, "{}", map.largest);
+        }
     }
 }

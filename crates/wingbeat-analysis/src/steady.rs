@@ -82,6 +82,15 @@ impl TrimProblem {
         [outside, near.collect()]
     }
 
+    /// Moves values of the chosen unknowns into the bounds that were given.
+    pub(crate) fn confine(&self, values: &mut [f64]) {
+        for (u, x) in self.unknowns.iter().zip(values) {
+            if let Some(b) = self.bounds.iter().find(|b| b.unknown == *u) {
+                *x = x.clamp(b.from, b.to);
+            }
+        }
+    }
+
     /// Chosen unknowns with `values`, then those that are given.
     pub(crate) fn with_given(&self, values: &[f64]) -> (Vec<Unknown>, Vec<f64>) {
         let (given, kept): (Vec<_>, Vec<_>) = self.given.iter().copied().unzip();
@@ -272,6 +281,9 @@ impl Residuals {
         }
     }
 }
+
+/// How many times more than at its end right and left may part by rounding where a search begins, in flight that is not steady.
+pub(crate) const AT_START: f64 = 10.0;
 
 /// An error if right and left part by more than `rounding` where only the plane of symmetry was asked.
 pub(crate) fn check_symmetric(aside: f64, rounding: f64) -> Result<(), AnalysisError> {

@@ -3,7 +3,8 @@
 //! Unknowns are the state at the start of a beat and controls of the wings; equations are that one beat later nothing
 //! has changed but place and heading, which have moved as asked ([`crate::steady`]). Coordinates and speeds of free
 //! joints are unknowns too, and come back to where they were. Newton's method with differences for the Jacobian and a
-//! line search; a failure keeps the best point found.
+//! line search; a failure keeps the best point found. A search with bounds stays inside; only where it finds nothing there, another
+//! one says where beyond them steady flight is.
 
 use wingbeat_flight::{
     AirModel, FlightSetup, FormulationChoice, IntegratorChoice, MotionMode, PrescribedMotion,
@@ -16,7 +17,7 @@ use crate::beat::{Beat, JOINTS, State, steadied};
 use crate::progress;
 use crate::root::{Map, Search, largest, matrix_of, moved};
 use crate::solution::TrimSolution;
-use crate::steady::{self, Measures, Residuals, Snapshot, TrimProblem};
+use crate::steady::{self, AT_START, Measures, Residuals, Snapshot, TrimProblem, check_symmetric};
 
 /// A trimmed flight, or the best point found.
 #[derive(Clone, Debug)]
@@ -126,7 +127,8 @@ impl Trim {
 ///
 /// # Errors
 /// A setup that [`Beat`] does not cover; unknowns that the problem does not determine, or too few; numbers that stop
-/// being finite at the very start. A trim that does not converge is no error: see [`TrimSolution::converged`].
+/// being finite at the very start; right and left that part, where only what is in the plane of symmetry is asked. A trim that does
+/// not converge is no error: see [`TrimSolution::converged`].
 pub fn trim(setup: &FlightSetup, problem: &TrimProblem) -> Result<Trim, AnalysisError> {
     if matches!(setup.air, AirModel::None) {
         return Err(AnalysisError::not_covered(
@@ -141,6 +143,17 @@ pub fn trim(setup: &FlightSetup, problem: &TrimProblem) -> Result<Trim, Analysis
     let mut x = Residuals::of(problem).point(problem.velocity / speed, rate);
     x.extend(steady::first_controls(problem));
     x.extend(periodic_joints(&first, steady::attitude(problem.angles()))?);
+    let begun = evaluate(&steadied(setup), problem, &x)?;
+    check_symmetric(begun.solution.aside, AT_START * ROUNDING)?;
+    if !problem.bounds.is_empty() && problem.given.is_empty() {
+        let inside = search(setup, problem, x.clone(), true)?;
+        if inside.solution.converged {
+            return Ok(inside);
+        }
+        let beyond = trim_from(setup, problem, x).ok();
+        let steady = beyond.filter(|found| found.solution.converged);
+        return Ok(steady.unwrap_or(inside));
+    }
     trim_from(setup, problem, x)
 }
 
@@ -153,6 +166,16 @@ pub fn trim_from(
     problem: &TrimProblem,
     x: Vec<f64>,
 ) -> Result<Trim, AnalysisError> {
+    search(setup, problem, x, false)
+}
+
+/// The search from a point, within the bounds of the problem or anywhere.
+fn search(
+    setup: &FlightSetup,
+    problem: &TrimProblem,
+    x: Vec<f64>,
+    is_confined: bool,
+) -> Result<Trim, AnalysisError> {
     let search = Search {
         tolerance: problem.settings.tolerance,
         iterations: problem.settings.iterations,
@@ -163,6 +186,7 @@ pub fn trim_from(
     let mut map = BeatMap {
         setup: &steadied(setup),
         problem,
+        is_confined,
         steps: 0,
     };
     let (x, iterations) = search.from(&mut map, x)?;
@@ -244,6 +268,8 @@ fn evaluate(setup: &FlightSetup, problem: &TrimProblem, x: &[f64]) -> Result<Tri
 struct BeatMap<'a> {
     setup: &'a FlightSetup,
     problem: &'a TrimProblem,
+    /// Whether the search stays within the bounds.
+    is_confined: bool,
     /// Newton steps begun.
     steps: usize,
 }
@@ -251,6 +277,13 @@ struct BeatMap<'a> {
 impl Map for BeatMap<'_> {
     fn residual(&mut self, x: &[f64]) -> Result<Vec<f64>, AnalysisError> {
         evaluate(self.setup, self.problem, x).map(|found| found.solution.residual)
+    }
+
+    fn confine(&self, x: &mut [f64]) {
+        if self.is_confined {
+            let n = Residuals::of(self.problem).controls();
+            self.problem.confine(&mut x[n..2 * n]);
+        }
     }
 
     /// By central differences.

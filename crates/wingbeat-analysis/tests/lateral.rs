@@ -222,6 +222,12 @@ fn limit_bounds_are_kept_where_there_is_a_choice_and_named_where_there_is_none()
     problem.bounds = vec![bound];
     let free = trim_within(&fly(), &problem).unwrap();
     assert!(free.solution.converged && free.solution.outside == [Unknown::StrokeAmplitude]);
+    // No lift is enough for ten weights: the search ends at the bound, and names it.
+    let mut heavy = fly();
+    heavy.gravity *= 10.0;
+    let ended = trim(&heavy, &problem).unwrap().solution;
+    assert!(!ended.converged && ended.outside.is_empty());
+    assert_eq!(ended.at_bound, [Unknown::StrokeAmplitude]);
     problem.unknowns.push(Unknown::Frequency);
     let found = trim_within(&fly(), &problem).unwrap();
     let x = found.solution.value(Unknown::StrokeAmplitude).unwrap();

@@ -2,7 +2,7 @@
 
 use crate::common;
 
-use wingbeat_analysis::{Beat, trim};
+use wingbeat_analysis::{AnalysisError, Beat, TrimSettings, trim};
 use wingbeat_math::DVec3;
 
 #[test]
@@ -22,4 +22,19 @@ fn refuses_a_beat_of_a_case_without_wings_in_words_that_fit() {
         said.contains("no beating wings") && !said.contains("frequency"),
         "{said}"
     );
+}
+
+/// Wings that differ, where only the plane of symmetry is asked, are named before the first Newton step.
+#[test]
+fn refuses_wings_that_differ_before_it_searches() {
+    let mut problem = common::hover(40);
+    problem.settings = TrimSettings {
+        iterations: 0,
+        ..problem.settings
+    };
+    let mut setup = common::fly();
+    assert!(trim(&setup, &problem).is_ok());
+    setup.animal.wings[0].hinge_b.y *= 1.1;
+    let found = trim(&setup, &problem);
+    assert!(matches!(found, Err(AnalysisError::Asymmetric { .. })));
 }

@@ -1,6 +1,6 @@
 //! What is left between measured angles and the series fitted to them.
 
-use wingbeat_model::motion::Fourier;
+use wingbeat_model::motion::{Fourier, Scatter};
 
 use crate::build::radians;
 use crate::loaded::LoadedCase;
@@ -19,6 +19,8 @@ pub struct FittedTable {
     pub residual_deg: f64,
     /// Most that is left of a sample \[deg\], and its phase \[wingbeats\].
     pub farthest: [f64; 2],
+    /// The noise that its highest harmonics follow; none where they are motion, or too few to know.
+    pub noise: Option<Scatter>,
 }
 
 /// More than this is no noise of measured angles [deg]: video has 1 to 2.
@@ -33,12 +35,25 @@ impl FittedTable {
     pub fn doubt(&self) -> Option<String> {
         let ([most, phase], rms) = (self.farthest, self.residual_deg);
         let is_outlier = most > OUTLIER * rms && most > NOISE_DEG;
-        (rms > NOISE_DEG || is_outlier).then(|| {
+        let follows = self.noise.filter(|n| n.harmonics < self.harmonics);
+        let noise = follows.map(|n| {
+            format!(
+                "{}: of {} harmonics those beyond number {} are noise of some {:.1} deg in the samples, with rates of {:.0} % of those of the motion: fit {} harmonics",
+                self.key,
+                self.harmonics,
+                n.harmonics,
+                n.deviation.to_degrees(),
+                100.0 * n.rates,
+                n.harmonics
+            )
+        });
+        let coarse = (rms > NOISE_DEG || is_outlier).then(|| {
             format!(
                 "{}: {} harmonics leave {rms:.1} deg (rms) and {most:.1} deg of the sample at phase {phase}: take out samples that are no measurements (lost frames), or fit more harmonics",
                 self.key, self.harmonics
             )
-        })
+        });
+        coarse.or(noise)
     }
 }
 
@@ -62,7 +77,7 @@ fn of_wing(name: &str, motion: &WingMotionCase) -> Vec<FittedTable> {
             return None;
         };
         let (rows, harmonics) = (table.rows_deg.as_ref()?, table.harmonics?);
-        let (_, left) = Fourier::fitted("", &radians(rows), harmonics).ok()?;
+        let (series, left) = Fourier::fitted("", &radians(rows), harmonics).ok()?;
         let square = left.iter().map(|x| x * x).sum::<f64>() / left.len() as f64;
         let sizes = left.iter().map(|x| x.abs().to_degrees());
         let farthest = sizes.enumerate().max_by(|a, b| a.1.total_cmp(&b.1))?;
@@ -72,6 +87,7 @@ fn of_wing(name: &str, motion: &WingMotionCase) -> Vec<FittedTable> {
             samples: left.len(),
             residual_deg: square.sqrt().to_degrees(),
             farthest: [farthest.1, rows[farthest.0][0]],
+            noise: series.scatter(left.len()),
         })
     };
     angles.into_iter().filter_map(fitted).collect()

@@ -282,13 +282,24 @@ fn behaves_tables_of_angles_can_be_fitted() {
     );
     // Scatter of a degree is what measured angles have.
     let noisy = |k: usize| {
-        let sign = [1.0, -1.0, -1.0][k % 3];
-        format!("[{}, {}]", k as f64 / 200.0, stroke(k) + sign)
+        let scatter = 1.4 * (1.0 + 7.1 * k as f64 * k as f64).sin(); // no harmonic of the beat
+        format!("[{}, {}]", k as f64 / 200.0, stroke(k) + scatter)
     };
     let rows = (0..200).map(noisy).collect::<Vec<_>>().join(", ");
-    let noisy = format!("wing.right.motion.phi={{table={{rows_deg=[{rows}], harmonics=3}}}}");
-    let noisy = LoadedCase::find("fruit-fly-tethered", &[noisy]).unwrap();
+    let noisy_rows = |more: &str| {
+        let law = format!("wing.right.motion.phi={{table={{rows_deg=[{rows}]{more}}}}}");
+        LoadedCase::find("fruit-fly-tethered", &[law]).unwrap()
+    };
+    let noisy = noisy_rows(", harmonics=3");
     assert_eq!(noisy.fitted_tables()[0].doubt(), None);
+    // As many harmonics as the samples allow follow that scatter.
+    let all = noisy_rows(", harmonics=80");
+    let doubt = all.fitted_tables()[0].doubt().expect("a doubt");
+    assert!(
+        doubt.contains("of 80 harmonics those beyond number 1 are noise"),
+        "{doubt}"
+    );
+    assert!(all.doubtful_measurements().contains(&doubt));
     let flown = LoadedCase::from_text(
         "again.toml",
         &case.resolved(),

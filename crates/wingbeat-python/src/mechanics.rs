@@ -232,8 +232,8 @@ impl Trim {
     }
 
     /// Mean powers over a wingbeat [W]: aerodynamic, positive inertial, with perfect elastic storage, without
-    /// storage, peak; mass [kg].
-    fn power(&self, py: Python<'_>) -> PyResult<[f64; 6]> {
+    /// storage, peak, damping of elastic wings; mass [kg].
+    fn power(&self, py: Python<'_>) -> PyResult<[f64; 7]> {
         let p = self.analyse(py, power_of_trim)?;
         Ok(powers(&p))
     }
@@ -251,13 +251,14 @@ impl Trim {
 }
 
 /// In the order of `wingbeat.Power`.
-pub fn powers(p: &Power) -> [f64; 6] {
+pub fn powers(p: &Power) -> [f64; 7] {
     [
         p.aerodynamic,
         p.inertial_positive,
         p.perfect_storage,
         p.no_storage,
         p.peak,
+        p.damping,
         p.mass,
     ]
 }

@@ -58,7 +58,7 @@ impl WakeTrim {
     }
 
     /// Powers over the free wingbeat, in the order of `wingbeat.Power`.
-    fn power(&self, py: Python<'_>) -> PyResult<[f64; 6]> {
+    fn power(&self, py: Python<'_>) -> PyResult<[f64; 7]> {
         let trim = self.trim.clone();
         let found = analyse(py, move || power_with_wake(&trim))?;
         let power = found.map_err(|e| raised(py, &e.into()))?;

@@ -35,7 +35,10 @@ def test_agrees_with_the_command_line(trim, program):
     np.testing.assert_array_equal(model.derivatives, told["derivatives_si_by_u_v_w_p_q_r"])
     assert [m.growth_per_s for m in model.floquet_modes] == [m["growth_per_s"] for m in told["floquet_modes"]]
     done = program("power", "fruit-fly-blade", "--steps", 40, "--json")
-    assert trim.power().no_storage_watt == json.loads(done.stdout)["power"]["no_storage"]["watt"]
+    told, power = json.loads(done.stdout)["power"], trim.power()
+    for name in ("aerodynamic", "inertial_positive", "perfect_storage", "no_storage", "peak"):
+        assert getattr(power, f"{name}_watt") == told[name]["watt"]
+    assert power.damping_watt == 0 and power.mass_kg == pytest.approx(told["peak"]["watt"] / told["peak"]["watt_per_kg_body"])
 
 
 def test_agrees_turns_and_bounds_with_the_command_line(blade, program):

@@ -109,6 +109,11 @@ impl Poses {
         (1..=self.wings).contains(&body)
     }
 
+    /// Number of the surface that is the wing of a body; none of other bodies.
+    pub fn wing_of(&self, body: usize) -> Option<usize> {
+        self.is_wing(body).then(|| body - 1)
+    }
+
     /// Position of the origin \[m, N\] and rotation to N of a body.
     pub fn pose(&self, row: &[f64], body: usize) -> (DVec3, DMat3) {
         let q = &row[self.places[body]..][..6];

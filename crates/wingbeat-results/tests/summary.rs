@@ -293,8 +293,28 @@ fn behaves_summaries_tell_of_wings_inside_parts_of_the_body() {
             "are inside the body part `trunk` in 100 % of the beat",
         );
         assert_eq!(says, told, "{:?}", summary.warnings);
-        assert!(!told || summary.verdict >= Verdict::Amber);
+        // Two steps are red for their balances, too.
+        let is_reason = summary.verdict_reason.contains("cannot both be surfaces");
+        assert!(is_reason == told && summary.verdict == Verdict::Red);
     }
+}
+
+/// Wings that pass through each other: their forces mean nothing in a lattice.
+#[test]
+fn behaves_wings_that_cross_make_a_lattice_red() {
+    let set = [
+        "time.beats=0.05",
+        "air.model=vortex_lattice",
+        "air.body=false",
+    ];
+    let summary = flown(&preset("hawkmoth-blade", &set));
+    assert_eq!(summary.verdict, Verdict::Red);
+    let reason = &summary.verdict_reason;
+    assert!(
+        reason.contains("pass through each other in 21 %"),
+        "{reason}"
+    );
+    assert!(says(&summary, "have no meaning, nor have the means"));
 }
 
 /// Feathering against the stroke lifts, with the other sign it pushes down: 1.1 and -0.8 weights.

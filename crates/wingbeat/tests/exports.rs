@@ -5,8 +5,9 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use wingbeat::math::DVec3;
-use wingbeat::results::frames::Mesh;
+use wingbeat::math::{DQuat, DVec3};
+use wingbeat::results::ResultDir;
+use wingbeat::results::frames::{Frame, Mesh};
 
 mod support;
 
@@ -231,6 +232,125 @@ fn exact_one_wake_is_seen_at_a_time_and_it_is_that_of_the_frame() {
     assert!(opaque[opaque.len() - 1] > 100, "{opaque:?}");
     assert_eq!(seen[0], 0, "no wake yet");
     assert!(seen[1..].iter().all(|n| *n == 1), "{seen:?}");
+}
+
+/// Nodes of the wings at the keys of their shapes: places at rest and weighted morph targets, turned and carried as the node of
+/// the wing is, are those of the frames; with it the largest distance and that of the shape at rest, over the length of the wing.
+fn bent(head: &serde_json::Value, binary: &[u8], run: &Path, wing: usize) -> [f64; 2] {
+    let number = |v: &serde_json::Value| v.as_u64().unwrap() as usize;
+    let case = ResultDir::open(run).unwrap().case().unwrap();
+    let report = &case.setup.animal.wing_reports()[wing];
+    let slower = head["extras"]["times_slower"].as_f64().unwrap();
+    let animation = &head["animations"][0];
+    let node = head["nodes"].as_array().unwrap();
+    let node = node.iter().position(|n| n["name"] == report.name).unwrap();
+    let channel = |path: &str| -> [Vec<f32>; 2] {
+        let channels = animation["channels"].as_array().unwrap();
+        let is = |c: &&serde_json::Value| {
+            number(&c["target"]["node"]) == node && c["target"]["path"] == path
+        };
+        let sampler = number(&channels.iter().find(is).unwrap()["sampler"]);
+        ["input", "output"]
+            .map(|k| floats(accessor(head, binary, &animation["samplers"][sampler][k]).1))
+    };
+    let mesh = &head["meshes"][number(&head["nodes"][node]["mesh"])];
+    let primitive = &mesh["primitives"][0];
+    let points = |k: &serde_json::Value| -> Vec<DVec3> {
+        let all = floats(accessor(head, binary, k).1);
+        let all = all.as_chunks::<3>().0.iter();
+        all.map(|p| DVec3::from(p.map(f64::from))).collect()
+    };
+    let rest = points(&primitive["attributes"]["POSITION"]);
+    let targets = primitive["targets"].as_array().unwrap();
+    let targets: Vec<_> = targets.iter().map(|t| points(&t["POSITION"])).collect();
+    let [times, weights] = channel("weights");
+    let [rows, places] = channel("translation");
+    let turns = channel("rotation")[1].clone();
+    let steps = wingbeat::results::frames::steps(run).unwrap();
+    let (mut off, mut unbent) = (0.0_f64, 0.0_f64);
+    for step in steps {
+        let time = (step as f64 * case.setup.time.step * slower) as f32;
+        let nearest = |all: &[f32]| {
+            let near = |t: &f32| (t - time).abs() < 1e-5;
+            all.iter().position(near).unwrap()
+        };
+        let (key, row) = (nearest(&times), nearest(&rows));
+        let weights = &weights[targets.len() * key..][..targets.len()];
+        assert!(weights.iter().all(|w| w.abs() <= 1.0), "{weights:?}");
+        let place = DVec3::from_array([0, 1, 2].map(|k| f64::from(places[3 * row + k])));
+        let turn = DQuat::from_array([0, 1, 2, 3].map(|k| f64::from(turns[4 * row + k])));
+        let frame = Frame::read(run, step).unwrap().surfaces.points;
+        let before = case.setup.animal.wings[..wing].iter();
+        let first: usize = before.map(|w| w.mesh.nodes.len()).sum();
+        for (n, at_rest) in rest.iter().enumerate() {
+            let moved = weights.iter().zip(&targets);
+            let bent = *at_rest + moved.map(|(w, t)| f64::from(*w) * t[n]).sum::<DVec3>();
+            let [x, y, z] = frame[first + n]; // picture axes: y to the left, z up
+            let far = |p: DVec3| (place + turn * p).distance(DVec3::new(x, z, -y));
+            off = off.max(far(bent) / report.length);
+            unbent = unbent.max(far(*at_rest) / report.length);
+        }
+    }
+    [off, unbent]
+}
+
+/// Elastic wings, and wings whose deformation is prescribed, bend in the file as they do in the frames.
+#[test]
+fn agrees_bent_wings_of_the_animation_with_those_of_the_frames() {
+    let scratch = Scratch::new("gltf-bent");
+    for (preset, least) in [("hawkmoth-elastic", 0.1), ("bird-cruise", 0.05)] {
+        let run = scratch.0.join(preset);
+        let set = ["--set=time.beats=1", "--set=output.page=false"];
+        let fly = ["run", preset, "--quiet", "--out", preset];
+        flown(&scratch.0, &[&fly[..], &set].concat());
+        flown(&scratch.0, &["export", preset, "--format", "gltf"]);
+        let (head, binary) = glb(&run.join("flight.glb"));
+        for wing in 0..2 {
+            let [off, unbent] = bent(&head, &binary, &run, wing);
+            println!("{preset}: {off:.1e} of the wing's length, at rest {unbent:.1e}");
+            // What a node may be off, and roundings of single precision.
+            assert!(off < 1.001e-3, "{preset}: {off:e}");
+            assert!(unbent > least, "{preset}: {unbent:e}");
+        }
+        match validator() {
+            Err(problem) => required(&format!("no glTF validator: {problem}")),
+            Ok(folder) => {
+                let mut node = Command::new("node");
+                node.arg(readers().join("validate.js"))
+                    .arg(folder)
+                    .arg(run.join("flight.glb"));
+                let said = works(&mut node).unwrap_or_else(|e| panic!("{e}"));
+                assert!(said.contains("\"hasMorphTargets\":true"), "{said}");
+            }
+        }
+    }
+}
+
+/// Where no frames are written, elastic wings bend as the history tells; rigid ones have no morph targets.
+#[test]
+fn behaves_wings_without_frames_bend_by_the_history() {
+    let scratch = Scratch::new("gltf-rows");
+    for (preset, targets) in [("hawkmoth-elastic", true), ("fruit-fly-blade", false)] {
+        let set = ["--set=time.beats=0.2", "--set=output.frames_every=0"];
+        let set = &set[..if targets { 2 } else { 1 }];
+        let fly = [
+            "run",
+            preset,
+            "--quiet",
+            "--out",
+            preset,
+            "--set=output.page=false",
+        ];
+        flown(&scratch.0, &[&fly[..], set].concat());
+        flown(&scratch.0, &["export", preset, "--format", "gltf"]);
+        let (head, _) = glb(&scratch.0.join(preset).join("flight.glb"));
+        let meshes = head["meshes"].as_array().unwrap();
+        let bends = |m: &serde_json::Value| m["primitives"][0]["targets"].is_array();
+        assert_eq!(
+            meshes.iter().filter(|m| bends(m)).count(),
+            2 * usize::from(targets)
+        );
+    }
 }
 
 #[test]

@@ -145,3 +145,50 @@ fn behaves_a_slip_of_the_finger_is_answered_with_what_was_meant() {
         assert!(problem.contains(meant), "{args:?}: {problem}");
     }
 }
+
+#[test]
+fn behaves_check_tells_the_cost_in_numbers() {
+    let scratch = Scratch::new("reports-cost");
+    let dir = &scratch.0;
+    let cost = |args: &[&str]| -> Value {
+        let text = said(dir, &[&["check", "--json"], args].concat());
+        serde_json::from_str::<Value>(&text).unwrap()["cost"].clone()
+    };
+    let tried = cost(&["rectangular-wing"]);
+    for key in ["time_s", "threads", "trial_steps", "wake_elements_at_end"] {
+        let number = tried[key].as_f64();
+        assert!(number.is_some_and(|x| x > 0.0), "{key}: {tried}");
+    }
+    let large = [
+        "wing.right.mesh.spanwise=100",
+        "wing.right.mesh.chordwise=60",
+    ];
+    let large = large.map(|set| ["--set", set]).concat();
+    let untried = cost(&[&["fruit-fly-hover"], &large[..]].concat());
+    let unknowns = untried["unknowns"].as_f64().unwrap();
+    assert!(unknowns > 4000.0, "{untried}");
+    assert_eq!(untried["matrix_byte"], 8.0 * unknowns * unknowns);
+    let why = untried["not_tried"].as_str().unwrap();
+    assert!(why.contains("--trial"), "{why}");
+}
+
+/// A fly's powers are microwatts, a hawkmoth's milliwatts; as numbers they are watts.
+#[test]
+fn behaves_powers_are_in_the_unit_that_suits_them() {
+    let scratch = Scratch::new("reports-power");
+    for (case, unit, scale) in [
+        ("fruit-fly-blade", "uW", 1e6),
+        ("hawkmoth-blade", "mW", 1e3),
+    ] {
+        let args = ["power", case, "--steps", "40"];
+        let text = said(&scratch.0, &args);
+        assert!(text.contains(&format!("{unit}  W/kg total")), "{text}");
+        let line = text.lines().find(|l| l.contains("no elastic storage"));
+        let words = line.unwrap().split_whitespace().rev();
+        let shown: f64 = words.take(3).last().unwrap().parse().unwrap();
+        let json = said(&scratch.0, &[&args[..], &["--json"]].concat());
+        let value = &serde_json::from_str::<Value>(&json).unwrap()["power"];
+        let watt = value["no_storage"]["watt"].as_f64().unwrap();
+        assert!((shown - scale * watt).abs() < 6e-4, "{shown} {watt}"); // three places
+    }
+}

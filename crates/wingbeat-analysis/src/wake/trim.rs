@@ -14,7 +14,7 @@ use crate::beat::steadied;
 use crate::progress;
 use crate::root::{Map, Search, matrix_of, moved};
 use crate::solution::TrimSolution;
-use crate::steady::{self, Measures, Residuals, Snapshot, TrimProblem};
+use crate::steady::{self, AT_START, Measures, Residuals, Snapshot, TrimProblem, check_symmetric};
 
 /// How the flights are flown.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -155,11 +155,16 @@ impl Flights<'_> {
         let start = self.start();
         let (x, iterations) = search.from(self, start)?;
         let mut found = self.fly(&x)?;
-        let rounding = ROUNDING[usize::from(self.has_orbit)];
+        let rounding = self.rounding();
         found
             .solution
             .conclude(iterations, self.settings.tolerance, rounding)?;
         Ok(found)
+    }
+
+    /// By how much right and left part by rounding at the end \[1\].
+    fn rounding(&self) -> f64 {
+        ROUNDING[usize::from(self.has_orbit)]
     }
 
     /// The point at which the search begins.
@@ -283,7 +288,15 @@ impl Flights<'_> {
 
 impl Map for Flights<'_> {
     fn residual(&mut self, x: &[f64]) -> Result<Vec<f64>, AnalysisError> {
-        self.fly(x).map(|found| found.solution.residual)
+        let found = self.fly(x)?;
+        if self.flights == 1 {
+            check_symmetric(found.solution.aside, AT_START * self.rounding())?;
+        }
+        Ok(found.solution.residual)
+    }
+
+    fn confine(&self, x: &mut [f64]) {
+        self.problem.confine(&mut x[self.residuals.controls()..]);
     }
 
     /// By one-sided differences, over steps beside which the roughness of the map is small.

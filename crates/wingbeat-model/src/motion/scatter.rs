@@ -4,6 +4,7 @@
 //! sharpest that a stroke has, faster for others. Noise has the same amplitude at all of them, so its rates grow eightfold. Where the
 //! highest octave that the samples resolve has clearly more than the one below, and is no small part of the whole, it is noise.
 
+use crate::motion::Fourier;
 use crate::motion::spline::PeriodicSpline;
 use std::f64::consts::TAU;
 
@@ -36,11 +37,27 @@ impl PeriodicSpline {
     /// How its samples scatter; none where they do not, or are too few to know.
     pub fn scatter(&self) -> Option<Scatter> {
         let samples = self.rows().count() - 1;
-        if samples < SAMPLES {
+        Scatter::of(&amplitudes(self, samples), samples)
+    }
+}
+
+impl Fourier {
+    /// How the samples scatter that it was fitted to, by its own harmonics: whether the highest are noise. None where they are not,
+    /// or are too few to know.
+    pub fn scatter(&self, samples: usize) -> Option<Scatter> {
+        let harmonics = self.cos.iter().zip(&self.sin).map(|(c, s)| c.hypot(*s));
+        let amplitude: Vec<f64> = [self.mean.abs()].into_iter().chain(harmonics).collect();
+        Scatter::of(&amplitude, samples)
+    }
+}
+
+impl Scatter {
+    /// By the amplitudes of the harmonics 0, 1, 2, ... \[rad\] of so many samples.
+    fn of(amplitude: &[f64], samples: usize) -> Option<Self> {
+        let highest = amplitude.len() - 1;
+        if highest < SAMPLES / 2 {
             return None;
         }
-        let amplitude = amplitudes(self, samples);
-        let highest = amplitude.len() - 1;
         let rates = |from: usize, to: usize| -> f64 {
             (from + 1..=to)
                 .map(|k| (k as f64 * amplitude[k]).powi(2))
@@ -55,7 +72,7 @@ impl PeriodicSpline {
         let noise = (square / (highest - half) as f64).sqrt();
         let stands_out = |k: &usize| amplitude[*k] > MOTION * noise;
         let harmonics = (1..=half).rev().find(stands_out).unwrap_or(1);
-        Some(Scatter {
+        Some(Self {
             // Of all harmonics of noise, that many times half the mean square.
             deviation: noise * (0.25 * samples as f64).sqrt(),
             samples,
@@ -111,6 +128,30 @@ mod tests {
             assert_eq!((found.samples, found.harmonics), (samples, 3));
             assert!(found.rates > 0.1);
         }
+    }
+
+    /// A series of 40 harmonics fitted to 100 samples follows their noise, one of 20 to samples without noise follows none.
+    #[test]
+    fn exact_harmonics_that_follow_noise_are_found() {
+        let mut random = SplitMix64::new(7);
+        let stroke = |x: f64| 70.0 * (TAU * x).cos() + 6.0 * (3.0 * TAU * x).sin();
+        let mut fitted = |noise: f64, harmonics: usize| {
+            let sample = |k: usize| {
+                let x = k as f64 / 100.0;
+                let scatter = noise * (random.unit() - 0.5) * 12f64.sqrt();
+                (x, (stroke(x) + scatter).to_radians())
+            };
+            let rows: Vec<_> = (0..100).map(sample).collect();
+            let (series, _) = Fourier::fitted("q", &rows, harmonics).expect("a fit");
+            series.scatter(100)
+        };
+        let found = fitted(1.0, 40).expect("noise");
+        let deviation = found.deviation.to_degrees();
+        // Of 20 harmonics, each with two numbers of noise: to one part in nine, here 2 of these.
+        assert!((deviation - 1.0).abs() < 0.22, "{deviation}");
+        assert_eq!(found.harmonics, 3);
+        assert_eq!(fitted(1.0, 8), None);
+        assert_eq!(fitted(0.0, 40), None);
     }
 
     /// Corners, quick turns and steps of rounding are no noise.

@@ -122,6 +122,8 @@ class Power:
     """Of the muscles, if negative power is lost."""
     peak_watt: float
     """Of all wings."""
+    damping_watt: float
+    """What the damping of elastic wings takes; 0 of rigid ones."""
     mass_kg: float
     """Of the animal."""
 

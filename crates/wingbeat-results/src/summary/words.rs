@@ -221,8 +221,9 @@ fn engineering(x: f64, unit: &str) -> String {
     format!("{:>8} {prefix}{unit}", fixed(x / scale, 3))
 }
 
-/// The factor and the letter of the prefix for this magnitude; a blank where there is none.
-fn prefix(x: f64) -> (f64, &'static str) {
+/// The factor and the letter of the prefix for this magnitude, which leaves one to three digits before the point; a blank where there
+/// is none.
+pub fn prefix(x: f64) -> (f64, &'static str) {
     const PREFIXES: [(f64, &str); 6] = [
         (1e3, "k"),
         (1.0, " "),

@@ -8,7 +8,7 @@ use wingbeat::flight::{AirModel, FlightSetup, MotionMode, Simulation};
 use wingbeat::model::ElasticReport;
 use wingbeat::results::fixed::fixed;
 
-use crate::command::expectation;
+use crate::command::expectation::{self, Cost};
 use crate::command::failure::Failure;
 use crate::command::report::{Report, ReportArgs, entry, line};
 use crate::command::terminal::tell;
@@ -55,7 +55,7 @@ fn look(args: &CheckArgs, report: &mut Report) -> Result<(), IoError> {
     programs(report, &case);
     expectation::tell(report, &estimate);
     entry!(report, "cost", "{cost}");
-    report.value("cost", cost);
+    report.value("cost", cost.value());
     tell_fits(report, &fits);
     warn();
     report.value("warnings", estimate.doubts);
@@ -115,18 +115,15 @@ fn programs(report: &mut Report, case: &LoadedCase) {
 }
 
 /// What the first steps cost, flown on trial where that is quick. A check starts no other program.
-fn trial_cost(case: &LoadedCase, trial: bool) -> Result<String, IoError> {
+fn trial_cost(case: &LoadedCase, trial: bool) -> Result<Cost, IoError> {
     let setup = case.unasked();
     if matches!(setup.air, AirModel::External(_)) {
         Simulation::new(setup).map_err(|e| IoError::from(case.refused(&e)))?;
-        return Ok("not tried: a check does not start the external program".into());
+        return Ok(Cost::External);
     }
     let unknowns = expectation::unknowns(&case.setup);
     if !trial && unknowns > expectation::MAX_UNKNOWNS {
-        return Ok(format!(
-            "not tried: {unknowns} unknown circulations take long and {:.1} GB to solve for; `wingbeat check --trial` does",
-            8e-9 * (unknowns as f64).powi(2)
-        ));
+        return Ok(Cost::Unknowns(unknowns));
     }
     let _watch = Watch::new(&format!(
         "first steps on trial, {unknowns} unknown circulations"

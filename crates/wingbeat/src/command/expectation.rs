@@ -1,6 +1,7 @@
 //! What `wingbeat check` says beforehand: the numbers of the flight, what is implausible about them,
 //! and what flying it will cost, from a few steps on trial.
 
+use std::fmt::{self, Display, Formatter};
 use std::time::{Duration, Instant};
 
 use serde_json::{Value, json};
@@ -140,11 +141,89 @@ fn wing(w: &WingEstimate) -> Value {
     })
 }
 
+/// What a flight will cost.
+pub(crate) enum Cost {
+    /// By some steps on trial.
+    Tried {
+        /// Time of the whole flight [s].
+        time: f64,
+        /// Threads that compute.
+        threads: usize,
+        /// Steps on trial.
+        steps: usize,
+        /// Wake rings and particles at the end.
+        wake: f64,
+    },
+    /// Not known: a check starts no other program.
+    External,
+    /// Not known: so many unknown circulations take long.
+    Unknowns(usize),
+}
+
+impl Cost {
+    /// In numbers, units in the names; why there are none.
+    pub fn value(&self) -> Value {
+        match self {
+            Self::Tried {
+                time,
+                threads,
+                steps,
+                wake,
+            } => json!({
+                "time_s": time,
+                "threads": threads,
+                "trial_steps": steps,
+                "wake_elements_at_end": wake.round(),
+            }),
+            Self::External => json!({ "not_tried": self.to_string() }),
+            Self::Unknowns(n) => json!({
+                "not_tried": self.to_string(),
+                "unknowns": n,
+                "matrix_byte": matrix_bytes(*n),
+            }),
+        }
+    }
+}
+
+impl Display for Cost {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Tried {
+                time: seconds,
+                threads,
+                steps,
+                wake,
+            } => {
+                let about = time(*seconds);
+                write!(
+                    f,
+                    "about {about} on {threads} threads, from {steps} steps on trial"
+                )?;
+                match *wake {
+                    0.0 => Ok(()),
+                    wake => write!(f, ", {wake:.0} wake rings and particles at the end"),
+                }
+            }
+            Self::External => f.write_str("not tried: a check does not start the external program"),
+            Self::Unknowns(n) => write!(
+                f,
+                "not tried: {n} unknown circulations take long and {:.1} GB to solve for; `wingbeat check --trial` does",
+                1e-9 * matrix_bytes(*n)
+            ),
+        }
+    }
+}
+
+/// Memory of the matrix of so many unknown circulations [bytes].
+fn matrix_bytes(unknowns: usize) -> f64 {
+    8.0 * (unknowns as f64).powi(2)
+}
+
 /// Seconds that the whole flight will take and the largest wake, from some steps on trial.
 ///
 /// # Errors
 /// A step that fails.
-pub(crate) fn cost(flight: &mut Simulation) -> Result<String, FlightError> {
+pub(crate) fn cost(flight: &mut Simulation) -> Result<Cost, FlightError> {
     let mut pace = Pace::new(flight.setup());
     let begun = Instant::now();
     while !flight.finished() && begun.elapsed() < TRIAL {
@@ -153,15 +232,12 @@ pub(crate) fn cost(flight: &mut Simulation) -> Result<String, FlightError> {
     }
     let steps = flight.state().step;
     let seconds = begun.elapsed().as_secs_f64() + pace.seconds_left(steps);
-    let wake = match pace.largest_wake(steps) {
-        0.0 => String::new(),
-        wake => format!(", {wake:.0} wake rings and particles at the end"),
-    };
-    Ok(format!(
-        "about {} on {} threads, from {steps} steps on trial{wake}",
-        time(seconds),
-        rayon::current_num_threads()
-    ))
+    Ok(Cost::Tried {
+        time: seconds,
+        threads: rayon::current_num_threads(),
+        steps,
+        wake: pace.largest_wake(steps),
+    })
 }
 
 /// A time as people say it.

@@ -1,5 +1,6 @@
 //! The glTF document: its JSON, and where its numbers stand in the binary part.
 
+use std::array::from_fn;
 use std::fs::File;
 use std::io::{Seek as _, SeekFrom, Write as _};
 use std::path::Path;
@@ -7,6 +8,7 @@ use std::path::Path;
 use serde_json::{Value, json};
 use wingbeat_math::DVec3;
 
+use super::basis::Basis;
 use crate::export::source::Source;
 use crate::poses::Poses;
 
@@ -124,8 +126,8 @@ impl Document {
         self.accessor(kind, FLOAT, items.len(), bounds)
     }
 
-    /// The surfaces of one body as one mesh; none without panels.
-    pub fn mesh(&mut self, poses: &Poses, body: usize) -> Option<usize> {
+    /// The surfaces of one body as one mesh; none without panels. Those of a wing that deforms (`basis`) have morph targets.
+    pub fn mesh(&mut self, poses: &Poses, body: usize, basis: Option<&Basis>) -> Option<usize> {
         let (mut points, mut corners) = (vec![], vec![]);
         for s in poses.surfaces.iter().filter(|s| s.body == body) {
             let first = points.len();
@@ -143,10 +145,39 @@ impl Document {
         let normal = self.floats(&normals(&points, &corners), None);
         self.aim(VERTICES);
         let material = if poses.is_wing(body) { WING } else { BODY };
-        self.meshes.push(json!({ "primitives": [{
+        let mut mesh = json!({ "primitives": [{
             "attributes": { "POSITION": position, "NORMAL": normal }, "indices": indices, "material": material,
-        }] }));
+        }] });
+        if let Some(basis) = basis {
+            let targets = basis.targets();
+            let targets: Vec<Value> = targets
+                .map(|t| self.target(&points, &corners, &t))
+                .collect();
+            let names: Vec<String> = (1..=targets.len()).map(|k| format!("shape {k}")).collect();
+            mesh["extras"] = json!({ "targetNames": names, "nodes_within_m": basis.tolerance });
+            mesh["primitives"][0]["targets"] = json!(targets);
+        }
+        self.meshes.push(mesh);
         Some(self.meshes.len() - 1)
+    }
+
+    /// A morph target: displacements of nodes \[m\], and what they change of the normals, to first order.
+    fn target(&mut self, points: &[[f32; 3]], corners: &[u32], displacements: &[DVec3]) -> Value {
+        let moved = |sign: f64| {
+            let all = points.iter().zip(displacements);
+            let place = |(p, d): (&[f32; 3], &DVec3)| from_fn(|k| p[k] + (sign * d[k]) as f32);
+            normals(&all.map(place).collect::<Vec<_>>(), corners)
+        };
+        let both = moved(1.0).into_iter().zip(moved(-1.0));
+        let turned = both.map(|(a, b)| from_fn(|k| 0.5 * (a[k] - b[k])));
+        let turned: Vec<[f32; 3]> = turned.collect();
+        let places = displacements.iter().map(|d| d.to_array().map(|x| x as f32));
+        let places: Vec<[f32; 3]> = places.collect();
+        let position = self.floats(&places, Some(bounds(&places)));
+        self.aim(VERTICES);
+        let normal = self.floats(&turned, None);
+        self.aim(VERTICES);
+        json!({ "POSITION": position, "NORMAL": normal })
     }
 
     /// An animation of a node: `output` at the times `input`, both accessors.

@@ -1,11 +1,15 @@
-//! The moving animal and its wakes as glTF 2.0 in one binary file (.glb): a rigid mesh per body, its way and
-//! turning as an animation, and the wakes of the frames one after the other. Numbers are those of the Khronos specification.
+//! The moving animal and its wakes as glTF 2.0 in one binary file (.glb): a mesh per body, its way and
+//! turning as an animation, shapes of wings that deform as morph targets, and the wakes of the frames one after the other.
+//! Numbers are those of the Khronos specification.
 //!
 //! Viewers show metres and seconds, and an insect as a speck that trembles: a node over all others
 //! magnifies the animal to about the size of a hand, and the time runs slower, one second per wingbeat. Both
 //! factors are powers of ten, or noted in `extras`.
 
+mod basis;
+mod deforming;
 mod document;
+mod shapes;
 mod wake;
 
 use std::io::{Seek as _, SeekFrom, Write as _};
@@ -18,6 +22,7 @@ use super::block::Block;
 use super::source::Source;
 use crate::poses::Poses;
 use crate::rows::Rows;
+use deforming::Deforming;
 use document::{Document, FLOAT, Shown};
 use wake::Wakes;
 use wingbeat_case::IoError;
@@ -42,7 +47,10 @@ pub(super) fn write(source: &Source, path: &Path) -> Result<(), IoError> {
     let names: Vec<&str> = ["body"].into_iter().chain(wings).chain(segments).collect();
     let count = source.row_count()?;
     let mut d = Document::default();
-    let meshes: Vec<_> = (0..poses.bodies()).map(|b| d.mesh(&poses, b)).collect();
+    let mut deforming = Deforming::plan(source, &poses)?;
+    let basis = |body: usize| poses.wing_of(body).and_then(|k| deforming.of(k));
+    let bodies = 0..poses.bodies();
+    let meshes: Vec<_> = bodies.map(|b| d.mesh(&poses, b, basis(b))).collect();
     let start = d.room(count, 4);
     let shown = Shown::of(source);
     let last = Rows::times(&source.history())?.pop().unwrap_or(0.0) * shown.slower;
@@ -57,6 +65,7 @@ pub(super) fn write(source: &Source, path: &Path) -> Result<(), IoError> {
         d.nodes.push(node);
         places.extend(d.channel(body, times, count));
     }
+    deforming.animate(&mut d, &poses, shown.slower);
     let wakes = Wakes::plan(source, &mut d, shown.slower)?;
     let wrote = IoError::write(path);
     let (mut file, binary) = d.begin(&source.case.name, &shown, path).map_err(wrote)?;
@@ -77,6 +86,7 @@ pub(super) fn write(source: &Source, path: &Path) -> Result<(), IoError> {
         block.row(items, &mut column)?;
     }
     block.flush(&mut column)?;
+    deforming.write(source, (&poses, shown.slower), &mut put)?;
     wakes.write(source, put)
 }
 

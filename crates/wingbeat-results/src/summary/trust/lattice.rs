@@ -5,6 +5,7 @@ use wingbeat_air::{
 };
 use wingbeat_flight::{AirOptions, FlightSetup, IntegratorChoice};
 
+use super::motion::NO_MEANING;
 use crate::summary::beats::BeatMeans;
 use crate::summary::numbers::Summary;
 use crate::summary::verdict::Warnings;
@@ -50,9 +51,8 @@ fn left_out(setup: &FlightSetup, lattice: &AirSettings, list: &mut Warnings) {
 
 /// Wings inside of bodies, and motions that the models of edges were not made for.
 fn motion(setup: &FlightSetup, list: &mut Warnings) {
-    const NO_MEANING: &str = "The forces of those instants have no meaning.";
     for inside in setup.wings_inside_parts() {
-        list.limit(format!(
+        list.fault(format!(
             "A wing and a body cannot both be surfaces of the lattice in one place: {inside}. {NO_MEANING}"
         ));
     }

@@ -13,13 +13,13 @@ const IMPLAUSIBLE_LIFT: f64 = 10.0;
 /// Mean lift over weight below which wings push the body down.
 const PUSHES_DOWN: f64 = -0.1;
 
+/// Of surfaces of a lattice that are in one place.
+pub(super) const NO_MEANING: &str = "The forces of those instants have no meaning, nor have the means and motions that they are part of.";
+
 /// Wings that pass through each other, angles that scatter, and a lift that no animal has.
 pub(super) fn warnings(setup: &FlightSetup, summary: &Summary, list: &mut Warnings) {
     for crossing in setup.crossing_wings() {
-        list.limit_first(format!(
-            "The prescribed motion is impossible: {crossing}. {}",
-            meaning(setup)
-        ));
+        impossible(setup, "The prescribed motion", &crossing, list);
     }
     for scatter in setup.scattered_angles() {
         list.limit(format!("Angles that scatter: {scatter}."));
@@ -27,11 +27,14 @@ pub(super) fn warnings(setup: &FlightSetup, summary: &Summary, list: &mut Warnin
     lift(setup, summary, list);
 }
 
-/// What becomes of forces while wings pass through each other.
-fn meaning(setup: &FlightSetup) -> &'static str {
+/// Wings that pass through each other: in a lattice the numbers mean nothing, other air does not feel it.
+fn impossible(setup: &FlightSetup, motion: &str, crossing: &str, list: &mut Warnings) {
+    let found = format!("{motion} is impossible: {crossing}.");
     match &setup.air {
-        AirModel::VortexLattice(_) => "The forces of those instants have no meaning.",
-        _ => "No animal beats so, and the air of this case does not feel it.",
+        AirModel::VortexLattice(_) => list.fault(format!("{found} {NO_MEANING}")),
+        _ => list.limit_first(format!(
+            "{found} No animal beats so, and the air of this case does not feel it."
+        )),
     }
 }
 
@@ -41,11 +44,8 @@ pub(crate) fn flown_crossings(setup: &FlightSetup, found: &[Crossing], list: &mu
         return;
     }
     for crossing in found {
-        list.limit_first(format!(
-            "The motion that was flown is impossible: {}. {}",
-            setup.say_flown_crossing(crossing),
-            meaning(setup)
-        ));
+        let crossing = setup.say_flown_crossing(crossing);
+        impossible(setup, "The motion that was flown", &crossing, list);
     }
 }
 

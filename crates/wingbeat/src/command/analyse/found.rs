@@ -63,6 +63,9 @@ fn verdict(report: &mut Report, t: &TrimSolution) {
     let verdict = match (t.converged, is_within) {
         (true, true) => "trimmed",
         (true, false) => "steady, but NOT within the bounds,",
+        (false, _) if !t.at_bound.is_empty() => {
+            "NOT trimmed: no steady flight within the bounds; the best point found"
+        }
         (false, _) => "NOT trimmed; the best point found",
     };
     line!(

@@ -3,6 +3,7 @@
 use clap::Args;
 use serde_json::{Map, json};
 use wingbeat::analysis::{Power, power_of_trim, power_with_wake};
+use wingbeat::results::summary::prefix;
 
 use super::trimming::{Trimming, trimmed, trimmed_with_wake, watched};
 use crate::command::failure::Failure;
@@ -40,14 +41,6 @@ fn tell(report: &mut Report, p: &Power, muscle: f64) {
         report,
         "\nMean mechanical power over the free wingbeat that was trimmed:"
     );
-    line!(
-        report,
-        "  {:<44}{:>10}{:>12}{:>14}",
-        "",
-        "uW",
-        "W/kg total",
-        "W/kg muscle"
-    );
     let damping = Some(("damping of elastic wings", "damping", p.damping));
     let rows = [
         (
@@ -69,13 +62,24 @@ fn tell(report: &mut Report, p: &Power, muscle: f64) {
         ("peak of all wings", "peak", p.peak),
     ];
     let rows = rows.into_iter().chain(damping.filter(|_| p.damping > 0.0));
+    let rows: Vec<_> = rows.collect();
+    let largest = rows.iter().fold(0.0_f64, |m, row| m.max(row.2.abs()));
+    let (scale, prefix) = prefix(largest);
+    line!(
+        report,
+        "  {:<44}{:>10}{:>12}{:>14}",
+        "",
+        format!("{}W", prefix.trim()),
+        "W/kg total",
+        "W/kg muscle"
+    );
     let mut values = Map::new();
     for (name, key, x) in rows {
         let (body, muscle) = (p.body_specific(x), p.muscle_specific(x, muscle));
         line!(
             report,
             "  {name:<44}{:>10.3}{body:>12.2}{muscle:>14.2}",
-            1e6 * x
+            x / scale
         );
         let value = json!({ "watt": x, "watt_per_kg_body": body, "watt_per_kg_muscle": muscle });
         values.insert(key.to_owned(), value);

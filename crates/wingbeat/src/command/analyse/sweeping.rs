@@ -32,7 +32,8 @@ pub(super) fn run(
     tell(report, &case.name, &found);
     if let Some(file) = figure.filter(|_| !found.flights.is_empty()) {
         let rows: Vec<SpeedRow> = found.flights.iter().map(row).collect();
-        file.write(&swept(&case.name, &rows))?;
+        let lost = found.lost.as_ref().map(|(velocity, _)| velocity.x);
+        file.write(&swept(&case.name, &rows, lost))?;
     }
     match found.lost {
         None => Ok(()),
@@ -48,6 +49,7 @@ fn row(flight: &Swept) -> SpeedRow {
         stroke_amplitude: flight.stroke_amplitude,
         frequency: 1.0 / flight.trim.beat.period(),
         body_pitch: flight.trim.solution.body_pitch,
+        wings_cross: crossing(flight).is_some(),
     }
 }
 
