@@ -8,7 +8,7 @@ use crate::data::find_data;
 use crate::error::Fault;
 use crate::raw::{
     AIR, AirCase, AirModel, Case, CoreCase, Formulation, IntegratorCase, JointCase, JointKind,
-    MotionCase, SchemeCase, TimeCase,
+    Mode, MotionCase, SchemeCase, TimeCase,
 };
 
 /// Steps per wingbeat where the case does not say.
@@ -72,7 +72,7 @@ fn air(case: &mut AirCase) {
     }
 }
 
-/// The quaternion form where joints close loops, the momentum form else; Hamming's method with air,
+/// The quaternion form where joints close loops, and of a held root with free joints, the momentum form else; Hamming's method with air,
 /// order eight without. What moves freely in a wake, as wings on passive hinges do, weighs little beside the air that
 /// moves with it: backward differences, which bear that, and the vibrations of elastic wings on such joints, too. Elastic
 /// wings remember their shape, as air remembers its wakes.
@@ -80,12 +80,13 @@ fn dynamics(case: &mut Case) {
     let children: Vec<&str> = case.joint.values().map(|j| j.child.as_str()).collect();
     let again = |k: usize| children[..k].contains(&children[k]);
     let loops = (0..children.len()).any(again);
-    case.dynamics.formulation.decide(match loops {
+    let is_free = |j: &JointCase| !matches!(j.kind, JointKind::Weld | JointKind::PointOnLine);
+    let has_free = case.joint.values().any(is_free);
+    let is_held = case.flight.mode == Mode::Tethered;
+    (case.dynamics.formulation).decide(match loops || (is_held && has_free) {
         true => Formulation::Quaternion,
         false => Formulation::Momentum,
     });
-    let is_free = |j: &JointCase| !matches!(j.kind, JointKind::Weld | JointKind::PointOnLine);
-    let has_free = case.joint.values().any(is_free);
     let bends = case.wing.values().any(|w| w.structure.is_some());
     case.dynamics.integrator.decide(match case.air.model {
         AirModel::None if !bends => IntegratorCase::OrderEight,

@@ -3,6 +3,7 @@
 mod absurd;
 mod defaults;
 mod differences;
+mod held;
 mod hinged;
 mod idle;
 mod insects;

@@ -108,6 +108,35 @@ fn refuses_springs_past_half_a_turn_where_turns_are_not_counted() {
     }
 }
 
+/// The rotation vector of a ball joint goes over into the opposite one at half a turn, and moments of springs with it.
+#[test]
+fn refuses_springs_of_spherical_joints_past_half_a_turn() {
+    let ball = |acts: &str| {
+        format!(
+            "joint.h={{ child = \"right\", kind = \"spherical\", start_deg_s = [4000], element = [{{ {acts} }}] }}"
+        )
+    };
+    let spring = ball("stiffness_newton_m_per_rad = 1e-6");
+    for mode in ["flight.mode=free", "flight.mode=tethered"] {
+        let error = flown(&[&spring, mode]).map(|_| ()).unwrap_err();
+        let time = match &error {
+            FlightError::TurnedPast { joint, time } if joint == "h" => *time,
+            _ => panic!("{error}"),
+        };
+        // Half a turn at 4000 deg/s, which the spring hardly slows down.
+        assert!((0.045..0.047).contains(&time), "{time}");
+    }
+    // A damper asks for no angle.
+    flown(&[&ball("damping_newton_m_s_per_rad = 1e-12")]).unwrap();
+    let far = "joint.h={ child = \"right\", kind = \"spherical\", start_deg = [0, 200, 0] }";
+    let error = LoadedCase::from_text("vane", VANE, Path::new(""), &[far.to_owned()]);
+    let text = error.map(|_| ()).unwrap_err().to_string();
+    assert!(
+        text.contains("joint.h.start_deg") && text.contains("160"),
+        "{text}"
+    );
+}
+
 /// A body that only yaws, beyond half a turn and back, is said to yaw: the other triple of Euler angles, half a turn of pitch and
 /// of roll off, is the same attitude and jumps there.
 #[test]

@@ -271,6 +271,9 @@ impl FlightSetup {
     pub fn root_at_start(&self) -> BodyMotion {
         match &self.mode {
             MotionMode::Tethered(motion) => root_motion(motion, 0.0).motion,
+            MotionMode::Free(start) if start.held_steps > 0 => {
+                root_motion(&start.hold(), 0.0).motion
+            }
             MotionMode::Free(start) if start.held_motion.is_some() => start.released(0.0),
             MotionMode::Free(start) => BodyMotion {
                 p: start.position,

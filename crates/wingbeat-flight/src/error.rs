@@ -106,7 +106,7 @@ pub enum FlightError {
     },
     /// A joint has turned farther than what acts along its angle can know.
     #[error(
-        "t = {time:.6e} s: joint `{joint}` has turned by more than half a turn, and its spring, stop or follower knows its angle within half a turn here: only free flight by dynamics.formulation = \"momentum\" counts turns, not that of a held root or by \"quaternion\" (joints that close loops); limit it by a stop, or make its spring stiffer"
+        "t = {time:.6e} s: joint `{joint}` has turned by more than half a turn, and its spring, stop or follower knows its angle within half a turn here: free flight by dynamics.formulation = \"momentum\" counts turns of revolute and universal joints, not that of a held root or by \"quaternion\" (joints that close loops); turns of spherical joints are counted nowhere; limit it by a stop, or make its spring stiffer"
     )]
     TurnedPast {
         /// Time \[s\].

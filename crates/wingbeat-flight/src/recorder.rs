@@ -205,6 +205,7 @@ impl Sources<'_> {
             return Ok(());
         }
         mechanism.coordinates(time, &self.scratch.motions, &mut r.joints);
+        turns::check_spherical(mechanism, time, &r.joints, &ledger.joints)?;
         turns::count(mechanism, &mut r.joints, &mut ledger.joints);
         match core.counts_turns() {
             true => Ok(()),

@@ -42,6 +42,38 @@ pub fn check(mechanism: &Mechanism, time: f64, joints: &[[f64; 2]]) -> Result<()
     }
 }
 
+/// An error if a spherical joint that has a spring, stop or follower has turned past half a turn since the angles `last` recorded:
+/// its rotation vector goes over into the opposite one there, and what acts along it with it.
+///
+/// # Errors
+/// [`FlightError::TurnedPast`].
+pub fn check_spherical(
+    mechanism: &Mechanism,
+    time: f64,
+    joints: &[[f64; 2]],
+    last: &[f64],
+) -> Result<(), FlightError> {
+    let mut from = 0;
+    for joint in mechanism.joints() {
+        let own = from..from + joint.model.kind.directions();
+        from = own.end;
+        let mut laws = joint.model.elements.iter().map(|e| &e.law);
+        if joint.model.kind != JointType::Spherical || !laws.any(knows_angle) {
+            continue;
+        }
+        let (Some(now), Some(before)) = (joints.get(own.clone()), last.get(own)) else {
+            continue;
+        };
+        let both = now.iter().zip(before);
+        let moved = both.map(|([q, _], b)| (q - b).powi(2)).sum::<f64>().sqrt();
+        if moved > PI {
+            let joint = joint.name.clone();
+            return Err(FlightError::TurnedPast { time, joint });
+        }
+    }
+    Ok(())
+}
+
 /// Joints with the numbers of their free directions, in the order of [`Mechanism::coordinates`].
 fn directions(mechanism: &Mechanism) -> impl Iterator<Item = (&Joint, usize)> {
     let joints = mechanism.joints().iter();

@@ -139,9 +139,9 @@ impl Summary {
 /// over: far above its round-off.
 const POTENTIAL_FLOOR: f64 = 1e-6;
 
-/// What passive joints lose or gain beside their springs and dampers; 0 where there are none.
+/// What the motion along free joints loses or gains beside what acts on it; 0 where there are none.
 fn joint_residual(s: &EachStep) -> f64 {
-    match s.passive_work.range() > 0.0 {
+    match s.has_free_joints {
         true => ratio(s.driven.most, energy_scale(s)),
         false => 0.0,
     }

@@ -57,3 +57,34 @@ fn exact_energy_that_a_passive_hinge_gains() {
         assert!(summary.energy_residual_relative < 1e-12);
     }
 }
+
+/// The same of a spring between points, whose work is that of a load: a body that slides on it.
+#[test]
+fn behaves_energy_that_a_spring_between_points_gains_is_told() {
+    let text = r#"
+        format = 1
+        name = "slide"
+        gravity_m_s2 = [0, 0, 0]
+        time = { step_s = 1e-3, steps = 600 }
+        flight.mode = "tethered"
+        air.model = "none"
+        dynamics.integrator = "bdf"
+        body = { mass_kg = 1.0, inertia_about_centre_kg_m2 = [1, 1, 1, 0, 0, 0] }
+        segment.bob = { mass_kg = 0.1, centre_m = [0, 0, 0], inertia_about_centre_kg_m2 = [1e-5, 1e-5, 1e-5, 0, 0, 0] }
+        joint.slide = { child = "bob", kind = "prismatic", axis = [1, 0, 0], at_m = [0, 0, 0], start_m = 0.01 }
+        spring.s = { between = ["body", "bob"], at_m = [[-0.1, 0, 0], [0, 0, 0]], rest_m = 0.1, stiffness_newton_per_m = 9000.0 }
+    "#;
+    let case = LoadedCase::from_text("slide", text, std::path::Path::new(""), &[]).unwrap();
+    let mut flight = Simulation::new(case.setup.clone()).unwrap();
+    let mut records = vec![flight.record().clone()];
+    while !flight.finished() {
+        records.push(flight.step().unwrap().clone());
+    }
+    // By backward differences of order four, 0.3 rad a step.
+    let places = records.iter().map(|r| r.joints[0][0].abs());
+    let largest = places.fold(0.0, f64::max);
+    assert!(largest > 0.011, "{largest}");
+    let summary = Summary::of(&case.setup, &records, &Outcome::Finished);
+    assert_eq!(summary.verdict, Verdict::Red, "{:?}", summary.warnings);
+    assert!(summary.joint_residual_relative > 0.1);
+}

@@ -59,6 +59,15 @@ pub(crate) fn check(case: &Case, setup: &FlightSetup, source: &CaseSource) -> Bu
         let why = "with flight.mode = \"tethered\": all motion is prescribed";
         return Err(idle("dynamics.formulation", why));
     }
+    let is_quaternion = case.dynamics.formulation.value() == Formulation::Quaternion;
+    if case.flight.mode == Mode::Tethered && has_joints && !is_quaternion {
+        return Err(Fault::new(
+            "dynamics.formulation",
+            "a held body with free joints is integrated in the quaternion form, whatever this says",
+            "\"quaternion\"",
+            "remove it, or set it to \"quaternion\"",
+        ));
+    }
     Ok(())
 }
 

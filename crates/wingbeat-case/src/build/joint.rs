@@ -311,6 +311,19 @@ fn start(path: &str, joint: &JointCase) -> Built<[Vec<f64>; 2]> {
             ));
         }
     }
+    let turn = starts[0].iter().map(|a| a * a).sum::<f64>().sqrt();
+    if joint.kind == JointKind::Spherical && turn > std::f64::consts::PI {
+        return Err(Fault::new(
+            format!("{path}.start_deg"),
+            format!(
+                "a turn by {:.6} degrees, which is the same as one by {:.6} the other way",
+                turn.to_degrees(),
+                360.0 - turn.to_degrees()
+            ),
+            "rotation vectors up to 180 degrees long",
+            "give the shorter turn",
+        ));
+    }
     Ok(starts)
 }
 

@@ -163,7 +163,7 @@ pub struct AngleOscillation {
 #[serde(deny_unknown_fields, default)]
 pub struct DynamicsCase {
     /// Which equations are integrated. Default: `momentum` where joints make a tree, `quaternion`
-    /// where they close loops.
+    /// where they close loops or a held body has free joints, which is always integrated so.
     ///
     /// Change it to `euler` for the equations and multipliers of the paper.
     #[serde(skip_serializing_if = "Open::is_open")]

@@ -53,7 +53,8 @@ pub(crate) struct EachStep {
     pub(super) deformation_work: Extent,
     pub(super) applied_work: Extent,
     pub(super) energy_residual: Extent,
-    pub(super) passive_work: Extent,
+    /// Whether joints leave something free.
+    pub(super) has_free_joints: bool,
     pub(super) driven: DrivenWork,
     pub(super) momentum: Extent,
     pub(super) momentum_residual: Extent,
@@ -117,7 +118,7 @@ impl EachStep {
         self.deformation_work.take(r.deformation_work);
         self.applied_work.take(r.applied_work);
         self.energy_residual.take(r.energy_residual);
-        self.passive_work.take(r.passive_work);
+        self.has_free_joints |= !r.joints.is_empty();
         self.driven.take(r);
         self.momentum.take(r.momentum.length());
         self.momentum_residual.take(r.momentum_residual.length());

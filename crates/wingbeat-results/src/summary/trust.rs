@@ -230,7 +230,7 @@ fn balances(setup: &FlightSetup, summary: &Summary, list: &mut Warnings) {
 fn passive_joints(summary: &Summary, list: &mut Warnings) {
     let residual = summary.joint_residual_relative;
     let text = format!(
-        "Passive joints gain or lose {:.1} % of the energy in play beside what their springs, dampers and stops do: the steps do not resolve how they vibrate; take smaller ones.",
+        "Free joints gain or lose {:.1} % of the energy in play beside what acts on them: the steps do not resolve how they vibrate; take smaller ones.",
         100.0 * residual
     );
     match residual {

@@ -1,0 +1,82 @@
+//! Bodies that are held, for a while or all along, with joints that move freely.
+
+use std::path::Path;
+
+use wingbeat_case::LoadedCase;
+use wingbeat_flight::{Record, Simulation};
+
+/// A body with a tail on a spring, which swings under its weight.
+const TAIL: &str = "format = 1
+name = \"tail\"
+[time]
+steps_per_beat = 60
+beats = 1.2
+[motion]
+frequency_hz = 10.0
+[flight]
+held_beats = 1.0
+[air]
+model = \"none\"
+[body]
+mass_kg = 2.0
+inertia_about_centre_kg_m2 = [0.01, 0.015, 0.02, 0, 0, 0]
+[segment.tail]
+mass_kg = 0.3
+centre_m = [-0.3, 0, 0.02]
+inertia_about_centre_kg_m2 = [1e-3, 2e-3, 2e-3, 0, 0, 0]
+[joint.hinge]
+child = \"tail\"
+at_m = [-0.1, 0, 0]
+kind = \"revolute\"
+axis = [0, 1, 0]
+[[joint.hinge.element]]
+stiffness_newton_m_per_rad = 1.0
+";
+
+fn load(set: &[&str]) -> Result<LoadedCase, String> {
+    let set: Vec<String> = set.iter().map(|&s| s.to_owned()).collect();
+    let case = LoadedCase::from_text("tail", TAIL, Path::new(""), &set);
+    case.map_err(|e| e.to_string())
+}
+
+fn flown(set: &[&str]) -> Vec<Record> {
+    let case = load(set).unwrap_or_else(|e| panic!("{e}"));
+    let mut flight = Simulation::new(case.setup).unwrap();
+    let mut records = vec![flight.record().clone()];
+    while !flight.finished() {
+        records.push(flight.step().unwrap().clone());
+    }
+    records
+}
+
+/// The angular velocity of the start is that of the release: until then a held body does not turn, and its joints move as without it.
+#[test]
+fn exact_held_body_stands_still_until_its_release() {
+    let still = flown(&[]);
+    for form in ["momentum", "quaternion"] {
+        let form = format!("dynamics.formulation={form}");
+        let turning = flown(&[&form, "flight.angular_velocity_deg_s=[0,200,0]"]);
+        for (a, b) in still.iter().zip(&turning).take(60) {
+            assert!(b.root_angular_velocity.length() < 1e-12);
+            assert!((a.joints[0][0] - b.joints[0][0]).abs() < 1e-12);
+        }
+        let released = turning[60].root_angular_velocity.y.to_degrees();
+        assert!((released - 200.0).abs() < 1e-9, "{released}");
+    }
+    assert!(still[59].joints[0][0] > 0.1, "{:?}", still[59].joints);
+}
+
+#[test]
+fn refuses_forms_that_no_held_body_with_free_joints_is_integrated_in() {
+    for form in ["momentum", "euler"] {
+        let form = format!("dynamics.formulation={form}");
+        let text = load(&["flight={mode=\"tethered\"}", &form])
+            .map(|_| ())
+            .unwrap_err();
+        assert!(
+            text.contains("dynamics.formulation") && text.contains("quaternion"),
+            "{text}"
+        );
+    }
+    load(&["flight={mode=\"tethered\"}"]).unwrap();
+}
