@@ -4,6 +4,7 @@
 //! it; predict; correct bodies and air together until they agree; accept both; record.
 
 mod fits;
+mod fly;
 mod release;
 mod start;
 mod state;
