@@ -51,7 +51,7 @@ pub(super) fn plan(args: &PlanArgs) -> Result<(), Failure> {
         .map(|path| NewFile::claim(path, args.overwrite))
         .transpose()?;
     let campaign = Campaign::read(&args.file)?;
-    let range = args.part.range(campaign.plan.points())?;
+    let range = args.part.range(campaign.plan().points())?;
     let Some(file) = file else {
         let mut out = BufWriter::new(std::io::stdout().lock());
         let written = merge::plan(&campaign, range, &mut out).and_then(|()| out.flush());
@@ -98,7 +98,7 @@ fn tables(campaign: &Campaign, store: &Store, partial: bool) -> Result<(), Failu
     if missing > 0 && !partial {
         return Err(Failure::Option(format!(
             "{missing} of {} points have no result yet; `wingbeat campaign run {}` flies them, --partial merges what there is",
-            campaign.plan.points(),
+            campaign.plan().points(),
             operand(&campaign.path).display()
         )));
     }
