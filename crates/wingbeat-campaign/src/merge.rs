@@ -7,7 +7,7 @@ use std::path::PathBuf;
 
 use wingbeat_case::IoError;
 use wingbeat_results::export::parquet::{Cell, Cells, ParquetWriter};
-use wingbeat_results::file::NewFile;
+use wingbeat_results::file::{Existing, NewFile};
 use wingbeat_results::manifest::hexadecimal;
 use wingbeat_results::summary::Verdict;
 
@@ -63,7 +63,7 @@ fn io(e: csv::Error) -> std::io::Error {
 /// A result that cannot be read; a file that cannot be written.
 pub fn merge(campaign: &Campaign, store: &Store) -> Result<Vec<PathBuf>, IoError> {
     let rows: Vec<Row> = rows(campaign, store).collect::<Result<_, _>>()?;
-    let place = |name: &str| NewFile::claim_own(&store.path(name), true);
+    let place = |name: &str| NewFile::claim_own(&store.path(name), Existing::Replaced);
     place(FILES[0])?.write(&points_csv(campaign, &rows)?)?;
     place(FILES[1])?.make(|part| parquet(campaign, &rows, part).map_err(IoError::write(part)))?;
     place(FILES[2])?

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use serde_json::{Value as Json, json};
 use wingbeat_case::IoError;
 use wingbeat_draw::points;
-use wingbeat_results::file::NewFile;
+use wingbeat_results::file::{Existing, NewFile};
 use wingbeat_results::summary::Verdict;
 
 use crate::campaign::Campaign;
@@ -31,7 +31,7 @@ pub fn write(campaign: &Campaign, store: &Store) -> Result<PathBuf, IoError> {
         .collect::<Result<_, _>>()?;
     let path = store.path(FILE);
     let page = points::page(campaign.name(), &data(campaign, store, &shown, stride));
-    NewFile::claim_own(&path, true)?.write(page.as_bytes())?;
+    NewFile::claim_own(&path, Existing::Replaced)?.write(page.as_bytes())?;
     Ok(path)
 }
 

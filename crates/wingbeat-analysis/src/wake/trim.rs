@@ -193,7 +193,7 @@ impl Flights<'_> {
         let (period, angles) = (period(&setup), [solution.body_pitch, solution.body_roll]);
         let setup = self.timed(setup, period, self.start_at(x, angles));
         let (ends, past, roots) = self.beat(&setup)?;
-        (solution.residual, solution.aside) = self.residuals_between(&setup, period, &ends);
+        (solution.residual, solution.lateral) = self.residuals_between(&setup, period, &ends);
         self.best = self.best.min(solution.error());
         Ok(WakeTrim {
             solution,

@@ -7,7 +7,7 @@ use clap::Args;
 use wingbeat::campaign::merge;
 use wingbeat::campaign::{Campaign, Status, Store};
 use wingbeat::case::IoError;
-use wingbeat::results::file::NewFile;
+use wingbeat::results::file::{Existing, NewFile};
 
 use super::args::{Part, Place, operand};
 use crate::command::failure::{FAILED, Failure};
@@ -48,7 +48,7 @@ pub(super) struct MergeArgs {
 /// `wingbeat campaign plan`.
 pub(super) fn plan(args: &PlanArgs) -> Result<(), Failure> {
     let file = (args.out.as_ref())
-        .map(|path| NewFile::claim(path, args.overwrite))
+        .map(|path| NewFile::claim(path, Existing::kept_unless(args.overwrite)))
         .transpose()?;
     let campaign = Campaign::read(&args.file)?;
     let range = args.part.range(campaign.plan().points())?;
