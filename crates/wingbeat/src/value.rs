@@ -7,7 +7,7 @@ use wingbeat_analysis::{Trim, TrimProblem};
 use wingbeat_case::{IoError, LoadedCase};
 use wingbeat_draw::draw_run;
 use wingbeat_flight::{
-    AirModel, Feedback, FlightSetup, MotionMode, Record, Simulation, StartState, faster,
+    AirModel, Feedback, FlightSetup, MotionMode, Record, Simulation, StartState, TimeGrid, faster,
 };
 use wingbeat_math::DVec3;
 use wingbeat_model::{Animal, Start};
@@ -108,8 +108,10 @@ impl Flight {
 
     /// Steps per wingbeat; of a second, for motions without a beat.
     fn steps_per_beat(&self) -> f64 {
-        let time = &self.setup.time;
-        (time.period.unwrap_or(1.0) / time.step).round()
+        let time = self.setup.time;
+        let period = Some(time.period.unwrap_or(1.0));
+        let steps = TimeGrid { period, ..time }.steps_per_beat();
+        steps.unwrap_or(0) as f64
     }
 
     /// All wings beat with this frequency [Hz], and what drives joints becomes faster as they do; steps per beat, number of
