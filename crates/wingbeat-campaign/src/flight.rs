@@ -144,7 +144,10 @@ fn fly(mut flight: RecordedFlight, watch: Watch) -> Result<(), Halt> {
     });
     match flown {
         Ok(_) if is_stopped => Err(Halt::Stopped),
-        Ok(outcome) => Ok(drop(flight.finish(outcome, draw_run)?)),
+        Ok(outcome) => {
+            flight.finish(outcome, draw_run)?;
+            Ok(())
+        }
         Err(Halt::Diverged(why)) => {
             let _ = flight.finish(Outcome::Failed(why.clone()), draw_run); // the reason counts
             Err(Halt::Diverged(why))
