@@ -97,7 +97,7 @@ impl ClosedLoop<'_> {
         let share = self.timing.share();
         for (look, plant) in self.regulator.plants().iter().enumerate() {
             let d = Departure {
-                beat: look,
+                look,
                 position: DVec3::from_slice(&x),
                 state: Perturbation::from_array(std::array::from_fn(|k| x[3 + k])),
             };

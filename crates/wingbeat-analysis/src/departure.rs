@@ -19,8 +19,8 @@ pub type Controls = [f64; CONTROLS];
 /// The departure from the reference flight at the start of a wingbeat.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Departure {
-    /// Number of the look: that of the beat where there is one look in each.
-    pub beat: usize,
+    /// Number of the look, from the release on ([`Sensed::look`]).
+    pub look: usize,
     /// Mass centre relative to where the reference flight would be, level frame [m].
     pub position: DVec3,
     /// Velocity, angular velocity and tilt at this instant, less those of the reference flight.
@@ -32,7 +32,7 @@ impl Departure {
     pub fn less(&self, other: &Self) -> Self {
         let (state, other_state) = (self.state.to_array(), other.state.to_array());
         Self {
-            beat: self.beat,
+            look: self.look,
             position: self.position - other.position,
             state: Perturbation::from_array(std::array::from_fn(|i| state[i] - other_state[i])),
         }
@@ -91,7 +91,7 @@ impl Reference {
         let state = state.to_array();
         let way = sensed.centre - origin - sensed.time * self.velocity - aim.position;
         Departure {
-            beat: sensed.look,
+            look: sensed.look,
             position: level.to_n.transpose() * way,
             state: Perturbation::from_array(std::array::from_fn(|i| seen[i] - state[i])),
         }

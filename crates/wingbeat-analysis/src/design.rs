@@ -153,8 +153,8 @@ impl Design {
 /// The error of a trim whose flight parts right from left, as who lays feedback out has to know it.
 fn symmetric(e: AnalysisError) -> AnalysisError {
     match e {
-        AnalysisError::Asymmetric { aside, .. } => AnalysisError::Asymmetric {
-            aside,
+        AnalysisError::Asymmetric { lateral, .. } => AnalysisError::Asymmetric {
+            lateral,
             remedy: "feedback is laid out for symmetric flight: make right and left wings alike (no [wing.left] of its own, no motion.difference), and let the wind blow along the plane of symmetry (air.stream_m_s without a part along n2); `control.controller = \"external\"` steers any flight",
         },
         e => e,

@@ -30,11 +30,11 @@ pub enum AnalysisError {
     },
     /// Right and left part where only the plane of symmetry was asked.
     #[error(
-        "this flight parts right from left: the largest of its lateral forces, moments, turns and drifts in a wingbeat is {aside:.1e} (of weight, weight times wing length, radian, wing length): {remedy}"
+        "this flight parts right from left: the largest of its lateral forces, moments, turns and drifts in a wingbeat is {lateral:.1e} (of weight, weight times wing length, radian, wing length): {remedy}"
     )]
     Asymmetric {
         /// The largest of them \[1\].
-        aside: f64,
+        lateral: f64,
         /// What to do instead.
         remedy: &'static str,
     },

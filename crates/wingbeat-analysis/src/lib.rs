@@ -7,7 +7,8 @@
 //! periodic orbit from the [`monodromy()`] matrix; [`ModeSet`] names what comes out; [`control_derivatives`]
 //! are the controls; [`power()`] is what it takes; [`control`] holds a flyer on its orbit by feedback; an [`episode`] is
 //! steered from outside, for who learns; [`wing_modes()`] are the vibrations of elastic wings, [`flutter`] asks when they grow;
-//! [`estimate`] says before a flight what it will be like.
+//! [`estimate`] says before a flight what it will be like, [`cost`] how long it takes; an [`ensemble`] is the same flight many
+//! times over.
 //!
 //! | symbol | name in code | meaning | unit |
 //! |---|---|---|---|
@@ -30,11 +31,13 @@
 mod beat;
 mod closed_loop;
 pub mod control;
+pub mod cost;
 mod departure;
 mod derivatives;
 mod design;
 mod disturbance;
 mod eigen;
+pub mod ensemble;
 pub mod episode;
 mod error;
 pub mod flutter;

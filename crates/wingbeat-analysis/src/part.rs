@@ -108,7 +108,7 @@ impl Orbit {
             let way = DVec3::from_slice(&y) - DVec3::from_slice(&trim.state) - time * velocity;
             let state = seen.to_array();
             orbit.points.push(Departure {
-                beat: 0,
+                look: 0,
                 position: level.to_n.transpose() * way,
                 state: Perturbation::from_array(std::array::from_fn(|i| state[i] - start[i])),
             });

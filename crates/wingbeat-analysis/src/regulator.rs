@@ -165,10 +165,10 @@ impl Regulator {
         let Some(observer) = &self.observer else {
             return *seen;
         };
-        let x = observer.estimate(seen.beat, &states(seen));
+        let x = observer.estimate(seen.look, &states(seen));
         self.joints.copy_from_slice(&x[STATES..]);
         Departure {
-            beat: seen.beat,
+            look: seen.look,
             position: DVec3::from_slice(&x),
             state: Perturbation::from_array(std::array::from_fn(|k| x[3 + k])),
         }
@@ -186,7 +186,7 @@ impl Regulator {
         z.extend(&self.sums);
         z.extend(self.commands.iter().flatten());
         let n = z.len();
-        let gain = &self.gains[departure.beat % self.gains.len()];
+        let gain = &self.gains[departure.look % self.gains.len()];
         std::array::from_fn(|i| -(0..n).map(|j| gain[i * n + j] * z[j]).sum::<f64>())
     }
 
@@ -206,7 +206,7 @@ impl Regulator {
             self.commands[0] = std::array::from_fn(|c| now[c] + self.share * (due[c] - now[c]));
         }
         let (x, next) = (self.states(departure), &self.commands[0]);
-        let plant = &self.plants[departure.beat % self.plants.len()];
+        let plant = &self.plants[departure.look % self.plants.len()];
         if let Some(observer) = &mut self.observer {
             observer.advance(plant, &x, &now, next);
         } else if plant.joints > 0 {

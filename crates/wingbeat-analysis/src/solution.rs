@@ -17,7 +17,7 @@ pub struct TrimSolution {
     /// over its natural size.
     pub residual: Vec<f64>,
     /// Largest lateral residual where only those of the plane of symmetry are asked, else 0 \[1\].
-    pub aside: f64,
+    pub lateral: f64,
     /// Steps of Newton's method made, in air with memory of a quasi-Newton method.
     pub iterations: usize,
     /// What was chosen, and what was given.
@@ -53,7 +53,7 @@ impl TrimSolution {
         let point = Self {
             converged: false,
             residual: vec![],
-            aside: 0.0,
+            lateral: 0.0,
             iterations: 0,
             unknowns,
             values,
@@ -81,7 +81,7 @@ impl TrimSolution {
         self.iterations = iterations;
         self.converged = self.error() <= tolerance;
         match self.converged {
-            true => check_symmetric(self.aside, rounding),
+            true => check_symmetric(self.lateral, rounding),
             false => Ok(()), // elsewhere rounding grows with the numbers
         }
     }

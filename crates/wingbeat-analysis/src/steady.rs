@@ -274,8 +274,8 @@ impl Residuals {
         match self {
             Self::All => (all, 0.0),
             Self::Symmetric => {
-                let aside = (0..12).filter(|k| !SYMMETRIC.contains(k)).map(|k| all[k]);
-                let largest = aside.fold(0.0, |m: f64, r| m.max(r.abs()));
+                let lateral = (0..12).filter(|k| !SYMMETRIC.contains(k)).map(|k| all[k]);
+                let largest = lateral.fold(0.0, |m: f64, r| m.max(r.abs()));
                 (SYMMETRIC.map(|k| all[k]).to_vec(), largest)
             }
         }
@@ -286,11 +286,11 @@ impl Residuals {
 pub(crate) const AT_START: f64 = 10.0;
 
 /// An error if right and left part by more than `rounding` where only the plane of symmetry was asked.
-pub(crate) fn check_symmetric(aside: f64, rounding: f64) -> Result<(), AnalysisError> {
-    match aside <= rounding {
+pub(crate) fn check_symmetric(lateral: f64, rounding: f64) -> Result<(), AnalysisError> {
+    match lateral <= rounding {
         true => Ok(()),
         false => Err(AnalysisError::Asymmetric {
-            aside,
+            lateral,
             remedy: "name six unknowns, three of them lateral, e.g. body_pitch stroke_amplitude stroke_offset body_roll stroke_amplitude_difference stroke_plane_difference; or make right and left wings alike and let the wind blow along the plane of symmetry",
         }),
     }
@@ -379,9 +379,9 @@ pub(crate) fn check_determined(
 
 /// An error if what surrounds the flight does not look the same from all headings.
 fn check_turn(setup: &FlightSetup) -> Result<(), AnalysisError> {
-    let aside = |v: DVec3| v.x != 0.0 || v.y != 0.0;
+    let horizontal = |v: DVec3| v.x != 0.0 || v.y != 0.0;
     let stream = setup.air.stream();
-    if aside(setup.gravity) || stream.is_some_and(aside) {
+    if horizontal(setup.gravity) || stream.is_some_and(horizontal) {
         return Err(AnalysisError::not_covered(
             "a steady turn is about the vertical, and gravity is not along n3 or the air streams sideways",
             "leave air.stream_m_s out: velocities are relative to the air then",

@@ -167,7 +167,7 @@ impl Controller for Steering {
         let orbit = &self.orbit[sensed.look % self.orbit.len()];
         let seen = reference.departure_on(&aim, &sensed, origin).less(orbit);
         let d = self.law.estimated(&seen);
-        if d.beat.is_multiple_of(self.every) {
+        if d.look.is_multiple_of(self.every) {
             self.command = self.limits.applied(self.law.controls(&d));
         }
         let limited = self.limits.reached(&self.command);
@@ -283,11 +283,12 @@ impl<'a> SteeredBeats<'a> {
 
     /// What the flight departs by from the trimmed one at the start of this beat.
     pub fn departure(&self) -> Departure {
-        let seen = self.reference.departure(&self.sensed, DVec3::ZERO);
-        Departure {
-            beat: seen.beat / self.parts(),
-            ..seen
-        }
+        self.reference.departure(&self.sensed, DVec3::ZERO)
+    }
+
+    /// Wingbeats that were flown.
+    pub fn beats(&self) -> usize {
+        self.sensed.look / self.parts()
     }
 
     /// Looks in a wingbeat.

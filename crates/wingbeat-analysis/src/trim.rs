@@ -249,7 +249,7 @@ fn evaluate(setup: &FlightSetup, problem: &TrimProblem, x: &[f64]) -> Result<Tri
         spin: DVec3::from_slice(&y[10..]),
         rotation: beat.root(y).r,
     };
-    (solution.residual, solution.aside) =
+    (solution.residual, solution.lateral) =
         residuals.between(problem, &size, &[seen(&state), seen(&end)]);
     let changes = end[JOINTS..].iter().zip(&state[JOINTS..]).zip(sizes);
     let changes = changes.map(|((end, start), size)| (end - start) / size);

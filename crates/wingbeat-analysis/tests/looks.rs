@@ -48,7 +48,7 @@ fn predicted(regulator: &Regulator, z: &[f64]) -> Vec<f64> {
     let mut x: [f64; STATES] = x.try_into().expect("all states");
     for look in 0..regulator.plants().len() {
         let d = Departure {
-            beat: look,
+            look,
             position: DVec3::from_slice(&x),
             state: Perturbation::from_array(std::array::from_fn(|k| x[3 + k])),
         };

@@ -88,7 +88,7 @@ fn balances_covariance_of_the_fly() {
 /// The departure of these states.
 fn departure(x: &[f64]) -> Departure {
     Departure {
-        beat: 0,
+        look: 0,
         position: DVec3::from_slice(x),
         state: Perturbation::from_array(std::array::from_fn(|k| x[3 + k])),
     }

@@ -3,99 +3,31 @@
 use std::path::{Path, PathBuf};
 
 use sha2::{Digest, Sha256};
-use wingbeat_case::{Document, IoError, LoadedCase};
+use wingbeat_case::{IoError, LoadedCase};
 use wingbeat_flight::FlightSetup;
 
-use crate::axes::Reader;
 use crate::blocks::points_of_block;
 use crate::cases;
-use crate::checks::Words;
+use crate::file::CampaignFile;
 use crate::named::{self, Contents};
 use crate::number::Number;
 use crate::plan::{Place, Plan};
 use crate::raw::{RawCampaign, Task, TrimOptions};
-use crate::trial::Trial;
-
-/// What to do where the file of a campaign cannot be read.
-const REMEDY: &str = "docs/campaigns.md has campaigns to start from";
 
 /// A campaign, read and checked.
 #[derive(Clone, Debug)]
 pub struct Campaign {
-    /// Its name.
-    pub name: String,
-    /// The file.
+    /// Where its file is.
     pub path: PathBuf,
-    /// As it was written.
-    pub raw: RawCampaign,
-    /// Its points.
-    pub plan: Plan,
     /// The numbers that are kept.
     pub numbers: Vec<Number>,
-    /// The case without the values of a point.
-    pub base: LoadedCase,
     /// Points of a block, which a worker takes at once.
     pub block: usize,
-    document: Document,
-    /// What paths in the case are relative to.
-    case_folder: PathBuf,
+    file: CampaignFile,
     /// Of everything but the values of the point.
     digest: Sha256,
     /// What is in the files that values name.
     contents: Contents,
-}
-
-/// A file whose points can be flown, before it is known which numbers are kept of them.
-struct Points {
-    name: String,
-    document: Document,
-    raw: RawCampaign,
-    plan: Plan,
-    base: LoadedCase,
-    case_folder: PathBuf,
-}
-
-impl Points {
-    fn read(path: &Path) -> Result<Self, IoError> {
-        let document = Document::read(path, REMEDY)?;
-        crate::checks::shape(&document)?;
-        let raw: RawCampaign = document.decode()?;
-        let folder = path.parent().map(Path::to_owned).unwrap_or_default();
-        let stem = path.file_stem().and_then(|s| s.to_str());
-        let name = raw.name.clone();
-        let name = name.unwrap_or_else(|| stem.unwrap_or("campaign").to_owned());
-        let words = Words {
-            document: &document,
-            raw: &raw,
-        };
-        words.check(&name)?;
-        let reader = Reader {
-            document: &document,
-            folder: &folder,
-        };
-        let plan = reader.plan(&raw)?;
-        let base = words.base_case(&folder)?;
-        let points = Self {
-            name,
-            case_folder: cases::folder_of(&raw, &folder),
-            document,
-            raw,
-            plan,
-            base,
-        };
-        points.trial().check()?;
-        Ok(points)
-    }
-
-    fn trial(&self) -> Trial<'_> {
-        Trial {
-            document: &self.document,
-            raw: &self.raw,
-            plan: &self.plan,
-            base: &self.base,
-            folder: &self.case_folder,
-        }
-    }
 }
 
 impl Campaign {
@@ -104,28 +36,15 @@ impl Campaign {
     /// # Errors
     /// The first thing in it that cannot be done, with its line.
     pub fn read(path: &Path) -> Result<Self, IoError> {
-        let points = Points::read(path)?;
-        let numbers = points.trial().kept()?;
-        let Points {
-            name,
-            document,
-            raw,
-            plan,
-            base,
-            case_folder,
-        } = points;
+        let file = checked(path)?;
+        let numbers = file.kept()?;
         Ok(Self {
             path: path.to_owned(),
-            digest: digest_of(&raw, &base, &numbers),
-            contents: named::contents(&plan, &base, &case_folder),
-            block: points_of_block(&raw, &base.setup, plan.points()),
-            name,
-            raw,
-            plan,
+            digest: digest_of(&file.raw, &file.base, &numbers),
+            contents: named::contents(&file.plan, &file.base, &file.case_folder),
+            block: points_of_block(&file.raw, &file.base.setup, file.plan.points()),
             numbers,
-            base,
-            document,
-            case_folder,
+            file,
         })
     }
 
@@ -134,22 +53,32 @@ impl Campaign {
     /// # Errors
     /// As [`Self::read`].
     pub fn possible_numbers(path: &Path) -> Result<Vec<Number>, IoError> {
-        Points::read(path)?.trial().all_possible()
+        checked(path)?.all_possible()
     }
 
-    fn trial(&self) -> Trial<'_> {
-        Trial {
-            document: &self.document,
-            raw: &self.raw,
-            plan: &self.plan,
-            base: &self.base,
-            folder: &self.case_folder,
-        }
+    /// Its name.
+    pub fn name(&self) -> &str {
+        &self.file.name
+    }
+
+    /// What its file says, as it was written.
+    pub fn raw(&self) -> &RawCampaign {
+        &self.file.raw
+    }
+
+    /// Its points.
+    pub fn plan(&self) -> &Plan {
+        &self.file.plan
+    }
+
+    /// The case without the values of a point.
+    pub fn base(&self) -> &LoadedCase {
+        &self.file.base
     }
 
     /// What an estimate finds doubtful of the case and of the points that are tried, each said once.
     pub fn doubts(&self) -> Vec<String> {
-        self.trial().doubts()
+        self.file.doubts()
     }
 
     /// What is asked of the trim at point `i`; nothing where nothing is trimmed.
@@ -157,17 +86,17 @@ impl Campaign {
     /// # Errors
     /// A value that cannot be used.
     pub fn trim_options(&self, i: usize) -> Result<Option<TrimOptions>, IoError> {
-        self.trial().trim_options(i)
+        self.file.trim_options(i)
     }
 
     /// The text of the file.
     pub fn text(&self) -> &str {
-        self.document.text()
+        self.file.document.text()
     }
 
     /// What is put on top of the case at point `i`, without the options of the trim.
     pub fn overrides(&self, i: usize) -> Vec<String> {
-        cases::overrides(&self.raw, &self.plan, i)
+        cases::overrides(&self.file.raw, &self.file.plan, i)
     }
 
     /// The case of point `i`, with `more` put on top.
@@ -176,7 +105,7 @@ impl Campaign {
     /// A case that cannot be flown.
     pub fn case(&self, i: usize, more: &[String]) -> Result<LoadedCase, IoError> {
         let overrides = [&self.overrides(i)[..], more].concat();
-        cases::with(&self.base, &self.case_folder, &overrides)
+        cases::with(&self.file.base, &self.file.case_folder, &overrides)
     }
 
     /// The text of the case of point `i`.
@@ -184,14 +113,18 @@ impl Campaign {
     /// # Errors
     /// A key that cannot be put into it.
     pub fn case_text(&self, i: usize) -> Result<String, IoError> {
-        wingbeat_case::overridden(self.base.origin(), self.base.text(), &self.overrides(i))
+        wingbeat_case::overridden(
+            self.file.base.origin(),
+            self.file.base.text(),
+            &self.overrides(i),
+        )
     }
 
     /// SHA-256 of what is done at point `i`: version, case, tasks, numbers that are kept, values of the point and what is in
     /// the files that they name, and in those that commands of other programs name. Which files of it are kept is no part.
     pub fn hash(&self, i: usize) -> [u8; 32] {
         let mut hash = self.digest.clone();
-        for line in self.plan.overrides(i) {
+        for line in self.file.plan.overrides(i) {
             hash.update(&line);
             hash.update(b"\n");
             if let Some(content) = self.contents.get(&line) {
@@ -204,14 +137,14 @@ impl Campaign {
     /// SHA-256 of the whole plan, which blocks of points belong to: which points there are and in which order, and what is
     /// kept of them.
     pub fn plan_hash(&self) -> [u8; 32] {
-        let raw = &self.raw;
+        let raw = &self.file.raw;
         let mut hash = self.digest.clone();
-        let varied = (&raw.parameter, &raw.zip, self.plan.samples, raw.seed);
+        let varied = (&raw.parameter, &raw.zip, self.file.plan.samples, raw.seed);
         // The keys as they follow each other in the file: points are counted in this order.
-        let keys = (self.plan.keys(), self.block);
+        let keys = (self.file.plan.keys(), self.block);
         let files = (&raw.files, raw.retention.every, raw.retention.failed);
         hash.update(format!("{varied:?} {keys:?} {files:?}\n"));
-        if let Some(axis) = self.plan.axes.iter().find(|a| a.place == Place::Table) {
+        if let Some(axis) = self.file.plan.axes.iter().find(|a| a.place == Place::Table) {
             hash.update(format!("{axis:?}"));
         }
         self.contents.values().for_each(|c| hash.update(c));
@@ -221,14 +154,21 @@ impl Campaign {
     /// Whether point `i` has a result directory of its own while it is flown: it keeps files, or its air has wakes in space
     /// and takes long.
     pub fn has_directory(&self, i: usize, setup: &FlightSetup) -> bool {
-        let runs = self.raw.tasks.contains(&Task::Run);
+        let runs = self.file.raw.tasks.contains(&Task::Run);
         runs && (self.keeps_files(i) || setup.air.keeps_wake())
     }
 
     /// Whether files of point `i` are kept.
     pub fn keeps_files(&self, i: usize) -> bool {
-        !self.raw.files.is_empty() && i.is_multiple_of(self.raw.retention.every)
+        !self.file.raw.files.is_empty() && i.is_multiple_of(self.file.raw.retention.every)
     }
+}
+
+/// The file of a campaign, its points tried.
+fn checked(path: &Path) -> Result<CampaignFile, IoError> {
+    let file = CampaignFile::read(path)?;
+    file.check()?;
+    Ok(file)
 }
 
 /// What all points have in common.

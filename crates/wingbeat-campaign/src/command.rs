@@ -9,7 +9,7 @@ use crate::raw::Task;
 pub fn command(campaign: &Campaign, i: usize) -> String {
     let trim = campaign.trim_options(i).ok().flatten();
     let verb = if trim.is_some() { "trim" } else { "run" };
-    let case = &campaign.raw.case;
+    let case = &campaign.raw().case;
     let here = if case.starts_with('-') { "./" } else { "" }; // no option
     let mut text = format!("wingbeat {verb} {}", shell(&format!("{here}{case}")));
     for set in campaign.overrides(i) {
@@ -32,7 +32,7 @@ pub fn command(campaign: &Campaign, i: usize) -> String {
         let _ = write!(text, " --unknowns {}", unknowns.join(" "));
     }
     text.push_str(" --write trimmed.toml");
-    if campaign.raw.tasks.contains(&Task::Run) {
+    if campaign.raw().tasks.contains(&Task::Run) {
         text.push_str(" && wingbeat run trimmed.toml");
     }
     text

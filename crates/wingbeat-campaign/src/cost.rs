@@ -23,7 +23,7 @@ pub struct Cost {
 impl Cost {
     /// Flies the first, the middle and the last point in memory.
     pub fn of(campaign: &Campaign) -> Self {
-        let last = campaign.plan.points() - 1;
+        let last = campaign.plan().points() - 1;
         let mut points = vec![0, last / 2, last];
         points.dedup();
         let fly = |i: usize| {
@@ -39,7 +39,7 @@ impl Cost {
         };
         Self {
             samples: points.into_iter().map(fly).collect(),
-            results_bytes: BLOCK_BYTES * campaign.plan.points() as u64,
+            results_bytes: BLOCK_BYTES * campaign.plan().points() as u64,
         }
     }
 

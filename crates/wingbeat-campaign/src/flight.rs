@@ -1,13 +1,14 @@
 //! One flight: in memory, or in a result directory from which it goes on after a kill, bit for bit.
 
 use std::fs;
+use std::ops::ControlFlow::{Break, Continue};
 use std::path::Path;
 
 use wingbeat_case::{IoError, LoadedCase};
 use wingbeat_draw::draw_run;
 use wingbeat_flight::{FlightError, Simulation};
 use wingbeat_results::history::is_locked;
-use wingbeat_results::{Outcome, Records, ResultDir, RunWriter, Summary, saver};
+use wingbeat_results::{Outcome, RecordedFlight, Records, ResultDir, Summary, saver};
 
 use crate::evaluate::Flown;
 
@@ -34,16 +35,18 @@ impl From<IoError> for Halt {
     }
 }
 
+impl From<FlightError> for Halt {
+    fn from(e: FlightError) -> Self {
+        Self::Diverged(e.to_string())
+    }
+}
+
 /// Asked before every step whether the flight goes on.
 pub type Watch<'a> = &'a mut dyn FnMut() -> Result<(), Halt>;
 
 fn begin(case: &LoadedCase) -> Result<Simulation, Halt> {
     let flight = Simulation::new(case.setup.clone());
     flight.map_err(|e| Halt::Refused(case.refused(&e).problem))
-}
-
-fn diverged(e: &FlightError) -> Halt {
-    Halt::Diverged(e.to_string())
 }
 
 /// Flies a case in memory.
@@ -53,11 +56,13 @@ fn diverged(e: &FlightError) -> Halt {
 pub fn in_memory(case: &LoadedCase, watch: Watch) -> Result<Flown, Halt> {
     let mut flight = begin(case)?;
     let mut records = Vec::with_capacity(case.setup.time.steps + 1);
-    records.push(flight.record().clone());
-    while !flight.finished() {
-        watch()?;
-        records.push(flight.step().map_err(|e| diverged(&e))?.clone());
-    }
+    flight.fly(|flight| {
+        records.push(flight.record().clone());
+        if !flight.finished() {
+            watch()?;
+        }
+        Ok::<_, Halt>(Continue(()))
+    })?;
     Ok(Flown {
         setup: flight.setup().clone(),
         summary: Summary::of(flight.setup(), &records, &Outcome::Finished),
@@ -75,15 +80,13 @@ pub fn in_directory(path: &Path, case: &LoadedCase, watch: Watch) -> Result<Flow
         return Err(IoError::Busy { path: history }.into()); // nothing of it may be removed
     }
     match resumed(path, case)? {
-        Some((flight, writer)) => fly(flight, writer, case, watch)?,
+        Some(flight) => fly(flight, watch)?,
         None if is_finished(path) => {}
         None => {
             remove(path)?;
             let flight = begin(case)?;
             let dir = ResultDir::create(path)?;
-            let mut writer = RunWriter::new(dir, case, 1)?;
-            writer.write(flight.record(), || flight.snapshot())?;
-            fly(flight, writer, case, watch)?;
+            fly(RecordedFlight::begin(dir, case, flight, 1)?, watch)?;
         }
     }
     let mut rows = Records::open(&history, &case.setup)?;
@@ -105,8 +108,8 @@ fn is_finished(path: &Path) -> bool {
     outcome.is_ok_and(|m| m.outcome == Outcome::Finished)
 }
 
-/// A flight and its writer at the last checkpoint in `path`; none where there is none that can be used.
-fn resumed(path: &Path, case: &LoadedCase) -> Result<Option<(Simulation, RunWriter)>, IoError> {
+/// The flight at the last checkpoint in `path`; none where there is none that can be used.
+fn resumed(path: &Path, case: &LoadedCase) -> Result<Option<RecordedFlight>, IoError> {
     let Ok(saved) = saver::read(path) else {
         return Ok(None); // nothing there, or damaged: from the start
     };
@@ -126,37 +129,31 @@ fn resumed(path: &Path, case: &LoadedCase) -> Result<Option<(Simulation, RunWrit
         return Ok(None);
     };
     let dir = ResultDir::open(path)?;
-    let writer = RunWriter::resume(dir, case, &header, saved.manifest, 1)?;
-    Ok(Some((flight, writer)))
+    RecordedFlight::resume(dir, case, flight, (&header, saved.manifest), 1).map(Some)
 }
 
-/// From step to step to the end; the newest step is written.
-fn fly(
-    mut flight: Simulation,
-    mut writer: RunWriter,
-    case: &LoadedCase,
-    watch: Watch,
-) -> Result<(), Halt> {
-    loop {
-        if let Err(halt) = watch() {
-            if matches!(halt, Halt::Stopped) {
-                writer.save(flight.state())?;
-            }
-            return Err(halt);
+/// To the end; where it is asked to stop, its state is saved.
+fn fly(mut flight: RecordedFlight, watch: Watch) -> Result<(), Halt> {
+    let mut is_stopped = false;
+    let flown = flight.fly(|_| match watch() {
+        Err(Halt::Stopped) => {
+            is_stopped = true;
+            Ok(Break(()))
         }
-        writer.save_if_due(flight.state())?;
-        if flight.finished() {
-            break;
+        watched => watched.map(Continue),
+    });
+    match flown {
+        Ok(_) if is_stopped => Err(Halt::Stopped),
+        Ok(outcome) => {
+            flight.finish(outcome, draw_run)?;
+            Ok(())
         }
-        if let Err(e) = flight.step() {
-            let _ = writer.finish(Outcome::Failed(e.to_string()), draw_run); // the reason counts
-            return Err(diverged(&e));
+        Err(Halt::Diverged(why)) => {
+            let _ = flight.finish(Outcome::Failed(why.clone()), draw_run); // the reason counts
+            Err(Halt::Diverged(why))
         }
-        writer.write(flight.record(), || flight.snapshot())?;
+        Err(halt) => Err(halt),
     }
-    debug_assert_eq!(flight.state().step, case.setup.time.steps);
-    writer.finish(Outcome::Finished, draw_run)?;
-    Ok(())
 }
 
 /// Removes a directory that may not be there.

@@ -1,8 +1,8 @@
 //! Campaigns: thousands of flights from one file, flown by any number of workers that share a directory.
 //!
 //! The chapter in order: `raw` is the file as it is written; `axes` turns it into a `plan` (`checks` what its words say of
-//! each other, `places` where its keys stand), what is drawn by `sample`; `cases` puts values on top of the case; `number`
-//! knows what may be kept, `trial` tries points and says what is refused, `named` knows the files that values name;
+//! each other, `places` where its keys stand), what is drawn by `sample`; `cases` puts values on top of the case; `file` holds
+//! all that is read; `number` knows what may be kept, `trial` tries points and says what is refused, `named` knows the files that values name;
 //! `campaign` joins them: point i -> values -> case -> hash, a pure function of the file. `point` does what is to be done
 //! at a point (`trimming`, `flight`, `evaluate`), `store` keeps its result, `lease` says who flies which points, `worker`
 //! goes from block to block. `rows`, `status`, [`merge`] and [`page`] read what is there; `scripts` writes what other
@@ -19,6 +19,7 @@ mod checks;
 mod command;
 mod cost;
 mod evaluate;
+mod file;
 mod flight;
 mod lease;
 pub mod merge;

@@ -7,7 +7,7 @@ use std::path::PathBuf;
 
 use wingbeat_case::IoError;
 use wingbeat_results::export::parquet::{Cell, Cells, ParquetWriter};
-use wingbeat_results::file::NewFile;
+use wingbeat_results::file::{Existing, NewFile};
 use wingbeat_results::manifest::hexadecimal;
 use wingbeat_results::summary::Verdict;
 
@@ -36,14 +36,14 @@ pub fn missing(campaign: &Campaign, store: &Store) -> Result<usize, IoError> {
 /// What cannot be written.
 pub fn plan(campaign: &Campaign, range: Range<usize>, out: &mut dyn Write) -> std::io::Result<()> {
     let mut table = csv::Writer::from_writer(out);
-    let keys = campaign.plan.keys().iter().map(String::as_str);
+    let keys = campaign.plan().keys().iter().map(String::as_str);
     let header = ["point", "sha256"].into_iter().chain(keys);
     table.write_record(header).map_err(io)?;
     let mut cells: Vec<String> = vec![];
     for i in range {
         cells.clear();
         cells.extend([i.to_string(), hexadecimal(&campaign.hash(i))]);
-        cells.extend(campaign.plan.values(i).iter().map(Value::shown));
+        cells.extend(campaign.plan().values(i).iter().map(Value::shown));
         table.write_record(&cells).map_err(io)?;
     }
     table.flush()
@@ -63,7 +63,7 @@ fn io(e: csv::Error) -> std::io::Error {
 /// A result that cannot be read; a file that cannot be written.
 pub fn merge(campaign: &Campaign, store: &Store) -> Result<Vec<PathBuf>, IoError> {
     let rows: Vec<Row> = rows(campaign, store).collect::<Result<_, _>>()?;
-    let place = |name: &str| NewFile::claim_own(&store.path(name), true);
+    let place = |name: &str| NewFile::claim_own(&store.path(name), Existing::Replaced);
     place(FILES[0])?.write(&points_csv(campaign, &rows)?)?;
     place(FILES[1])?.make(|part| parquet(campaign, &rows, part).map_err(IoError::write(part)))?;
     place(FILES[2])?
@@ -75,7 +75,7 @@ pub fn merge(campaign: &Campaign, store: &Store) -> Result<Vec<PathBuf>, IoError
 /// Numbers of a point that failed stay empty.
 fn points_csv(campaign: &Campaign, rows: &[Row]) -> Result<Vec<u8>, IoError> {
     let mut table = csv::Writer::from_writer(vec![]);
-    let keys = campaign.plan.keys().iter().map(String::as_str);
+    let keys = campaign.plan().keys().iter().map(String::as_str);
     let numbers = campaign.numbers.iter().map(|n| n.name.as_str());
     let header = ["point"]
         .into_iter()
@@ -155,7 +155,7 @@ fn parquet(campaign: &Campaign, rows: &[Row], path: &std::path::Path) -> std::io
     let mut columns = vec![("point".to_owned(), Cells::Counts)];
     columns.extend(
         campaign
-            .plan
+            .plan()
             .keys()
             .iter()
             .cloned()
@@ -195,7 +195,7 @@ fn parquet(campaign: &Campaign, rows: &[Row], path: &std::path::Path) -> std::io
     table.finish(&[
         ("wingbeat_version", env!("CARGO_PKG_VERSION")),
         ("campaign_toml", campaign.text()),
-        ("case_toml", campaign.base.text()),
+        ("case_toml", campaign.base().text()),
         ("units", &note(&|n| n.unit.clone())),
         ("meanings", &note(&|n| n.about.clone())),
     ])

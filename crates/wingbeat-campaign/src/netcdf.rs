@@ -86,7 +86,7 @@ impl File {
 pub fn write(campaign: &Campaign, rows: &[Row], path: &Path) -> std::io::Result<()> {
     let mut file = File::default();
     let (scales, beside) = axes(campaign, &mut file);
-    let shape = campaign.plan.shape();
+    let shape = campaign.plan().shape();
     let success = |r: &Row| r.success.map_or(f64::NAN, |s| f64::from(u8::from(s)));
     let all = Data::Float(rows.iter().map(success).collect());
     let dataset = file.put("success", Kind::Float, &shape, all);
@@ -115,7 +115,7 @@ pub fn write(campaign: &Campaign, rows: &[Row], path: &Path) -> std::io::Result<
 
 /// Dimensions in their order, and the coordinates beside them.
 fn axes(campaign: &Campaign, file: &mut File) -> (Vec<usize>, Vec<String>) {
-    let plan = &campaign.plan;
+    let plan = campaign.plan();
     let (mut scales, mut beside) = (vec![], vec![]);
     for axis in &plan.axes {
         let own = axis.keys.first() == Some(&axis.name);
@@ -160,14 +160,15 @@ fn describe(campaign: &Campaign, file: &mut File, beside: &[String]) {
         .note_group("", "layout_version", Attribute::Integer(LAYOUT));
     file.layout
         .note_group("", "wingbeat_version", text(env!("CARGO_PKG_VERSION")));
-    file.layout.note_group("", "campaign", text(&campaign.name));
+    file.layout
+        .note_group("", "campaign", text(campaign.name()));
     if !beside.is_empty() && beside.iter().all(|key| !key.contains(' ')) {
         file.layout
             .note_group("", "coordinates", text(&beside.join(" ")));
     }
     for (name, content) in [
         ("campaign_toml", campaign.text()),
-        ("case_toml", campaign.base.text()),
+        ("case_toml", campaign.base().text()),
     ] {
         let bytes = content.as_bytes().to_vec();
         file.put(name, Kind::Text(bytes.len()), &[], Data::Bytes(bytes));

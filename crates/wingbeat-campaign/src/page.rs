@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use serde_json::{Value as Json, json};
 use wingbeat_case::IoError;
 use wingbeat_draw::points;
-use wingbeat_results::file::NewFile;
+use wingbeat_results::file::{Existing, NewFile};
 use wingbeat_results::summary::Verdict;
 
 use crate::campaign::Campaign;
@@ -25,20 +25,20 @@ pub const MAX_POINTS: usize = 20_000;
 /// # Errors
 /// A result that cannot be read; a page that cannot be written.
 pub fn write(campaign: &Campaign, store: &Store) -> Result<PathBuf, IoError> {
-    let stride = campaign.plan.points().div_ceil(MAX_POINTS);
+    let stride = campaign.plan().points().div_ceil(MAX_POINTS);
     let shown: Vec<Row> = rows(campaign, store)
         .step_by(stride)
         .collect::<Result<_, _>>()?;
     let path = store.path(FILE);
-    let page = points::page(&campaign.name, &data(campaign, store, &shown, stride));
-    NewFile::claim_own(&path, true)?.write(page.as_bytes())?;
+    let page = points::page(campaign.name(), &data(campaign, store, &shown, stride));
+    NewFile::claim_own(&path, Existing::Replaced)?.write(page.as_bytes())?;
     Ok(path)
 }
 
 /// What the page knows.
 fn data(campaign: &Campaign, store: &Store, shown: &[Row], stride: usize) -> Json {
     let keys = campaign
-        .plan
+        .plan()
         .keys()
         .iter()
         .map(|key| json!({ "name": key, "kind": "key", "about": "varied" }));
@@ -75,12 +75,12 @@ fn data(campaign: &Campaign, store: &Store, shown: &[Row], stride: usize) -> Jso
         })
         .collect();
     json!({
-        "name": campaign.name,
-        "description": campaign.raw.description,
-        "case": campaign.base.origin(),
-        "tasks": campaign.raw.tasks.iter().map(|t| t.name()).collect::<Vec<_>>(),
+        "name": campaign.name(),
+        "description": campaign.raw().description,
+        "case": campaign.base().origin(),
+        "tasks": campaign.raw().tasks.iter().map(|t| t.name()).collect::<Vec<_>>(),
         "version": env!("CARGO_PKG_VERSION"),
-        "points": campaign.plan.points(),
+        "points": campaign.plan().points(),
         "stride": stride,
         "columns": columns,
         "rows": points,

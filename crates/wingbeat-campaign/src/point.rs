@@ -55,7 +55,7 @@ pub fn has_files(campaign: &Campaign, i: usize, hash: &str, store: &Store) -> bo
     let Ok(manifest) = saver::read_manifest(&place) else {
         return false;
     };
-    let frames = !campaign.plan.varies(FRAMES_EVERY);
+    let frames = !campaign.plan().varies(FRAMES_EVERY);
     let written = |kind: FileKind| match kind {
         FileKind::Page => manifest.steps >= DRAWN,
         FileKind::Frames => frames,
@@ -63,7 +63,7 @@ pub fn has_files(campaign: &Campaign, i: usize, hash: &str, store: &Store) -> bo
     };
     let kept = KEPT
         .iter()
-        .filter(|(kind, _)| campaign.raw.files.contains(kind) && written(*kind));
+        .filter(|(kind, _)| campaign.raw().files.contains(kind) && written(*kind));
     let names = kept.flat_map(|(_, names)| names.iter().copied());
     let mut names = names.filter(|name| *name != INDEX).chain(ALWAYS);
     names.all(|name| place.join(name).exists())
@@ -84,7 +84,7 @@ pub fn fly(
         i,
         work: work.as_deref(),
         stop,
-        end: (campaign.raw.budget.time_per_point_s)
+        end: (campaign.raw().budget.time_per_point_s)
             .map(|s| Instant::now() + Duration::from_secs_f64(s)),
         values: vec![f64::NAN; campaign.numbers.len()],
         verdict: None,
@@ -100,14 +100,14 @@ pub fn fly(
         Err(Halt::Io(IoError::Busy { .. })) => return Done::Busy,
         Err(Halt::Io(e)) => return Done::Unwritten(e),
         Err(Halt::Slow) => {
-            let limit = campaign.raw.budget.time_per_point_s.unwrap_or(0.0);
+            let limit = campaign.raw().budget.time_per_point_s.unwrap_or(0.0);
             failed(Reason::Slow, format!("it took longer than {limit} s"))
         }
         Err(Halt::Refused(words)) => failed(Reason::Refused, words),
         Err(Halt::Short(words)) => failed(Reason::Short, words),
         Err(Halt::Diverged(words)) => failed(Reason::Diverged, words),
     };
-    if let Some(work) = work.filter(|w| !campaign.raw.retention.failed && w.exists()) {
+    if let Some(work) = work.filter(|w| !campaign.raw().retention.failed && w.exists()) {
         let _ = flight::remove(&work); // at worst it stays
     }
     done
@@ -129,7 +129,7 @@ impl Point<'_> {
         let campaign = self.campaign;
         let mut case = self.case()?;
         let mut trim = None;
-        for task in &campaign.raw.tasks {
+        for task in &campaign.raw().tasks {
             self.watch()?;
             match (task, &trim) {
                 (Task::Run, None) => self.run(&case)?,
@@ -168,7 +168,7 @@ impl Point<'_> {
     /// What is drawn and written of this point.
     fn output(&self) -> Vec<String> {
         let keeps = |kind| {
-            let kept = self.campaign.raw.files.contains(&kind);
+            let kept = self.campaign.raw().files.contains(&kind);
             kept && self.campaign.keeps_files(self.i)
         };
         let mut set = vec![
@@ -214,7 +214,7 @@ impl Point<'_> {
             }
             None => in_memory(case, &mut || self.watch())?,
         };
-        let beats = campaign.raw.mean_beats();
+        let beats = campaign.raw().mean_beats();
         if let Some(words) = flown.lacks(&campaign.numbers, beats) {
             return Err(Halt::Short(words));
         }
@@ -249,7 +249,7 @@ impl Point<'_> {
         }
         let kept = KEPT
             .iter()
-            .filter(|(kind, _)| self.campaign.raw.files.contains(kind));
+            .filter(|(kind, _)| self.campaign.raw().files.contains(kind));
         let names: Vec<&str> = kept
             .flat_map(|(_, names)| names.iter().copied())
             .chain(ALWAYS)

@@ -32,7 +32,7 @@ pub fn rows<'a>(
     campaign: &'a Campaign,
     store: &'a Store,
 ) -> impl Iterator<Item = Result<Row, IoError>> + 'a {
-    (0..campaign.plan.points()).map(move |i| {
+    (0..campaign.plan().points()).map(move |i| {
         let hash = hexadecimal(&campaign.hash(i));
         let found = store.get(&hash)?;
         let count = campaign.numbers.len();
@@ -40,7 +40,7 @@ pub fn rows<'a>(
         Ok(Row {
             point: i,
             hash,
-            keys: campaign.plan.values(i),
+            keys: campaign.plan().values(i),
             numbers: numbers.unwrap_or_else(|| vec![f64::NAN; count]),
             success: found.as_ref().map(|r| r.failed.is_none()),
             verdict: found.as_ref().and_then(|r| r.verdict),
@@ -72,7 +72,7 @@ pub enum KeyKind {
 
 /// What the keys of a campaign are.
 pub fn kinds(campaign: &Campaign) -> Vec<KeyKind> {
-    let listed = campaign.plan.axes.iter().flat_map(|axis| &axis.values);
+    let listed = campaign.plan().axes.iter().flat_map(|axis| &axis.values);
     let kind = |values: &Vec<Value>| {
         let whole = values.iter().all(|v| matches!(v, Value::Whole(_)));
         let number = values.iter().all(|v| v.number().is_some());
@@ -82,6 +82,6 @@ pub fn kinds(campaign: &Campaign) -> Vec<KeyKind> {
             _ => KeyKind::Text,
         }
     };
-    let drawn = campaign.plan.samplers.iter().map(|_| KeyKind::Number);
+    let drawn = campaign.plan().samplers.iter().map(|_| KeyKind::Number);
     listed.map(kind).chain(drawn).collect()
 }

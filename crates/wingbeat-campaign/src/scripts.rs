@@ -22,8 +22,8 @@ impl Engine<'_> {
     pub fn slurm(&self, campaign: &Campaign, time: &str) -> String {
         let Self { shards, jobs, .. } = self;
         let [file, out] = [self.file, self.out].map(shell);
-        let name = &campaign.name;
-        let points = campaign.plan.points();
+        let name = campaign.name();
+        let points = campaign.plan().points();
         format!(
             r#"#!/bin/bash
 # {points} points in {shards} jobs of {jobs} processors: sbatch this file, again after a time limit or a lost node.

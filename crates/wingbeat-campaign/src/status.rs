@@ -39,7 +39,7 @@ impl Status {
     /// A directory that cannot be read.
     pub fn of(campaign: &Campaign, store: &Store) -> Result<Self, IoError> {
         let known = store.done();
-        let points = campaign.plan.points();
+        let points = campaign.plan().points();
         let (mut done, mut failed, mut names) = (0, 0, vec![]);
         for i in 0..points {
             let hash = hexadecimal(&campaign.hash(i));
@@ -113,7 +113,7 @@ pub fn retry(campaign: &Campaign, store: &Store) -> Result<usize, IoError> {
     let leases = leases(campaign, store)?;
     let known = store.done();
     let mut forgotten = 0;
-    for i in 0..campaign.plan.points() {
+    for i in 0..campaign.plan().points() {
         let hash = hexadecimal(&campaign.hash(i));
         if known.get(&hash) == Some(&true) && store.forget_failure(&hash)? {
             leases.undo(i / campaign.block)?;

@@ -1,36 +1,19 @@
 //! What is refused before anything is flown: points that are tried, numbers that none of them has, means over wingbeats
 //! that none flies.
 
-use std::path::Path;
-
 use wingbeat_analysis::estimate;
-use wingbeat_case::{Document, IoError, LoadedCase, nearest};
+use wingbeat_case::{IoError, LoadedCase, nearest};
 
 use crate::cases;
 use crate::evaluate;
+use crate::file::CampaignFile;
 use crate::number::{self, Number, Source};
 use crate::places::Places;
-use crate::plan::Plan;
-use crate::raw::{FRAMES_EVERY, FileKind, HISTORY_EVERY, RawCampaign, Task, TrimOptions};
+use crate::raw::{FRAMES_EVERY, FileKind, HISTORY_EVERY, Task, TrimOptions};
 use crate::trimming::{self, TRIM};
 
 /// Values of an axis that are tried before anything is flown.
 const TRIED: usize = 20;
-
-/// A campaign as far as it is read.
-#[derive(Clone, Copy)]
-pub struct Trial<'a> {
-    /// The file.
-    pub document: &'a Document,
-    /// What it says.
-    pub raw: &'a RawCampaign,
-    /// Its points.
-    pub plan: &'a Plan,
-    /// The case without the values of a point.
-    pub base: &'a LoadedCase,
-    /// What paths in the case are relative to.
-    pub folder: &'a Path,
-}
 
 /// A sentence without its numbers.
 fn wording(sentence: &str) -> String {
@@ -38,15 +21,15 @@ fn wording(sentence: &str) -> String {
     sentence.chars().filter(is_letter).collect()
 }
 
-impl<'a> Trial<'a> {
+impl CampaignFile {
     /// Tries the case with the values of every axis, up to twenty of each, and what is drawn first.
     ///
     /// # Errors
     /// The first that cannot be flown; files that would not be there.
     pub fn check(&self) -> Result<(), IoError> {
-        trimming::check(self.document, self.raw, &self.base.setup)?;
+        trimming::check(&self.document, &self.raw, &self.base.setup)?;
         self.check_options()?;
-        self.points().try_for_each(|i| self.check_point(i))?;
+        self.tried().try_for_each(|i| self.check_point(i))?;
         self.check_frames()
     }
 
@@ -54,17 +37,17 @@ impl<'a> Trial<'a> {
         self.document.fault(key, problem, allowed, remedy).into()
     }
 
-    fn places(&self) -> Places<'a> {
+    fn places(&self) -> Places<'_> {
         Places {
-            document: self.document,
-            raw: self.raw,
+            document: &self.document,
+            raw: &self.raw,
             axes: &self.plan.axes,
         }
     }
 
     /// The points that are tried before anything is flown: the values of every axis, up to twenty of each and the last,
     /// beside the first ones of the others.
-    fn points(&self) -> impl Iterator<Item = usize> + use<> {
+    fn tried(&self) -> impl Iterator<Item = usize> + use<> {
         let mut block = self.plan.samples;
         let mut points = vec![];
         for axis in self.plan.axes.iter().rev() {
@@ -78,13 +61,13 @@ impl<'a> Trial<'a> {
     }
 
     fn case(&self, i: usize) -> Result<LoadedCase, IoError> {
-        let overrides = cases::overrides(self.raw, self.plan, i);
-        cases::with(self.base, self.folder, &overrides)
+        let overrides = cases::overrides(&self.raw, &self.plan, i);
+        cases::with(&self.base, &self.case_folder, &overrides)
     }
 
     /// Their cases, those left out that cannot be flown.
     fn cases(&self) -> impl Iterator<Item = LoadedCase> {
-        self.points().filter_map(|i| self.case(i).ok())
+        self.tried().filter_map(|i| self.case(i).ok())
     }
 
     /// What an estimate finds doubtful of the case and of the points that are tried, each said once.
@@ -116,7 +99,7 @@ impl<'a> Trial<'a> {
         if !self.raw.tasks.contains(&Task::Trim) {
             return Ok(None);
         }
-        let found = trimming::options(self.raw, self.plan, i);
+        let found = trimming::options(&self.raw, &self.plan, i);
         found.map(Some).map_err(|bad| {
             let place = self.places().of(&bad.key).unwrap_or(bad.key);
             self.fault(&place, bad.problem, bad.allowed, bad.remedy)
@@ -273,7 +256,7 @@ impl<'a> Trial<'a> {
                 "some points",
                 format!("vary {HISTORY_EVERY} no more, or keep `end.` of the column"),
             ),
-            false if thinned(self.base) => (
+            false if thinned(&self.base) => (
                 "this case",
                 format!("add `\"{HISTORY_EVERY}\" = 1` to [set]"),
             ),
@@ -305,7 +288,7 @@ impl<'a> Trial<'a> {
                 return Ok(());
             }
         }
-        let all_tried = self.plan.points() <= self.points().count();
+        let all_tried = self.plan.points() <= self.tried().count();
         let timed = |key: &String| key.starts_with("time.") || key == "motion.frequency_hz";
         if !asked || (!all_tried && self.plan.keys().iter().any(timed)) {
             return Ok(());

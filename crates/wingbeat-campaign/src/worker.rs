@@ -156,7 +156,7 @@ impl<'a> Worker<'a> {
         stop: &AtomicBool,
         tell: &mut dyn FnMut(),
     ) -> Result<bool, IoError> {
-        if let Some(i) = died.filter(|i| *i < self.campaign.plan.points()) {
+        if let Some(i) = died.filter(|i| *i < self.campaign.plan().points()) {
             self.count_death(i)?;
         }
         let mut busy = false;
@@ -190,7 +190,7 @@ impl<'a> Worker<'a> {
         }
         let first = blocks(&self.range, self.campaign.block).start;
         self.complete[block - first] = true;
-        let all = 0..self.campaign.plan.points();
+        let all = 0..self.campaign.plan().points();
         let mut whole = self.points(block, &all);
         match whole.all(|i| {
             self.range.contains(&i) || self.store.has(&hexadecimal(&self.campaign.hash(i)))
@@ -214,7 +214,7 @@ impl<'a> Worker<'a> {
                 Done::Unwritten(e) if has_no_space(&e) => return Err(e),
                 Done::Unwritten(e) => {
                     let deaths = self.store.count_death(hash, 0)?;
-                    if deaths >= self.campaign.raw.budget.attempts {
+                    if deaths >= self.campaign.raw().budget.attempts {
                         let words = format!("{e} ({deaths} attempts)");
                         self.store
                             .put(hash, &PointResult::failure(Reason::Unwritten, words))?;
@@ -234,7 +234,7 @@ impl<'a> Worker<'a> {
         }
         let step = saved_step(&self.store.path("work").join(&hash));
         let deaths = self.store.count_death(&hash, step)?;
-        if deaths < self.campaign.raw.budget.attempts {
+        if deaths < self.campaign.raw().budget.attempts {
             return Ok(());
         }
         let words = format!("the process that flew it was killed or died {deaths} times");
@@ -244,7 +244,7 @@ impl<'a> Worker<'a> {
 
     /// The size of the directory, where that is more than it may be.
     fn above_limit(&mut self) -> Result<Option<u64>, IoError> {
-        let Some(limit) = self.campaign.raw.budget.disk_mb else {
+        let Some(limit) = self.campaign.raw().budget.disk_mb else {
             return Ok(None);
         };
         if self.weighed.is_some_and(|w| w.elapsed() < WEIGH) {

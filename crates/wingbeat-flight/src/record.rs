@@ -2,7 +2,7 @@
 
 use wingbeat_air::ImpulseAccount;
 use wingbeat_dynamics::{Mechanism, Passive};
-use wingbeat_math::DVec3;
+use wingbeat_math::{DMat3, DQuat, DVec3};
 use wingbeat_model::motion::Adjustment;
 
 use crate::controller::Aim;
@@ -153,7 +153,17 @@ fn over<T: Copy>(old: &mut Vec<T>, list: &[T]) -> Vec<T> {
     copy
 }
 
+/// Rotation R_NB of an attitude given by a unit quaternion (w, x, y, z).
+pub fn rotation_of([w, x, y, z]: [f64; 4]) -> DMat3 {
+    DMat3::from_quat(DQuat::from_xyzw(x, y, z, w))
+}
+
 impl Record {
+    /// Attitude of the root, R_NB.
+    pub fn root_rotation(&self) -> DMat3 {
+        rotation_of(self.root_quaternion)
+    }
+
     /// Force of the air on all bodies, N components [N].
     pub fn air_force(&self) -> DVec3 {
         self.air.iter().map(|load| load.force).sum()

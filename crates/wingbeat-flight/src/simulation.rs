@@ -3,7 +3,10 @@
 //! One step is a recipe: move the wake once with the velocities of the accepted step and freeze
 //! it; predict; correct bodies and air together until they agree; accept both; record.
 
+mod arrival;
 mod fits;
+mod fly;
+mod newest;
 mod release;
 mod start;
 mod state;
@@ -11,24 +14,21 @@ mod wings;
 
 pub use state::{FlightState, Past};
 
-use wingbeat_air::Points;
 use wingbeat_dynamics::BodyMotion;
 use wingbeat_math::ode::{Multistep, StepError, StepReport, block_start};
 
 use self::fits::check_fits;
 use self::start::Start;
 use self::wings::WingAngles;
-use crate::air::LatticeAir;
 use crate::bodies::own_motion;
-use crate::control::{Loop, Sensed, feedback};
-use crate::elastic::{ElasticState, ElasticWings};
+use crate::control::{Loop, feedback};
+use crate::elastic::ElasticState;
 use crate::equations::{Equations, Memory, Scratch};
 use crate::error::FlightError;
-use crate::interface::{Instant, WingResponse};
 use crate::memory::{AirMemory, wakes_of};
 use crate::quadratures::QUADRATURES;
-use crate::record::{Record, Snapshot};
-use crate::recorder::{Ledger, Sources};
+use crate::record::Record;
+use crate::recorder::Ledger;
 use crate::setup::{AirModel, FlightSetup};
 use crate::solver::{Solver, convergence};
 use crate::stages::{Stage, stages};
@@ -179,68 +179,10 @@ impl Simulation {
         &self.record
     }
 
-    /// Motion of the root at the newest step.
-    pub fn root(&self) -> BodyMotion {
-        self.scratch.motions[0]
-    }
-
     /// Sets the root into the motion `root` when its hold ends; the air stays as it is. For
     /// disturbances: a jump of the attitude is one of the wings, too.
     pub fn release_into(&mut self, root: BodyMotion) {
         self.release = Some(root);
-    }
-
-    /// Surfaces and wakes at the newest step; empty in vacuum. Pressure jumps are not part of the
-    /// saved state: after [`Self::resume`] they are not numbers until the next step.
-    pub fn snapshot(&self) -> Snapshot {
-        let (memory, s) = (self.state.air.as_ref(), &self.scratch.air_scratch);
-        Snapshot {
-            step: self.state.step,
-            time: self.newest_time(),
-            ..self.equations().air.snapshot(memory, s)
-        }
-    }
-
-    /// Velocity of the air [m/s] at `points` [m], N, at the newest step; none where the air is no
-    /// vortex lattice.
-    pub fn air_velocity(&self, points: &Points) -> Option<Points> {
-        (self.equations().air).velocity(self.state.air.as_ref(), points)
-    }
-
-    /// The wings that loads bend, as [`FlightState::wings`] has their states.
-    pub fn elastic_wings(&self) -> &ElasticWings {
-        &self.equations().elastic
-    }
-
-    /// Added mass of the air on elastic wing number `k` of [`Self::elastic_wings`] at the newest step: six numbers a node
-    /// ([`crate::elastic::ElasticWing::added_mass`]). None where the air has none.
-    ///
-    /// # Errors
-    /// A singular influence matrix.
-    pub fn added_mass(&self, k: usize) -> Result<Option<Vec<f64>>, FlightError> {
-        let wing = &self.elastic_wings().wings()[k];
-        let at = Instant {
-            time: self.newest_time(),
-            step: self.setup.time.step,
-            motions: &self.scratch.motions,
-            accelerations: &self.scratch.solution.bodies,
-            shapes: self.scratch.elastic.shapes(),
-        };
-        let answer = match &self.setup.air {
-            AirModel::VortexLattice(options) => {
-                LatticeAir::inertia(&self.setup, options, wing.wing(), &at)?
-            }
-            _ if self.equations().air.follows_accelerations() => {
-                let (mut answer, memory) = (WingResponse::default(), self.state.air.as_ref());
-                let (air, number) = (&self.equations().air, wing.wing());
-                air.wing_response(number, &at, memory, &mut air.scratch(), &mut answer)?;
-                answer
-            }
-            _ => return Ok(None),
-        };
-        let frame = &self.scratch.motions[wing.wing() + 1];
-        let at = &self.state.wings[k].structure.configuration;
-        Ok(Some(wing.added_mass(&answer, frame, at)))
     }
 
     /// Time of the newest step [s].
@@ -357,67 +299,6 @@ impl Simulation {
             std::array::from_fn(|_| y0.clone()),
             std::array::from_fn(|_| f0.clone()),
         );
-        Ok(())
-    }
-
-    /// Record, acceptance of the air, and the start of a stage that begins here.
-    fn finish_arrival(&mut self, report: StepReport, starts: bool) -> Result<(), FlightError> {
-        self.control()?;
-        let (step, time) = (self.state.step, self.time(self.state.step));
-        let (wings, feedback) = (&self.wings, self.feedback.as_ref());
-        wings.write(&self.setup, feedback, step, &mut self.record);
-        let sources = Sources {
-            equations: &self.stages[self.state.stage].equations,
-            scratch: &self.scratch,
-            y: &self.state.past.y[self.newest()],
-            air: self.state.air.as_ref(),
-            wings: &self.state.wings,
-            report,
-        };
-        sources.write(step, time, &mut self.state.ledger, &mut self.record)?;
-        self.write_reference();
-        let equations = &self.stages[self.state.stage].equations;
-        let remembered = (&mut self.state.wings[..], &mut self.state.carried[..]);
-        equations.accept(&mut self.state.air, remembered, &self.scratch)?;
-        if starts && !self.finished() && !self.setup.integrator.is_one_step() {
-            self.start()?;
-        }
-        Ok(())
-    }
-
-    /// Puts where the flyer is to be into the record.
-    fn write_reference(&mut self) {
-        let since = self.state.step - self.stages[self.state.stage].from_step;
-        let time = since as f64 * self.setup.time.step;
-        let feedback = self.feedback.as_ref();
-        let aim = feedback.and_then(|f| f.reference(time, self.record.mass_centre));
-        self.record.reference.clear();
-        self.record.reference.extend(aim);
-    }
-
-    /// Asks the controller, where there is one and it is time; a flyer that is held is not steered.
-    fn control(&mut self) -> Result<(), FlightError> {
-        let Some(feedback) = &mut self.feedback else {
-            return Ok(());
-        };
-        let stage = &self.stages[self.state.stage];
-        let since = self.state.step - stage.from_step;
-        let is_last = self.state.stage + 1 == self.stages.len();
-        if is_last && feedback.looks_at(since) {
-            let budget = &self.scratch.solution.budget;
-            let t = self.state.step as f64 * self.setup.time.step;
-            let sensed = Sensed {
-                look: feedback.look(),
-                time: since as f64 * self.setup.time.step,
-                root: self.scratch.motions[0],
-                centre: budget.centre,
-                velocity: budget.momentum / stage.equations.core.system().total_mass(),
-            };
-            feedback.update(t, &sensed)?;
-            // What the scratch knows of the wings at this instant is that of the passage before.
-            self.scratch.fit(&stage.equations);
-            self.state.control = Some(feedback.state());
-        }
         Ok(())
     }
 

@@ -13,7 +13,7 @@ use wingbeat::flight::Snapshot;
 use crate::errors::{raised, refused};
 use crate::frame::is_framed;
 use crate::mechanics::{self, Trim};
-use crate::own::{Slot, air, feedback};
+use crate::own::{PendingException, air, feedback};
 use crate::run::Run;
 use crate::stepping::Stepper;
 use crate::threads::detached;
@@ -29,7 +29,7 @@ pub struct Flight {
     base: PathBuf,
     sets: Vec<String>,
     /// Exceptions of parts written in Python.
-    slot: Slot,
+    pending: PendingException,
     /// Whether it has such parts.
     is_own: bool,
 }
@@ -41,7 +41,7 @@ impl Flight {
             case,
             base,
             sets,
-            slot: Slot::default(),
+            pending: PendingException::default(),
             is_own: false,
         }
     }
@@ -55,7 +55,7 @@ impl Flight {
             case: self.case.clone(),
             base: self.base.clone(),
             sets: self.sets.clone(),
-            slot: self.slot.clone(),
+            pending: self.pending.clone(),
             is_own: true,
         }
     }
@@ -125,7 +125,7 @@ impl Flight {
             let remedy = "set(\"control.controller\", \"none\") first";
             return Err(refused(py, "control.controller", problem, remedy));
         }
-        let feedback = feedback(function, &self.slot, interval, latency);
+        let feedback = feedback(function, &self.pending, interval, latency);
         Ok(self.with(|flight| flight.setup.feedback = Some(feedback)))
     }
 
@@ -133,7 +133,7 @@ impl Flight {
     fn with_air(&self, py: Python<'_>, function: Py<PyAny>, has_memory: bool) -> PyResult<Self> {
         let checked = self.case.check_own_air();
         checked.map_err(|e| raised(py, &IoError::Case(e).into()))?;
-        let air = air(function, &self.slot, has_memory);
+        let air = air(function, &self.pending, has_memory);
         Ok(self.with(|flight| flight.setup.air = air))
     }
 
@@ -234,7 +234,7 @@ impl Flight {
             result,
             interrupted,
         } = work(py, told, patient, fly)?;
-        let own = self.slot.take();
+        let own = self.pending.take();
         match result {
             None => Ok((None, interrupted)),
             Some(Err(e)) => Ok((None, Some(own.unwrap_or_else(|| raised(py, &e))))),
@@ -249,12 +249,12 @@ impl Flight {
     /// The flight before its first step.
     fn start(&self, py: Python<'_>) -> PyResult<Stepper> {
         let flight = detached(py, || self.flight.begin())?;
-        let flight = flight.map_err(|e| self.slot.take().unwrap_or_else(|| raised(py, &e)))?;
+        let flight = flight.map_err(|e| self.pending.take().unwrap_or_else(|| raised(py, &e)))?;
         Ok(Stepper::new(
             flight,
             self.case.output,
             self.case_text(),
-            self.slot.clone(),
+            self.pending.clone(),
         ))
     }
 
@@ -263,7 +263,7 @@ impl Flight {
         let problem = mechanics::problem(py, &self.flight, &asked, steps)?;
         let case = (!self.is_own).then(|| self.case.clone());
         let found = mechanics::trim(py, &self.flight, problem, case);
-        found.map_err(|e| self.slot.take().unwrap_or(e))
+        found.map_err(|e| self.pending.take().unwrap_or(e))
     }
     /// The same in air with a memory, its steps those of the case: the body is held for `held_beats` wingbeats while its
     /// wake grows; trimmed is what has residuals within `tolerance`.
@@ -291,7 +291,7 @@ impl Flight {
         let problem = mechanics::problem(py, &self.flight, &asked, steps)?;
         let case = (!self.is_own).then(|| self.case.clone());
         let found = wake::trim(py, &self.flight, problem, settings, case);
-        found.map_err(|e| self.slot.take().unwrap_or(e))
+        found.map_err(|e| self.pending.take().unwrap_or(e))
     }
 }
 

@@ -1,6 +1,6 @@
 //! Parts of a flight that are written in Python: controllers, models of the air.
 //!
-//! An exception in one of them ends the flight; it is kept in its [`Slot`] and raised when the flight has stopped.
+//! An exception in one of them ends the flight; it is kept in its [`PendingException`] and raised when the flight has stopped.
 
 use std::fmt;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -22,9 +22,9 @@ use crate::arrays::{array, vector};
 
 /// The exception of a part that failed.
 #[derive(Clone, Default)]
-pub struct Slot(Arc<Mutex<Option<PyErr>>>);
+pub struct PendingException(Arc<Mutex<Option<PyErr>>>);
 
-impl Slot {
+impl PendingException {
     /// The exception, if there was one.
     pub fn take(&self) -> Option<PyErr> {
         self.0.lock().unwrap_or_else(PoisonError::into_inner).take()
@@ -100,7 +100,7 @@ impl Sensed {
 #[derive(Clone)]
 struct Function {
     function: Arc<Py<PyAny>>,
-    slot: Slot,
+    pending: PendingException,
 }
 
 impl fmt::Debug for Function {
@@ -114,10 +114,15 @@ impl fmt::Debug for Function {
 struct PythonController(Function);
 
 /// Feedback by `function` every `interval` steps, acting `latency` looks later.
-pub fn feedback(function: Py<PyAny>, slot: &Slot, interval: usize, latency: usize) -> Feedback {
+pub fn feedback(
+    function: Py<PyAny>,
+    pending: &PendingException,
+    interval: usize,
+    latency: usize,
+) -> Feedback {
     let function = Function {
         function: Arc::new(function),
-        slot: slot.clone(),
+        pending: pending.clone(),
     };
     Feedback {
         controller: Arc::new(PythonController(function)),
@@ -131,7 +136,7 @@ impl ControlModel for PythonController {
     fn open(&self, setup: &FlightSetup) -> Result<Box<dyn Controller>, FlightError> {
         let reset = Python::attach(|py| self.0.function.call_method0(py, "reset").map(drop));
         let refused = |problem| FlightError::Control { time: 0.0, problem };
-        self.0.slot.keep(reset).map_err(refused)?;
+        self.0.pending.keep(reset).map_err(refused)?;
         Ok(Box::new(Steered {
             function: self.0.clone(),
             wings: setup.animal.wings.clone(),
@@ -151,7 +156,7 @@ impl Controller for Steered {
             let seen = Bound::new(py, Sensed(*sensed))?;
             self.function.function.call1(py, (seen,))?.extract(py)
         });
-        let numbers = self.function.slot.keep(answer)?;
+        let numbers = self.function.pending.keep(answer)?;
         let command: Vec<Adjustment> = numbers.into_iter().map(adjustment).collect();
         if let [one] = &command[..] {
             return for_all(&self.wings, one);
@@ -183,10 +188,10 @@ struct PythonAir(Function);
 /// rotation to N by rows, velocity, angular velocity in body components; it answers forces and moments about
 /// the origins, N components, shape (bodies, 6). An air with a memory hears which steps are accepted
 /// (`function.accept(step)`), and is called with the number of the step as well.
-pub fn air(function: Py<PyAny>, slot: &Slot, has_memory: bool) -> AirModel {
+pub fn air(function: Py<PyAny>, pending: &PendingException, has_memory: bool) -> AirModel {
     let air = PythonAir(Function {
         function: Arc::new(function),
-        slot: slot.clone(),
+        pending: pending.clone(),
     });
     match has_memory {
         true => AirModel::External(Arc::new(air)),
@@ -213,7 +218,7 @@ impl PythonAir {
             }
             Ok(())
         });
-        self.0.slot.keep(answer)
+        self.0.pending.keep(answer)
     }
 }
 
@@ -246,7 +251,7 @@ impl ExternalAir for PythonAir {
                 .call_method1(py, "open", (bodies, flyer.step));
             open.map(drop)
         });
-        self.0.slot.keep(opened)?;
+        self.0.pending.keep(opened)?;
         Ok(Box::new(self.clone()))
     }
 }
@@ -267,6 +272,6 @@ impl ExternalSession for PythonAir {
             let accept = self.0.function.call_method1(py, "accept", (step,));
             accept.map(drop)
         });
-        self.0.slot.keep(accepted)
+        self.0.pending.keep(accepted)
     }
 }

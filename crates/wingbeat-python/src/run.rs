@@ -8,6 +8,7 @@ use wingbeat::case::LoadedCase;
 use wingbeat::draw::figures::{Chart, charts_of};
 use wingbeat::flight::Snapshot;
 use wingbeat::results::export::{Format, export};
+use wingbeat::results::file::Existing;
 use wingbeat::results::frames;
 use wingbeat::results::{Outcome, ResultDir, Summary};
 use wingbeat::{Error, results};
@@ -209,7 +210,7 @@ impl Run {
         let format = named(py, "format", format, &Format::ALL)?;
         let dir = self.directory(py, "an export")?;
         let into = into.unwrap_or_else(|| dir.path().to_owned());
-        let files = py.detach(|| export(&dir, format, &into, overwrite));
+        let files = py.detach(|| export(&dir, format, &into, Existing::kept_unless(overwrite)));
         files.map_err(|e| raised(py, &e.into()))
     }
 

@@ -10,7 +10,7 @@ use wingbeat::results::Outcome;
 use crate::arrays::{points, vectors};
 use crate::errors::{broken, raised};
 use crate::frame::{Frame, is_framed};
-use crate::own::Slot;
+use crate::own::PendingException;
 use crate::run::Run;
 use crate::threads::detached;
 
@@ -28,12 +28,17 @@ pub struct Stepper {
     course: Mutex<Course>,
     output: OutputSettings,
     case: String,
-    slot: Slot,
+    pending: PendingException,
 }
 
 impl Stepper {
     /// Before the first step of `flight`.
-    pub fn new(flight: Simulation, output: OutputSettings, case: String, slot: Slot) -> Self {
+    pub fn new(
+        flight: Simulation,
+        output: OutputSettings,
+        case: String,
+        pending: PendingException,
+    ) -> Self {
         let course = Course {
             records: vec![flight.record().clone()],
             snapshots: match is_framed(&output, &flight) {
@@ -47,7 +52,7 @@ impl Stepper {
             course: Mutex::new(course),
             output,
             case,
-            slot,
+            pending,
         }
     }
 
@@ -73,7 +78,7 @@ impl Stepper {
             match self.with(py, |course| course.step(&self.output))? {
                 Ok(true) => {}
                 Ok(false) => return Ok(made),
-                Err(e) => return Err(self.slot.take().unwrap_or_else(|| raised(py, &e))),
+                Err(e) => return Err(self.pending.take().unwrap_or_else(|| raised(py, &e))),
             }
         }
         Ok(count)

@@ -11,7 +11,7 @@ use wingbeat_dynamics::{DynamicsError, JointType};
 use wingbeat_flight::{FlightSetup, JointCoordinate, Record, joint_coordinates, loop_names};
 use wingbeat_model::Animal;
 
-use crate::quantity::{Fold, Group, Kind, Of, Quantity, Slot, Unit};
+use crate::quantity::{Entry, Fold, Group, Kind, Of, Quantity, Unit};
 use crate::table::GROUPS;
 use wingbeat_case::{IoError, column_name};
 
@@ -49,8 +49,8 @@ pub struct Column {
 
 impl Column {
     /// Where the number of this column stands in a record of its flight.
-    fn slot<'a>(&self, record: &'a mut Record) -> Slot<'a> {
-        (self.quantity.slot)(record, self.subject, self.component)
+    fn entry<'a>(&self, record: &'a mut Record) -> Entry<'a> {
+        (self.quantity.entry)(record, self.subject, self.component)
     }
 }
 
@@ -269,7 +269,7 @@ impl Columns {
     pub fn values(&self, record: &Record, scratch: &mut Record, values: &mut Vec<f64>) {
         scratch.clone_from(record);
         values.clear();
-        values.extend(self.list.iter().map(|c| c.slot(scratch).get()));
+        values.extend(self.list.iter().map(|c| c.entry(scratch).get()));
     }
 
     /// Joins the numbers of `record` to those of the steps since the last row, `row`, in the columns
@@ -277,7 +277,7 @@ impl Columns {
     pub(crate) fn fold(&self, record: &mut Record, is_first: bool, row: &mut [f64]) {
         for &k in &self.folded {
             let column = &self.list[k];
-            let value = column.slot(record).get();
+            let value = column.entry(record).get();
             row[k] = match is_first {
                 true => value,
                 false => column.fold.join(row[k], value),
@@ -289,13 +289,13 @@ impl Columns {
     pub(crate) fn hold(&self, record: &mut Record, row: &mut [f64]) {
         let own = self.list.iter().zip(row);
         for (column, value) in own.filter(|(c, _)| c.fold == Fold::Last) {
-            *value = column.slot(record).get();
+            *value = column.entry(record).get();
         }
     }
 
     /// Puts the number of column `k` into a record of [`Self::blank`]'s shape.
     pub(crate) fn put(&self, k: usize, value: f64, record: &mut Record) {
-        self.list[k].slot(record).set(value);
+        self.list[k].entry(record).set(value);
     }
 }
 

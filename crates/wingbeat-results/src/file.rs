@@ -15,26 +15,45 @@ use crate::directory::belongs_to_run;
 #[cfg(unix)]
 const PERMISSIONS: u32 = 0o666;
 
+/// What becomes of a file that is there already.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Existing {
+    /// It stays as it is, and nothing is written.
+    Kept,
+    /// It is replaced.
+    Replaced,
+}
+
+impl Existing {
+    /// As an option that allows to `overwrite` says.
+    pub fn kept_unless(overwrite: bool) -> Self {
+        match overwrite {
+            true => Self::Replaced,
+            false => Self::Kept,
+        }
+    }
+}
+
 /// A file that is going to be written; claimed before the work begins, so that nobody waits for
 /// results that have no place.
 #[derive(Clone, Debug)]
 pub struct NewFile {
     path: PathBuf,
-    overwrite: bool,
+    existing: Existing,
 }
 
 impl NewFile {
     /// Claims a path that a user gave.
     ///
     /// # Errors
-    /// A file that exists already, unless `overwrite`; a directory or device; a missing folder; the
+    /// A file that exists already, and is to be kept; a directory or device; a missing folder; the
     /// place of a file of a run.
-    pub fn claim(path: &Path, overwrite: bool) -> Result<Self, IoError> {
+    pub fn claim(path: &Path, existing: Existing) -> Result<Self, IoError> {
         match belongs_to_run(path) {
             true => Err(IoError::Reserved {
                 path: path.to_owned(),
             }),
-            false => Self::claim_own(path, overwrite),
+            false => Self::claim_own(path, existing),
         }
     }
 
@@ -43,7 +62,7 @@ impl NewFile {
     ///
     /// # Errors
     /// As [`Self::claim`], but for the places of files of a run.
-    pub fn claim_own(path: &Path, overwrite: bool) -> Result<Self, IoError> {
+    pub fn claim_own(path: &Path, existing: Existing) -> Result<Self, IoError> {
         let exists = |remedy| {
             Err(IoError::Exists {
                 path: path.to_owned(),
@@ -56,7 +75,7 @@ impl NewFile {
             Err(_) if path.file_name().is_none() => return cannot(ErrorKind::InvalidFilename),
             Err(_) if !folder_of(path).is_dir() => return cannot(ErrorKind::NotFound),
             Ok(data) if data.is_dir() => return exists("it is a directory: name a file"),
-            Ok(_) if !overwrite => {
+            Ok(_) if existing == Existing::Kept => {
                 return exists("name another file, or replace this one with --overwrite");
             }
             Ok(data) if !data.is_file() && !data.is_symlink() => {
@@ -66,7 +85,7 @@ impl NewFile {
         }
         Ok(Self {
             path: path.to_owned(),
-            overwrite,
+            existing,
         })
     }
 
@@ -91,7 +110,7 @@ impl NewFile {
     pub fn replace(&self, content: &[u8]) -> Result<(), IoError> {
         let again = Self {
             path: self.path.clone(),
-            overwrite: true,
+            existing: Existing::Replaced,
         };
         again.write(content)
     }
@@ -134,9 +153,9 @@ impl NewFile {
     }
 
     fn place(&self, part: NamedTempFile) -> Result<(), IoError> {
-        let placed = match self.overwrite {
-            true => part.persist(&self.path),
-            false => part.persist_noclobber(&self.path),
+        let placed = match self.existing {
+            Existing::Replaced => part.persist(&self.path),
+            Existing::Kept => part.persist_noclobber(&self.path),
         };
         placed.map(drop).map_err(|e| match e.error.kind() {
             ErrorKind::AlreadyExists => IoError::Exists {
@@ -152,13 +171,13 @@ impl NewFile {
 ///
 /// # Errors
 /// As [`NewFile::claim_own`] and [`NewFile::write`].
-pub fn write_file(path: &Path, content: &[u8], overwrite: bool) -> Result<(), IoError> {
+pub fn write_file(path: &Path, content: &[u8], existing: Existing) -> Result<(), IoError> {
     let same = fs::symlink_metadata(path).is_ok_and(|data| {
         data.is_file() && data.len() == content.len() as u64 && holds(path, content)
     });
     match same {
         true => Ok(()),
-        false => NewFile::claim_own(path, overwrite)?.write(content),
+        false => NewFile::claim_own(path, existing)?.write(content),
     }
 }
 

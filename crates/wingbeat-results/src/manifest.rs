@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
+use wingbeat_flight::Simulation;
 
 /// How a run ended.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -22,6 +23,14 @@ pub enum Outcome {
 }
 
 impl Outcome {
+    /// Of a flight that no error ended.
+    pub fn of(flight: &Simulation) -> Self {
+        match flight.finished() {
+            true => Self::Finished,
+            false => Self::Interrupted,
+        }
+    }
+
     /// Whether the run ended in order, so that its history holds what the manifest says and no
     /// more. A run that was killed, or could not be written, may have appended rows since.
     pub fn is_sealed(&self) -> bool {

@@ -21,14 +21,14 @@ pub(crate) enum Kind {
 }
 
 /// A number of a record.
-pub(crate) enum Slot<'a> {
+pub(crate) enum Entry<'a> {
     /// A measured number.
     Real(&'a mut f64),
     /// A whole one.
     Count(&'a mut usize),
 }
 
-impl Slot<'_> {
+impl Entry<'_> {
     pub fn get(&self) -> f64 {
         match self {
             Self::Real(x) => **x,
@@ -299,7 +299,7 @@ pub(crate) struct Quantity {
     /// Name and unit in older results; {s} is what the subject was called there.
     pub former: Option<(&'static str, &'static str)>,
     /// Place in a record: of which subject, which component.
-    pub slot: fn(&mut Record, usize, usize) -> Slot<'_>,
+    pub entry: fn(&mut Record, usize, usize) -> Entry<'_>,
 }
 
 /// Quantities that stand together, subject after subject.
@@ -315,7 +315,7 @@ impl Quantity {
         name: &'static str,
         unit: Unit,
         about: &'static str,
-        slot: fn(&mut Record, usize, usize) -> Slot<'_>,
+        entry: fn(&mut Record, usize, usize) -> Entry<'_>,
     ) -> Self {
         Self {
             name,
@@ -327,7 +327,7 @@ impl Quantity {
             fold: Fold::Last,
             is_new: false,
             former: None,
-            slot,
+            entry,
         }
     }
 
@@ -377,7 +377,7 @@ pub(crate) const fn scalar(
     name: &'static str,
     unit: Unit,
     about: &'static str,
-    slot: fn(&mut Record, usize, usize) -> Slot<'_>,
+    entry: fn(&mut Record, usize, usize) -> Entry<'_>,
 ) -> Quantity {
-    Quantity::scalar(name, unit, about, slot)
+    Quantity::scalar(name, unit, about, entry)
 }

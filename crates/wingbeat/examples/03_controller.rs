@@ -30,10 +30,10 @@ pub(crate) fn main() -> Result<(), Error> {
         gains: [300.0, 3.0],
         wings: flight.setup.animal.wings.len(),
     };
-    let interval = (free.setup.time.period.unwrap_or(1.0) / free.setup.time.step).round();
+    let interval = free.setup.time.steps_per_beat().expect("it flaps");
     let held = flight.feedback(Feedback {
         controller: std::sync::Arc::new(controller),
-        interval: interval as usize,
+        interval,
         latency: 0,
         lag: 0.0,
     });

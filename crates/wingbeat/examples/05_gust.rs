@@ -21,7 +21,7 @@ pub(crate) fn carried_off() -> Result<Vec<DVec3>, Error> {
     let period = flight.setup.time.period.expect("it flaps");
     let calm = flight.fly()?;
     let gusty = flight.gust(side_gust(period))?.fly()?;
-    let steps = (period / calm.setup.time.step).round() as usize;
+    let steps = calm.setup.time.steps_per_beat().expect("it flaps");
     let both = calm.records.iter().zip(&gusty.records).step_by(steps);
     Ok(both.map(|(a, b)| b.mass_centre - a.mass_centre).collect())
 }

@@ -17,10 +17,11 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let campaign = Campaign::read(Path::new(&file))?;
     let mut lift = 0.0;
     rayon::scope(|_| -> Result<(), wingbeat::Error> {
-        for i in (k.parse().unwrap_or(0)..campaign.plan.points()).step_by(n.parse().unwrap_or(1)) {
+        for i in (k.parse().unwrap_or(0)..campaign.plan().points()).step_by(n.parse().unwrap_or(1))
+        {
             let overrides = campaign.overrides(i);
             let keys: Vec<&str> = overrides.iter().map(String::as_str).collect();
-            let run = Flight::preset_with(&campaign.raw.case, &keys)?.fly()?;
+            let run = Flight::preset_with(&campaign.raw().case, &keys)?.fly()?;
             lift += run.beats().last().map_or(0.0, |b| b.lift_over_weight);
         }
         Ok(())

@@ -7,11 +7,11 @@ use wingbeat_analysis::{Trim, TrimProblem};
 use wingbeat_case::{IoError, LoadedCase};
 use wingbeat_draw::draw_run;
 use wingbeat_flight::{
-    AirModel, Feedback, FlightSetup, MotionMode, Simulation, StartState, faster,
+    AirModel, Feedback, FlightSetup, MotionMode, Record, Simulation, StartState, TimeGrid, faster,
 };
 use wingbeat_math::DVec3;
 use wingbeat_model::{Animal, Start};
-use wingbeat_results::{Outcome, RunWriter};
+use wingbeat_results::{Outcome, RecordedFlight};
 
 use crate::flown::{Run, new_dir};
 use crate::refusal::Error;
@@ -108,8 +108,10 @@ impl Flight {
 
     /// Steps per wingbeat; of a second, for motions without a beat.
     fn steps_per_beat(&self) -> f64 {
-        let time = &self.setup.time;
-        (time.period.unwrap_or(1.0) / time.step).round()
+        let time = self.setup.time;
+        let period = Some(time.period.unwrap_or(1.0));
+        let steps = TimeGrid { period, ..time }.steps_per_beat();
+        steps.unwrap_or(0) as f64
     }
 
     /// All wings beat with this frequency [Hz], and what drives joints becomes faster as they do; steps per beat, number of
@@ -266,25 +268,25 @@ impl Flight {
         dir: Option<&Path>,
         mut watch: impl FnMut(&Simulation) -> ControlFlow<()>,
     ) -> Result<(Run, Option<Error>), Error> {
+        let mut records = vec![];
+        let each = |flight: &Simulation| {
+            records.push(flight.record().clone());
+            Ok::<_, Error>(watch(flight))
+        };
         let Some(dir) = dir else {
-            return Ok(steps(self.begin()?, |flight| Ok(watch(flight))));
+            let mut flight = self.begin()?;
+            let flown = flight.fly(each).map(|()| Outcome::of(&flight));
+            return Ok(ended(&flight, records, flown));
         };
         let case = self.to_case()?;
         let flight = Self::from(case.clone()).begin()?;
         let threads = rayon::current_num_threads();
-        let mut writer = RunWriter::new(new_dir(dir)?, &case, threads)?;
-        let (run, error) = steps(flight, |flight| {
-            writer.write(flight.record(), || flight.snapshot())?;
-            let next = watch(flight);
-            match next.is_break() {
-                true => writer.save(flight.state())?,
-                false => writer.save_if_due(flight.state())?,
-            }
-            Ok(next)
-        });
+        let mut recorded = RecordedFlight::begin(new_dir(dir)?, &case, flight, threads)?;
+        let flown = recorded.fly(each);
+        let (run, error) = ended(recorded.flight(), records, flown);
         match &error {
-            Some(Error::Io(e)) => writer.abandon(e.to_string()),
-            _ => _ = writer.finish(run.outcome.clone(), draw_run)?,
+            Some(Error::Io(e)) => recorded.abandon(e.to_string()),
+            _ => _ = recorded.finish(run.outcome.clone(), draw_run)?,
         }
         Ok((run, error))
     }
@@ -310,28 +312,22 @@ impl Flight {
     }
 }
 
-/// From step to step, to the end or as long as `each`, which sees the start and every step, says; what was
-/// flown, and the error that ended it.
-fn steps(
-    mut flight: Simulation,
-    mut each: impl FnMut(&Simulation) -> Result<ControlFlow<()>, Error>,
+/// What was flown, and the error that ended it.
+fn ended(
+    flight: &Simulation,
+    mut records: Vec<Record>,
+    flown: Result<Outcome, Error>,
 ) -> (Run, Option<Error>) {
-    let mut records = vec![flight.record().clone()];
-    let mut fly = || loop {
-        let stops = each(&flight)?.is_break();
-        if flight.finished() {
-            return Ok(Outcome::Finished);
-        }
-        if stops {
-            return Ok(Outcome::Interrupted);
-        }
-        records.push(flight.step()?.clone());
-    };
-    let (outcome, error) = match fly() {
+    let (outcome, error) = match flown {
         Ok(outcome) => (outcome, None),
         Err(e @ Error::Io(_)) => (Outcome::Unwritten(e.to_string()), Some(e)),
         Err(e) => (Outcome::Failed(e.to_string()), Some(e)),
     };
+    let newest = flight.record();
+    let is_lacking = records.last().is_none_or(|r| r.step < newest.step);
+    if is_lacking && matches!(outcome, Outcome::Unwritten(_)) {
+        records.push(newest.clone()); // flown, and not written
+    }
     let setup = flight.setup().clone();
     let run = Run {
         setup,

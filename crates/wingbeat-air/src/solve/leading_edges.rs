@@ -3,7 +3,7 @@
 use crate::error::AirError;
 use crate::solve::influence::{Influence, Instant};
 use crate::solve::leaving::{Leaving, Part};
-use crate::solve::suction::{Front, PLACES, Release, threshold};
+use crate::solve::suction::{LeadingStrip, PLACES, Release, threshold};
 use crate::solve::unknowns::panel;
 use crate::wake::{Filaments, Sums, WakeVelocityCache};
 use wingbeat_math::DVec3;
@@ -19,7 +19,7 @@ pub(crate) struct FreeWakes<'a> {
 /// Memory of what happens at leading edges.
 #[derive(Default)]
 pub(crate) struct LeadingEdges {
-    fronts: Vec<Front>,
+    strips: Vec<LeadingStrip>,
     leaving: Leaving,
     release: Release,
     /// Places along the leading panels, each with the normal, and the velocity of the free wakes there.
@@ -59,10 +59,10 @@ impl LeadingEdges {
         let Some(threshold) = threshold(now.lattice) else {
             return Ok(());
         };
-        self.fronts.clear();
-        let fronts = now.lattice.strips().iter();
-        self.fronts
-            .extend(fronts.map(|strip| Front::of(now, strip)));
+        self.strips.clear();
+        let strips = now.lattice.strips().iter();
+        self.strips
+            .extend(strips.map(|strip| LeadingStrip::of(now, strip)));
         self.leaving.load(now.lattice, filaments);
         self.place(now, wakes);
         self.take_limits(now, filaments, (threshold, gamma));
@@ -83,7 +83,7 @@ impl LeadingEdges {
     fn net(&self, now: Instant, filaments: &Filaments, gamma: &[f64], k: usize) -> f64 {
         let strip = &now.lattice.strips()[k];
         let ring = filaments.bound.gamma[strip.edge];
-        self.fronts[k].counted(now.lattice, strip, (gamma, ring))
+        self.strips[k].counted(now.lattice, strip, (gamma, ring))
     }
 
     /// Places along the leading panels, and the velocity of the free wakes there.
@@ -95,7 +95,7 @@ impl LeadingEdges {
             let panels = &lattice.strips()[s].panels;
             let foremost = [panels[0], panels[1.min(panels.len() - 1)]];
             let points = foremost.map(|p| now.panels.point[p]);
-            self.fronts[s].places(points, &mut self.places);
+            self.strips[s].places(points, &mut self.places);
             let new = self.at_places.len()..self.places.len();
             let last = self.places.len() - 1;
             let panel = |i: usize| foremost[usize::from(i == last)];
@@ -116,7 +116,7 @@ impl LeadingEdges {
             let wake = lattice.topology().edges[lattice.strips()[s].edge].wake;
             let has_row = wake.is_some_and(|w| now.state.sheets[w.sheet].rows() > 0);
             self.release.most.push(match has_row {
-                true => most * self.fronts[s].section.unit(),
+                true => most * self.strips[s].section.unit(),
                 false => f64::INFINITY, // no vortex has a place to go yet
             });
             let net = self.net(now, filaments, gamma, s);
@@ -127,8 +127,8 @@ impl LeadingEdges {
     /// Counts what wakes make along the leading panels and the lattice does not see: those that are there, and what leaves.
     fn count_unseen(&mut self, now: Instant, filaments: &Filaments) {
         let computed = &now.lattice.suction().computed;
-        let (n, fronts) = (computed.len(), &self.fronts);
-        let weight = |i: usize| fronts[computed[i / PLACES]].weights[i % PLACES];
+        let (n, strips) = (computed.len(), &self.strips);
+        let weight = |i: usize| strips[computed[i / PLACES]].weights[i % PLACES];
         let Release {
             net, by_leaving, ..
         } = &mut self.release;
@@ -168,12 +168,12 @@ impl LeadingEdges {
         };
         (self.leaving).near_wake(lattice, &filaments.shares, &self.at_points, see);
         let see = |i: usize, k: usize, rate: f64| answer[k * n + i] -= rate;
-        (self.leaving).fronts(lattice, &self.at_points, see);
+        (self.leaving).leading_edges(lattice, &self.at_points, see);
         for (k, column) in answer.chunks_mut(n).enumerate() {
             influence.solve_another(now.state, column)?;
             for (u, &s) in computed.iter().enumerate() {
                 let own = if u == k { -1.0 } else { 0.0 };
-                let change = self.fronts[s].counted(lattice, &lattice.strips()[s], (column, own));
+                let change = self.strips[s].counted(lattice, &lattice.strips()[s], (column, own));
                 self.release.by_leaving[u * strips + k] += change;
             }
         }
@@ -190,7 +190,7 @@ impl LeadingEdges {
             let strip = &now.lattice.strips()[s];
             let normal = now.panels.normal[strip.panels[0]];
             if let Some(row) = now.newest_row(strip.edge) {
-                let least = self.fronts[s].least_effect(row, normal);
+                let least = self.strips[s].least_effect(row, normal);
                 self.given[u] = self.release.bound(u, least);
             }
         }
@@ -233,7 +233,7 @@ impl LeadingEdges {
                 }
                 None => self.net(now, filaments, gamma, k),
             };
-            self.suction[k] = self.fronts[k].section.parameter(net.abs());
+            self.suction[k] = self.strips[k].section.parameter(net.abs());
         }
     }
 }

@@ -10,7 +10,7 @@ use wingbeat_vortex::{BLOCK, Network, UnitEdges};
 #[derive(Default)]
 pub(crate) struct Leaving {
     near_wake: UnitEdges,
-    front: UnitEdges,
+    leading: UnitEdges,
     /// The leading edges, and the unknown of each.
     edges: Network,
     unknown: Vec<usize>,
@@ -44,7 +44,7 @@ impl Leaving {
             self.unknown.push(*unknown);
         }
         let count = self.edges.len();
-        (self.front).load(settings.bound_core, &self.edges, all(count));
+        (self.leading).load(settings.bound_core, &self.edges, all(count));
         let room = BLOCK * self.near_wake.len().max(count);
         self.rates.resize(room.max(self.rates.len()), 0.0);
     }
@@ -83,7 +83,7 @@ impl Leaving {
     }
 
     /// The same of the leading edges, which lack what leaves.
-    pub fn fronts(
+    pub fn leading_edges(
         &mut self,
         lattice: &Lattice,
         points: &[[DVec3; 2]],
@@ -91,14 +91,14 @@ impl Leaving {
     ) {
         let model = lattice.settings().bound_core;
         let Self {
-            front,
+            leading,
             unknown,
             rates,
             reflected,
             ..
         } = self;
         on_all_sides(lattice.mirrors(), points, reflected, |first, chunk| {
-            front.normal_velocities(model, 0, chunk.iter().copied(), rates);
+            leading.normal_velocities(model, 0, chunk.iter().copied(), rates);
             for (strip, rates) in unknown.iter().zip(rates.chunks(BLOCK)) {
                 for (i, rate) in rates[..chunk.len()].iter().enumerate() {
                     see(first + i, *strip, -rate);

@@ -30,15 +30,15 @@ const LEAST: f64 = 0.4;
 /// Rounds of changes to all strips at once; then one strip changes at a time.
 const ALL_AT_ONCE: usize = 8;
 
-/// A strip at one instant.
+/// A strip behind a leading edge at one instant.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Front {
+pub(crate) struct LeadingStrip {
     pub section: LeadingSection,
     /// Net circulation by a normal velocity at each of the places that the lattice does not see [m].
     pub weights: [f64; PLACES],
 }
 
-impl Front {
+impl LeadingStrip {
     pub fn of(now: Instant, strip: &Strip) -> Self {
         let here = (now.lattice, now.panels, now.time);
         let section = LeadingSection::of(here, strip, &now.motion.position);

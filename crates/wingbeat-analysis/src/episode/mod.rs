@@ -17,6 +17,7 @@
 //! R: wing length, T: period of the wingbeat.
 
 mod flyer;
+mod recoveries;
 mod strokes;
 mod task;
 mod tumble;
@@ -34,6 +35,7 @@ use crate::sensors::Sensors;
 use crate::trim::Trim;
 
 pub use flyer::{Flyer, Model, SharedModel};
+pub use recoveries::Recoveries;
 pub use strokes::{SteadyStroke, SteeredStroke, Transition};
 pub use task::{Draw, Start, Task};
 pub use tumble::{CALM_BEATS, CALM_SPEED, CALM_TILT, Recovery, Tumbles};

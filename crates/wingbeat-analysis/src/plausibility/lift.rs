@@ -16,11 +16,11 @@ use crate::error::AnalysisError;
 /// Steps per wingbeat with which the blade elements are flown at least.
 const STEPS: usize = 60;
 
-/// Steps of a wingbeat of the `period` \[s\] on trial: with free joints, which may be stiff, no longer than those of the flight.
-fn steps(setup: &FlightSetup, period: f64) -> usize {
+/// Steps of a wingbeat on trial: with free joints, which may be stiff, no longer than those of the flight.
+fn steps(setup: &FlightSetup) -> usize {
     let has_free_joints = system_of(setup).is_ok_and(|s| s.speeds() > 0);
     match has_free_joints {
-        true => STEPS.max((period / setup.time.step).round() as usize),
+        true => STEPS.max(setup.time.steps_per_beat().unwrap_or(0)),
         false => STEPS,
     }
 }
@@ -57,7 +57,7 @@ pub(super) fn lift_over_weight(setup: &FlightSetup) -> Result<Option<f64>, Analy
     }
     tethered.feedback = None;
     tethered.mode = MotionMode::Tethered(held(setup));
-    let steps = steps(setup, period);
+    let steps = steps(setup);
     tethered.time = TimeGrid {
         step: period / steps as f64,
         steps: 2 * steps,

@@ -2,7 +2,6 @@
 
 use wingbeat_dynamics::BodyMotion;
 use wingbeat_flight::{FlightSetup, MotionMode, Record, Simulation, StartState};
-use wingbeat_math::{DMat3, DQuat};
 
 use crate::AnalysisError;
 use crate::level::{Level, Perturbation};
@@ -41,16 +40,10 @@ pub(super) fn steps_per_beat(setup: &FlightSetup) -> Result<usize, AnalysisError
     ))
 }
 
-/// Attitude of the root, root to N.
-pub(super) fn rotation(r: &Record) -> DMat3 {
-    let [w, x, y, z] = r.root_quaternion;
-    DMat3::from_quat(DQuat::from_xyzw(x, y, z, w))
-}
-
 /// What the flyer of `setup` looks like from `level`.
 pub(super) fn seen(setup: &FlightSetup, level: &Level, r: &Record) -> Perturbation {
     let velocity = r.momentum / setup.animal.mass();
-    Perturbation::seen(level, rotation(r), velocity, r.root_angular_velocity)
+    Perturbation::seen(level, r.root_rotation(), velocity, r.root_angular_velocity)
 }
 
 /// The motion into which the root is released, from that at the end of the hold.

@@ -6,7 +6,7 @@ use wingbeat_flight::{
 };
 use wingbeat_math::DVec3;
 
-use super::free_beat::{free_beat, rotation, start, steps_per_beat};
+use super::free_beat::{free_beat, start, steps_per_beat};
 use super::orbit::{check_alike, check_orbit, has_orbit, periodic_beat};
 use super::sway::sway;
 use crate::AnalysisError;
@@ -198,7 +198,7 @@ impl Flights<'_> {
         let (period, angles) = (period(&setup), [solution.body_pitch, solution.body_roll]);
         let setup = self.timed(setup, period, self.start_at(x, angles));
         let (ends, past, roots) = self.beat(&setup)?;
-        (solution.residual, solution.aside) = self.residuals_between(&setup, period, &ends);
+        (solution.residual, solution.lateral) = self.residuals_between(&setup, period, &ends);
         self.best = self.best.min(solution.error());
         Ok(WakeTrim {
             solution,
@@ -258,7 +258,7 @@ impl Flights<'_> {
             centre: r.mass_centre,
             momentum: r.momentum,
             spin: spin(r),
-            rotation: rotation(r),
+            rotation: r.root_rotation(),
         });
         self.residuals.between(self.problem, &size, &seen)
     }

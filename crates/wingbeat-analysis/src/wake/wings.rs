@@ -56,16 +56,16 @@ pub struct ElasticMonodromy {
 /// # Errors
 /// A trim of another kind; a flight that fails; departures that the disturbances do not reach.
 pub fn elastic_monodromy(trim: &WakeTrim, count: usize) -> Result<ElasticMonodromy, AnalysisError> {
-    let rig = Rig::new(trim, count)?;
-    let n = rig.order();
-    let departures = departures(n, |_| PART, |k, part| rig.fly(k, part))?;
+    let flights = DisturbedFlights::new(trim, count)?;
+    let n = flights.order();
+    let departures = departures(n, |_| PART, |k, part| flights.fly(k, part))?;
     Ok(ElasticMonodromy {
         matrix: map_between(&departures, n)?,
         departures,
         order: n,
-        wakes: rig.wakes.len(),
-        wings: rig.wings.iter().map(|w| w.modes.len()).collect(),
-        period: rig.scales.period,
+        wakes: flights.wakes.len(),
+        wings: flights.wings.iter().map(|w| w.modes.len()).collect(),
+        period: flights.scales.period,
     })
 }
 
@@ -130,7 +130,7 @@ fn without(wakes: usize) -> impl Fn(Eigenpair) -> Eigenpair {
 }
 
 /// The trimmed flight and how it is disturbed.
-struct Rig<'a> {
+struct DisturbedFlights<'a> {
     trim: &'a WakeTrim,
     steps: usize,
     level: Level,
@@ -148,7 +148,7 @@ struct WingBasis {
     sizes: Vec<f64>,
 }
 
-impl<'a> Rig<'a> {
+impl<'a> DisturbedFlights<'a> {
     fn new(trim: &'a WakeTrim, count: usize) -> Result<Self, AnalysisError> {
         if !trim.is_orbit() {
             return Err(AnalysisError::not_covered(

@@ -50,7 +50,7 @@ pub(crate) use window::charts;
 pub use window::{NamedCharts, Window, charts_of};
 use wingbeat_case::IoError;
 use wingbeat_case::LoadedCase;
-use wingbeat_results::file::{NewFile, make_folder, write_file};
+use wingbeat_results::file::{Existing, NewFile, make_folder, write_file};
 use wingbeat_results::{ResultDir, Summary, frames};
 
 use source::Source;
@@ -85,7 +85,7 @@ pub fn plot(dir: &ResultDir, order: &Order) -> Result<Plotted, IoError> {
     if drawn.lacking.is_empty() || !is_empty {
         make_folder(&order.folder)?;
     }
-    drawn.write(&source, order.overwrite)
+    drawn.write(&source, order.existing)
 }
 
 /// A step that is asked for is one of the run, which has frames.
@@ -137,12 +137,12 @@ impl Drawn {
         Ok(drawn)
     }
 
-    fn write(self, source: &Source<'_>, overwrite: bool) -> Result<Plotted, IoError> {
+    fn write(self, source: &Source<'_>, existing: Existing) -> Result<Plotted, IoError> {
         for (file, bytes) in &self.stills {
-            write_file(file, bytes, overwrite)?;
+            write_file(file, bytes, existing)?;
         }
         for (file, film) in &self.films {
-            animate(source, file, *film, overwrite)?;
+            animate(source, file, *film, existing)?;
         }
         let stills = self.stills.into_iter().map(|(file, _)| file);
         let films = self.films.into_iter().map(|(file, _)| file);
@@ -170,8 +170,13 @@ fn encoded(drawing: &Drawing, style: Style, format: Format) -> Result<Vec<u8>, S
 }
 
 /// The animation is written beside its place and moved there when it is whole.
-fn animate(source: &Source<'_>, path: &Path, film: bool, overwrite: bool) -> Result<(), IoError> {
-    let file = NewFile::claim_own(path, overwrite)?;
+fn animate(
+    source: &Source<'_>,
+    path: &Path,
+    film: bool,
+    existing: Existing,
+) -> Result<(), IoError> {
+    let file = NewFile::claim_own(path, existing)?;
     file.make(|part| match animation::write(source, part, film)? {
         0 => Err(fault(path)(Kind::Animation.needs().to_owned())),
         _ => Ok(()),

@@ -2,6 +2,8 @@
 
 use std::path::PathBuf;
 
+use wingbeat_results::file::Existing;
+
 use super::style::Style;
 use super::window::Window;
 
@@ -171,8 +173,8 @@ pub struct Order {
     pub window: Window,
     /// Folder for the files.
     pub folder: PathBuf,
-    /// Whether files that are there already and differ are replaced.
-    pub overwrite: bool,
+    /// What becomes of files that are there already and differ.
+    pub existing: Existing,
 }
 
 impl Order {

@@ -22,7 +22,7 @@ mod vtkhdf;
 use std::path::{Path, PathBuf};
 
 use crate::ResultDir;
-use crate::file::{NewFile, make_folder};
+use crate::file::{Existing, NewFile, make_folder};
 use crate::frames::{self, Frame};
 use wingbeat_case::IoError;
 
@@ -66,13 +66,12 @@ impl Format {
 /// Exports a result into its own directory or another folder; returns the files.
 ///
 /// # Errors
-/// A result that cannot be read; a file that cannot be written, or exists already where
-/// `overwrite` does not allow to replace it.
+/// A result that cannot be read; a file that cannot be written, or exists already and is to be kept.
 pub fn export(
     dir: &ResultDir,
     format: Format,
     into: &Path,
-    overwrite: bool,
+    existing: Existing,
 ) -> Result<Vec<PathBuf>, IoError> {
     let source = Source {
         case: dir.case()?,
@@ -85,7 +84,7 @@ pub fn export(
         && (frames::steps(dir.path())?.first())
             .is_some_and(|k| Frame::particles_path(dir.path(), *k).is_file());
     let claim = |name: &&'static str| {
-        let file = NewFile::claim_own(&into.join(name), overwrite)?;
+        let file = NewFile::claim_own(&into.join(name), existing)?;
         Ok((*name, file))
     };
     let files: Result<Vec<_>, IoError> = format.files(particles).iter().map(claim).collect();

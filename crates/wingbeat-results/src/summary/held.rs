@@ -1,8 +1,9 @@
 //! How far a flight under feedback was from what it is to hold.
 
 use serde::{Deserialize, Serialize};
+use wingbeat_flight::record::rotation_of;
 use wingbeat_flight::{FlightSetup, MotionMode, Record};
-use wingbeat_math::{DMat3, DQuat, DVec3};
+use wingbeat_math::{DMat3, DVec3};
 
 /// The largest and the last of a number, in the unit of that number.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -68,8 +69,8 @@ impl Departures {
             heading,
         });
         let turn = DMat3::from_rotation_z(heading - release.heading);
-        let now = rotation(r.root_quaternion);
-        let turned = (turn * rotation(release.attitude)).transpose() * now;
+        let now = r.root_rotation();
+        let turned = (turn * rotation_of(release.attitude)).transpose() * now;
         let cosine = 0.5 * (turned.x_axis.x + turned.y_axis.y + turned.z_axis.z - 1.0);
         self.attitude_deg
             .take(cosine.clamp(-1.0, 1.0).acos().to_degrees());
@@ -81,8 +82,4 @@ impl Departures {
             self.place_wing_lengths.get_or_insert_default().take(away);
         }
     }
-}
-
-fn rotation([w, x, y, z]: [f64; 4]) -> DMat3 {
-    DMat3::from_quat(DQuat::from_xyzw(x, y, z, w))
 }

@@ -1,8 +1,8 @@
 //! Columns of balances, quality and wakes.
 
 use crate::quantity::Components::Inertial;
+use crate::quantity::Entry::{Count, Real};
 use crate::quantity::Fold::{Largest, Smallest, Sum};
-use crate::quantity::Slot::{Count, Real};
 use crate::quantity::{Frame, Quantity, Unit, scalar};
 
 pub(super) const ENERGIES: &[Quantity] = &[

@@ -1,7 +1,7 @@
 //! Columns of feedback: commands and reference.
 
 use crate::quantity::Components::Place;
-use crate::quantity::Slot::{Count, Real};
+use crate::quantity::Entry::{Count, Real};
 use crate::quantity::{Frame, Quantity, Unit, scalar};
 
 /// What feedback commands.

@@ -1,7 +1,7 @@
 //! Columns of joints and loads.
 
 use crate::quantity::Components::{Child, Inertial};
-use crate::quantity::Slot::{Count, Real};
+use crate::quantity::Entry::{Count, Real};
 use crate::quantity::{Frame, Quantity, Unit, scalar};
 
 pub(super) const CONNECTIONS: &[Quantity] = &[scalar(

@@ -1,7 +1,7 @@
 //! Columns of time and motion.
 
 use crate::quantity::Components::{Angles, Inertial, Own, Place, Quaternion};
-use crate::quantity::Slot::{Count, Real};
+use crate::quantity::Entry::{Count, Real};
 use crate::quantity::{Frame, Quantity, Unit, scalar};
 
 pub(super) const TIME: &[Quantity] = &[

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 use wingbeat::results::ResultDir;
 use wingbeat::results::export::{self, Format};
+use wingbeat::results::file::Existing;
 
 use crate::command::failure::Failure;
 use crate::command::options::choose;
@@ -35,7 +36,12 @@ fn format(name: &str) -> Result<Format, String> {
 pub(crate) fn export(args: &ExportArgs) -> Result<(), Failure> {
     let dir = ResultDir::read(&args.dir)?;
     let into = args.out.as_ref().unwrap_or(&args.dir);
-    for file in export::export(&dir, args.format, into, args.overwrite)? {
+    for file in export::export(
+        &dir,
+        args.format,
+        into,
+        Existing::kept_unless(args.overwrite),
+    )? {
         say!("wrote {}", file.display());
     }
     Ok(())

@@ -8,7 +8,7 @@ use clap::error::{ContextKind, ContextValue};
 use clap::{Command, CommandFactory, Error};
 use clap_complete::Shell;
 use wingbeat::case::{nearest, presets};
-use wingbeat::results::file::{NewFile, make_folder};
+use wingbeat::results::file::{Existing, NewFile, make_folder};
 
 use crate::command::cli::{Cli, ManArgs, STYLES};
 use crate::command::failure::Failure;
@@ -106,7 +106,10 @@ pub(crate) fn man(args: &ManArgs) -> Result<(), Failure> {
     let pages = std::iter::once(&program).chain(commands);
     let claim = |command: &Command| {
         let name = command.get_display_name().unwrap_or(PROGRAM).to_owned();
-        let file = NewFile::claim(&args.dir.join(format!("{name}.1")), args.overwrite)?;
+        let file = NewFile::claim(
+            &args.dir.join(format!("{name}.1")),
+            Existing::kept_unless(args.overwrite),
+        )?;
         Ok((file, command.clone()))
     };
     let pages: Result<Vec<_>, Failure> = pages.map(claim).collect();

@@ -16,7 +16,6 @@ mod options;
 mod pace;
 mod plot;
 mod progress;
-mod remaining;
 mod report;
 mod run;
 mod show;

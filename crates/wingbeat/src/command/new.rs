@@ -6,7 +6,7 @@ use clap::{Args, ValueEnum};
 use serde_json::json;
 use wingbeat::case::insect::{self, InsectAir, SPECIES, Size};
 use wingbeat::case::{self, presets};
-use wingbeat::results::file::write_file;
+use wingbeat::results::file::{Existing, write_file};
 
 use crate::command::failure::Failure;
 use crate::command::options;
@@ -122,9 +122,10 @@ impl NewArgs {
 pub(crate) fn new(args: &NewArgs) -> Result<(), Failure> {
     let (name, text, file) = args.case()?;
     let path = file.unwrap_or_else(|| PathBuf::from(format!("{name}.toml")));
-    let target = Target::claim(&path, args.overwrite)?;
+    let existing = Existing::kept_unless(args.overwrite);
+    let target = Target::claim(&path, existing)?;
     if args.schema {
-        write_schema(&target, args.overwrite)?;
+        write_schema(&target, existing)?;
     }
     target.write(&case::with_schema(&text))?;
     if let Some(path) = target.path() {
@@ -134,7 +135,7 @@ pub(crate) fn new(args: &NewArgs) -> Result<(), Failure> {
 }
 
 /// Writes the schema beside a case.
-fn write_schema(case: &Target, overwrite: bool) -> Result<(), Failure> {
+fn write_schema(case: &Target, existing: Existing) -> Result<(), Failure> {
     let Some(path) = case.path() else {
         let problem = "--schema writes a file beside the case, which has none on the standard output; `wingbeat schema` prints it";
         return Err(Failure::Option(problem.to_owned()));
@@ -142,7 +143,7 @@ fn write_schema(case: &Target, overwrite: bool) -> Result<(), Failure> {
     let file = path.with_file_name(case::SCHEMA_FILE);
     // As `wingbeat schema` prints it.
     let schema = format!("{}\n", case::schema());
-    write_file(&file, schema.as_bytes(), overwrite)?;
+    write_file(&file, schema.as_bytes(), existing)?;
     say!("wrote {}", file.display());
     Ok(())
 }

@@ -4,11 +4,10 @@ use std::path::Path;
 use std::time::Instant;
 
 use wingbeat::air::Points;
+use wingbeat::analysis::cost::{CostModel, WakeGrowth};
 use wingbeat::case::OutputSettings;
 use wingbeat::flight::{AirModel, AirOptions, FlightSetup, Record, Simulation};
 use wingbeat::results::rows::Rows;
-
-use crate::command::remaining::{CostModel, Growth};
 
 /// Points of a trial sum over the wake.
 const TRIAL_POINTS: usize = 2048;
@@ -20,7 +19,7 @@ pub(crate) struct Pace {
     steps: usize,
     newest: Instant,
     cost: CostModel,
-    growth: Growth,
+    growth: WakeGrowth,
     /// Elements of the wake at which the next trial is due; none where a trial says nothing.
     next_trial: Option<f64>,
     /// Seconds that summary, figures and page take of the whole history, once they can be told.
@@ -45,7 +44,7 @@ impl Pace {
             steps: setup.time.steps,
             newest: Instant::now(),
             cost: CostModel::new(if blobs { 1.5 } else { 2.0 }),
-            growth: Growth::new(kept_steps(setup)),
+            growth: WakeGrowth::new(kept_steps(setup)),
             next_trial: (!blobs).then_some(TRIAL_WAKE),
             ending: None,
         }

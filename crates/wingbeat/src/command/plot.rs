@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 use wingbeat::draw::figures::{self, Format, Kind, Order, Style, Window};
 use wingbeat::results::ResultDir;
+use wingbeat::results::file::Existing;
 
 use crate::command::failure::{FAILED, Failure};
 use crate::command::options::{self, choose};
@@ -79,7 +80,7 @@ pub(crate) fn plot(args: &PlotArgs) -> Result<(), Failure> {
             beats: args.beats,
         },
         folder,
-        overwrite: args.overwrite,
+        existing: Existing::kept_unless(args.overwrite),
     };
     let plotted = figures::plot(&dir, &order)?;
     for file in &plotted.files {

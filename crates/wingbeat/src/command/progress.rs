@@ -81,15 +81,9 @@ impl Progress {
         }
     }
 
-    /// Air force against gravity \[N\].
-    fn lift(&self, record: &Record) -> f64 {
-        let force: wingbeat::math::DVec3 = record.air.iter().map(|l| l.force).sum();
-        -force.dot(self.down)
-    }
-
     /// The most wanted first: narrow terminals show only the beginning.
     fn message(&self, record: &Record) -> String {
-        let lift = self.lift(record);
+        let lift = record.lift(self.down);
         let lift = if self.weight > 0.0 {
             format!("lift/weight {}", signed(lift / self.weight, 2))
         } else {
@@ -113,7 +107,7 @@ impl Progress {
     fn line(&self, record: &Record) -> String {
         let seconds = self.began.elapsed().as_secs_f64().max(1e-9);
         let rate = (record.step - self.from) as f64 / seconds;
-        let lift = self.lift(record);
+        let lift = record.lift(self.down);
         serde_json::json!({
             "step": record.step,
             "steps": self.steps,

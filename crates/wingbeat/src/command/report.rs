@@ -8,6 +8,7 @@ use clap::Args;
 use serde_json::{Map, Value};
 use wingbeat::case::IoError;
 use wingbeat::results::Summary;
+use wingbeat::results::file::Existing;
 
 use crate::command::failure::Failure;
 use crate::command::target::{self, Target};
@@ -73,7 +74,8 @@ impl ReportArgs {
         analysis: impl FnOnce(&mut Report, [Option<Target>; N]) -> Result<(), Failure>,
     ) -> Result<(), Failure> {
         let place = self.place(&others)?;
-        let claim = |path: &PathBuf| Target::claim(path, self.overwrite);
+        let existing = Existing::kept_unless(self.overwrite);
+        let claim = |path: &PathBuf| Target::claim(path, existing);
         let mut files = [const { None }; N];
         for (file, path) in files.iter_mut().zip(others) {
             *file = path.as_ref().map(claim).transpose()?;
@@ -116,7 +118,8 @@ impl ReportArgs {
         }
         match &self.out {
             Some(path) if !is_output(&path) => {
-                Ok(Place::File(Target::claim(path, self.overwrite)?))
+                let existing = Existing::kept_unless(self.overwrite);
+                Ok(Place::File(Target::claim(path, existing)?))
             }
             None if taken > 0 => Ok(Place::Error),
             _ => Ok(Place::Output),

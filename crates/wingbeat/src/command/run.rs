@@ -1,5 +1,6 @@
 //! `wingbeat run` and `wingbeat resume`: fly a case, write its results, say what happened.
 
+use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -7,7 +8,7 @@ use clap::Args;
 use wingbeat::case::{IoError, LoadedCase, presets};
 use wingbeat::draw::draw_run;
 use wingbeat::flight::{FlightError, Simulation};
-use wingbeat::results::{Outcome, ResultDir, RunWriter, saver};
+use wingbeat::results::{Outcome, RecordedFlight, ResultDir, saver};
 
 use crate::command::failure::{FAILED, Failure, INTERRUPTED};
 use crate::command::options::RunOptions;
@@ -44,11 +45,10 @@ pub(crate) struct ResumeArgs {
     options: RunOptions,
 }
 
-/// A flight and where it is written to; the newest record is written already.
+/// A flight that is written, and its case.
 struct Run {
     case: LoadedCase,
-    flight: Simulation,
-    writer: RunWriter,
+    flight: RecordedFlight,
 }
 
 /// `wingbeat run`.
@@ -71,7 +71,7 @@ pub(crate) fn resume(args: &ResumeArgs) -> Result<(), Failure> {
 
 fn start(options: &RunOptions, run: Run, interrupts: &Interrupts) -> Result<(), Failure> {
     if !options.silent() {
-        let dir = run.writer.dir().path().display();
+        let dir = run.flight.dir().path().display();
         tell!("{}: results go to {dir}", run.case.name);
     }
     fly(options, run, interrupts.stop())
@@ -135,13 +135,8 @@ fn begin(
     flight: Simulation,
     threads: usize,
 ) -> Result<Run, IoError> {
-    let mut writer = RunWriter::new(dir, &case, threads)?;
-    writer.write(flight.record(), || flight.snapshot())?;
-    Ok(Run {
-        case,
-        flight,
-        writer,
-    })
+    let flight = RecordedFlight::begin(dir, &case, flight, threads)?;
+    Ok(Run { case, flight })
 }
 
 /// Goes back to the last checkpoint; to the start, where a run was killed before its first one;
@@ -181,26 +176,23 @@ fn go_back(dir: &Path, threads: usize, interrupts: &Interrupts) -> Result<Option
         header.step,
         case.setup.time.steps
     );
-    let writer = RunWriter::resume(dir, &case, &header, saved.manifest, threads)?;
-    Ok(Some(Run {
-        case,
-        flight,
-        writer,
-    }))
+    let flight = RecordedFlight::resume(dir, &case, flight, (&header, saved.manifest), threads)?;
+    Ok(Some(Run { case, flight }))
 }
 
 fn fly(options: &RunOptions, mut run: Run, stop: &AtomicBool) -> Result<(), Failure> {
-    let mut progress = Progress::new(&run.case.setup, options, run.flight.state().step);
+    let from = run.flight.flight().state().step;
+    let mut progress = Progress::new(&run.case.setup, options, from);
     // Within the pool: handing it work from outside wakes a thread for every sum.
     let flown = rayon::scope(|_| steps(&mut run, &mut progress, stop));
     progress.clear();
     let outcome = match flown {
         Ok(outcome) => outcome,
         Err(StepError::Flight(e)) => Outcome::Failed(e.to_string()),
-        Err(StepError::Writing(e)) => return Err(unwritten(run.writer, &e)),
+        Err(StepError::Writing(e)) => return Err(unwritten(run.flight, &e)),
     };
-    let path = run.writer.dir().path().to_owned();
-    match run.writer.finish(outcome.clone(), draw_run) {
+    let path = run.flight.dir().path().to_owned();
+    match run.flight.finish(outcome.clone(), draw_run) {
         Ok(summary) if options.json => say!("{}", summary.to_json_line(&path)),
         Ok(summary) if !options.quiet => {
             let text = terminal::judged(&summary);
@@ -226,9 +218,9 @@ fn fly(options: &RunOptions, mut run: Run, stop: &AtomicBool) -> Result<(), Fail
 }
 
 /// A result that cannot be written any more, e.g. on a full disk.
-fn unwritten(writer: RunWriter, e: &IoError) -> Failure {
-    let path = writer.dir().path().to_owned();
-    writer.abandon(e.to_string());
+fn unwritten(flight: RecordedFlight, e: &IoError) -> Failure {
+    let path = flight.dir().path().to_owned();
+    flight.abandon(e.to_string());
     tell!(
         "error: {e}\nThe run stopped. What was written up to there is kept; when there is space again, `wingbeat resume {}` goes on from the last checkpoint, bit for bit.",
         path.display()
@@ -258,31 +250,29 @@ enum StepError {
     Writing(IoError),
 }
 
-/// The loop of the flight: the newest step is written; save, step, write.
-fn steps(run: &mut Run, progress: &mut Progress, stop: &AtomicBool) -> Result<Outcome, StepError> {
-    let Run {
-        case,
-        flight,
-        writer,
-    } = run;
-    let history = writer.dir().join("history.csv");
-    loop {
-        let stopped = stop.load(Ordering::SeqCst);
-        let saved = match stopped {
-            true => writer.save(flight.state()),
-            false => writer.save_if_due(flight.state()),
-        };
-        saved.map_err(StepError::Writing)?;
-        if flight.finished() {
-            return Ok(Outcome::Finished);
-        }
-        if stopped {
-            return Ok(Outcome::Interrupted);
-        }
-        flight.step().map_err(StepError::Flight)?;
-        writer
-            .write(flight.record(), || flight.snapshot())
-            .map_err(StepError::Writing)?;
-        progress.show(flight, &history, &case.output);
+impl From<FlightError> for StepError {
+    fn from(e: FlightError) -> Self {
+        Self::Flight(e)
     }
+}
+
+impl From<IoError> for StepError {
+    fn from(e: IoError) -> Self {
+        Self::Writing(e)
+    }
+}
+
+/// Shows the steps as they are made, until the flight is at its end or asked to stop.
+fn steps(run: &mut Run, progress: &mut Progress, stop: &AtomicBool) -> Result<Outcome, StepError> {
+    let history = run.flight.dir().join("history.csv");
+    let from = run.flight.flight().state().step;
+    run.flight.fly(|flight| {
+        if flight.state().step > from {
+            progress.show(flight, &history, &run.case.output);
+        }
+        Ok(match stop.load(Ordering::SeqCst) {
+            true => ControlFlow::Break(()),
+            false => ControlFlow::Continue(()),
+        })
+    })
 }

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use wingbeat::case::IoError;
-use wingbeat::results::file::NewFile;
+use wingbeat::results::file::{Existing, NewFile};
 
 use crate::command::terminal;
 
@@ -28,10 +28,10 @@ impl Target {
     ///
     /// # Errors
     /// As [`NewFile::claim`].
-    pub(crate) fn claim(path: &Path, overwrite: bool) -> Result<Self, IoError> {
+    pub(crate) fn claim(path: &Path, existing: Existing) -> Result<Self, IoError> {
         match Self::is_output(path) {
             true => Ok(Self::Output),
-            false => NewFile::claim(path, overwrite).map(Self::File),
+            false => NewFile::claim(path, existing).map(Self::File),
         }
     }
 

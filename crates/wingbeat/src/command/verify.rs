@@ -8,7 +8,7 @@ use clap::Args;
 use serde_json::json;
 use wingbeat::case::IoError;
 use wingbeat::draw::figures::{Chart, Panel, Series};
-use wingbeat::results::file::{NewFile, write_file};
+use wingbeat::results::file::{Existing, NewFile, write_file};
 use wingbeat::verify::{Case, Comparison, Entry, Report};
 
 use crate::command::failure::{FAILED, Failure};
@@ -109,15 +109,15 @@ fn tell_result(args: &VerifyArgs, report: &Report, start: Instant, page: &Path) 
 /// The files of the report, page, table and data.
 fn claim(args: &VerifyArgs) -> Result<[NewFile; 3], IoError> {
     wingbeat::results::file::make_folder(&args.out)?;
-    let overwrite = args.overwrite || args.resume;
+    let existing = Existing::kept_unless(args.overwrite || args.resume);
     let figures = args.out.join(Report::FIGURES);
-    if !overwrite && figures.exists() {
+    if existing == Existing::Kept && figures.exists() {
         return Err(IoError::Exists {
             path: figures,
             remedy: "pass --overwrite to replace the report and its figures",
         });
     }
-    let file = |name: &str| NewFile::claim(&args.out.join(name), overwrite);
+    let file = |name: &str| NewFile::claim(&args.out.join(name), existing);
     Ok([
         file("verification.md")?,
         file("verification.csv")?,
@@ -132,7 +132,11 @@ fn draw(report: &Report, args: &VerifyArgs) -> Result<(), IoError> {
         for (k, figure) in entry.figures().iter().enumerate() {
             wingbeat::results::file::make_folder(&folder)?;
             let svg = chart(&entry.case, figure).to_svg();
-            write_file(&folder.join(entry.figure_name(k)), svg.as_bytes(), true)?;
+            write_file(
+                &folder.join(entry.figure_name(k)),
+                svg.as_bytes(),
+                Existing::Replaced,
+            )?;
         }
     }
     Ok(())

@@ -34,7 +34,7 @@ fn heading(report: &mut Report, case: &LoadedCase, problem: &TrimProblem) {
         report,
         "{}: trim to {forward:.3} m/s forward, {up:.3} m/s up{}",
         case.name,
-        aside(problem)
+        sideslip_and_turn(problem)
     );
     let stream = case.setup.air.stream().unwrap_or(DVec3::ZERO);
     let airspeed = (problem.velocity - stream).length();
@@ -150,7 +150,7 @@ fn names_of(unknowns: &[Unknown]) -> Vec<&'static str> {
 }
 
 /// Sideslip and turn in words, where there are any.
-fn aside(problem: &TrimProblem) -> String {
+fn sideslip_and_turn(problem: &TrimProblem) -> String {
     let (right, turn) = (problem.velocity.y, problem.turn_rate.to_degrees());
     let slip = match right {
         0.0 => String::new(),

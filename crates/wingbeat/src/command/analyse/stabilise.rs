@@ -180,7 +180,7 @@ fn row(flight: &SteeredBeats) -> BeatRow {
     let (d, acting) = (flight.departure(), flight.acting());
     let (first, last) = (&acting[0], &acting[acting.len() - 1]);
     BeatRow {
-        beat: d.beat,
+        beat: flight.beats(),
         position: d.position,
         tilt: d.state.tilt,
         amplitude: [first.stroke_amplitude, last.stroke_amplitude],

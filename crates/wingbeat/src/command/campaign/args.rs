@@ -36,7 +36,7 @@ impl Place {
 
     /// Its directory.
     pub(super) fn folder(&self, campaign: &Campaign) -> PathBuf {
-        let default = || Path::new("results").join(&campaign.name);
+        let default = || Path::new("results").join(campaign.name());
         operand(&self.out.clone().unwrap_or_else(default))
     }
 

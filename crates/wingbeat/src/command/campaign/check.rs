@@ -34,7 +34,7 @@ pub(super) fn check(args: &CheckArgs) -> Result<(), Failure> {
         let doubts = campaign.doubts();
         doubts.iter().for_each(|d| tell!("warning: {d}"));
         report.value("warnings", json!(doubts));
-        if campaign.base.program().is_some() || campaign.base.control_program().is_some() {
+        if campaign.base().program().is_some() || campaign.base().control_program().is_some() {
             entry!(
                 report,
                 "cost",
@@ -54,14 +54,14 @@ pub(super) fn check(args: &CheckArgs) -> Result<(), Failure> {
 }
 
 fn describe(report: &mut Report, campaign: &Campaign) {
-    let plan = &campaign.plan;
+    let plan = campaign.plan();
     line!(
         report,
         "{}: this campaign can be run.\n",
         campaign.path.display()
     );
-    entry!(report, "case", "{}", campaign.base.origin());
-    report.value("campaign", campaign.name.as_str());
+    entry!(report, "case", "{}", campaign.base().origin());
+    report.value("campaign", campaign.name());
     let mut axes: Vec<String> = plan
         .axes
         .iter()
@@ -84,7 +84,7 @@ fn describe(report: &mut Report, campaign: &Campaign) {
     );
     report.value("points", plan.points());
     report.value("shape", json!(plan.shape()));
-    let tasks: Vec<&str> = campaign.raw.tasks.iter().map(|t| t.name()).collect();
+    let tasks: Vec<&str> = campaign.raw().tasks.iter().map(|t| t.name()).collect();
     entry!(report, "do", "{}", tasks.join(", "));
     let numbers: Vec<&str> = campaign.numbers.iter().map(|n| n.name.as_str()).collect();
     entry!(report, "keep", "{}", numbers.join(", "));
@@ -104,7 +104,7 @@ fn show(report: &mut Report, campaign: &Campaign, cost: &Cost, jobs: usize) {
         );
     }
     let each = cost.per_point().as_secs_f64();
-    let all = each * campaign.plan.points() as f64 / jobs as f64;
+    let all = each * campaign.plan().points() as f64 / jobs as f64;
     entry!(
         report,
         "cost",
@@ -117,7 +117,7 @@ fn show(report: &mut Report, campaign: &Campaign, cost: &Cost, jobs: usize) {
         "disk",
         "{:.1} MB of results{}",
         cost.results_bytes as f64 / 1e6,
-        if campaign.raw.files.is_empty() {
+        if campaign.raw().files.is_empty() {
             ""
         } else {
             ", and the files that are kept"

@@ -7,7 +7,7 @@ use clap::Args;
 use wingbeat::campaign::merge;
 use wingbeat::campaign::{Campaign, Status, Store};
 use wingbeat::case::IoError;
-use wingbeat::results::file::NewFile;
+use wingbeat::results::file::{Existing, NewFile};
 
 use super::args::{Part, Place, operand};
 use crate::command::failure::{FAILED, Failure};
@@ -48,10 +48,10 @@ pub(super) struct MergeArgs {
 /// `wingbeat campaign plan`.
 pub(super) fn plan(args: &PlanArgs) -> Result<(), Failure> {
     let file = (args.out.as_ref())
-        .map(|path| NewFile::claim(path, args.overwrite))
+        .map(|path| NewFile::claim(path, Existing::kept_unless(args.overwrite)))
         .transpose()?;
     let campaign = Campaign::read(&args.file)?;
-    let range = args.part.range(campaign.plan.points())?;
+    let range = args.part.range(campaign.plan().points())?;
     let Some(file) = file else {
         let mut out = BufWriter::new(std::io::stdout().lock());
         let written = merge::plan(&campaign, range, &mut out).and_then(|()| out.flush());
@@ -98,7 +98,7 @@ fn tables(campaign: &Campaign, store: &Store, partial: bool) -> Result<(), Failu
     if missing > 0 && !partial {
         return Err(Failure::Option(format!(
             "{missing} of {} points have no result yet; `wingbeat campaign run {}` flies them, --partial merges what there is",
-            campaign.plan.points(),
+            campaign.plan().points(),
             operand(&campaign.path).display()
         )));
     }

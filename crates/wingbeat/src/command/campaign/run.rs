@@ -34,15 +34,15 @@ pub(super) struct RunArgs {
 /// The whole command.
 pub(super) fn run(args: &RunArgs) -> Result<(), Failure> {
     let campaign = args.place.campaign()?;
-    let range = args.part.range(campaign.plan.points())?;
+    let range = args.part.range(campaign.plan().points())?;
     let folder = args.place.folder(&campaign);
     let store = Store::open(&folder, campaign.text())?;
     if args.inspect {
-        inspect(&campaign, &store, &(0..campaign.plan.points()))?;
+        inspect(&campaign, &store, &(0..campaign.plan().points()))?;
     }
     let done = inspect(&campaign, &store, &range)?;
     if !args.quiet {
-        let name = &campaign.name;
+        let name = campaign.name();
         tell!(
             "{name}: {} points, {done} of them done; results go to {}",
             range.len(),
@@ -50,7 +50,7 @@ pub(super) fn run(args: &RunArgs) -> Result<(), Failure> {
         );
     }
     if done < range.len() {
-        name_program(&campaign.base);
+        name_program(campaign.base());
         let jobs = args.jobs.unwrap_or_else(processors);
         let stop = stop_flag();
         let (file, plan) = (&args.place.file, plan_name(&campaign));

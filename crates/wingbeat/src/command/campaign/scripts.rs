@@ -47,7 +47,7 @@ pub(super) fn slurm(args: &SlurmArgs) -> Result<(), Failure> {
     let engine = Engine {
         file: &file,
         out: &out,
-        shards: args.shards.min(campaign.plan.points()),
+        shards: args.shards.min(campaign.plan().points()),
         jobs: args.jobs,
     };
     output(format_args!("{}", engine.slurm(&campaign, &args.time)));
@@ -61,7 +61,7 @@ pub(super) fn snakemake(args: &SnakemakeArgs) -> Result<(), Failure> {
     let engine = Engine {
         file: &file,
         out: &out,
-        shards: args.shards.min(campaign.plan.points()),
+        shards: args.shards.min(campaign.plan().points()),
         jobs: args.jobs,
     };
     output(format_args!("{}", engine.snakemake()));

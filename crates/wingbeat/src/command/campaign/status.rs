@@ -33,7 +33,7 @@ pub(super) fn status(args: &StatusArgs) -> Result<(), Failure> {
         let status = Status::of(&campaign, &store)?;
         match args.json {
             true => say!("{}", json(&status, &plan_name(&campaign))),
-            false => say!("{}: {}", campaign.name, words(&status)),
+            false => say!("{}: {}", campaign.name(), words(&status)),
         }
         if !args.watch || status.done == status.points {
             return Ok(());

@@ -48,7 +48,7 @@ pub(super) fn work(args: &WorkArgs) -> Result<(), Failure> {
         );
         return Err(Failure::Told(FAILED));
     }
-    let range = args.part.range(campaign.plan.points())?;
+    let range = args.part.range(campaign.plan().points())?;
     let folder = args.place.folder(&campaign);
     let store = Store::existing(&folder)?;
     let mut worker = Worker::new(&campaign, &store, range)?;

@@ -1,4 +1,4 @@
-//! Seconds left: what a step costs, as a function of the wake, fitted to the steps made so far and
+//! Seconds that the steps of a flight take: what a step costs, as a function of the wake, fitted to the steps made so far and
 //! summed over those to come.
 //!
 //! ```text
@@ -20,7 +20,7 @@ const FADING: f64 = 2.0;
 
 /// The cost of a step.
 #[derive(Clone, Debug)]
-pub(crate) struct CostModel {
+pub struct CostModel {
     /// Exponent of the wake's own part.
     power: f64,
     /// Wake elements of the largest wake seen: the unit of n.
@@ -40,7 +40,7 @@ pub(crate) struct CostModel {
 
 impl CostModel {
     /// For wakes whose own part of the cost grows with this power of their elements.
-    pub(crate) fn new(power: f64) -> Self {
+    pub fn new(power: f64) -> Self {
         Self {
             power,
             unit: 1.0,
@@ -59,8 +59,8 @@ impl CostModel {
         [1.0, x, x.powf(self.power)]
     }
 
-    /// Takes a step that began with `n` wake elements and took `seconds`.
-    pub(crate) fn step(&mut self, n: f64, seconds: f64) {
+    /// Takes a step that began with `n` wake elements and took `seconds` \[s\].
+    pub fn step(&mut self, n: f64, seconds: f64) {
         let seconds = seconds.max(1e-9);
         self.rescale(n);
         self.steps += 1;
@@ -95,13 +95,13 @@ impl CostModel {
         }
     }
 
-    /// Takes what a trial says the wake's own part costs: `seconds` for `n` elements.
-    pub(crate) fn expect(&mut self, n: f64, seconds: f64) {
+    /// Takes what a trial says the wake's own part costs: `seconds` \[s\] for `n` elements.
+    pub fn expect(&mut self, n: f64, seconds: f64) {
         self.expected = Some(seconds / n.powf(self.power));
     }
 
-    /// Seconds that steps will take: pairs of wake elements at their beginning and number of steps.
-    pub(crate) fn cost(&self, wakes: impl Iterator<Item = [f64; 2]>) -> f64 {
+    /// What steps will take \[s\]: pairs of wake elements at their beginning and number of steps.
+    pub fn cost(&self, wakes: impl Iterator<Item = [f64; 2]>) -> f64 {
         let (mut matrix, mut right, mut square) = (self.matrix, self.right, self.square);
         if let Some(c) = self.expected.map(|c| c * self.unit.powf(self.power)) {
             let weight = (TRIAL_ERROR * c).powi(-2);
@@ -157,7 +157,7 @@ fn solved(
         .flat_map(|i| chosen.iter().map(move |j| (*i, *j)));
     let mut m: Vec<f64> = pairs.map(|(i, j)| matrix[i][j]).collect();
     let mut x: Vec<f64> = chosen.iter().map(|i| right[*i]).collect();
-    wingbeat::math::solve_small(&mut m, &mut x).ok()?;
+    wingbeat_math::solve_small(&mut m, &mut x).ok()?;
     let mut all = [0.0; 3];
     for (i, x) in chosen.into_iter().zip(x) {
         all[i] = x;
@@ -167,9 +167,9 @@ fn solved(
 
 /// How the wake goes on: it grows as in the last steps until it is as large as the case allows.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Growth {
+pub struct WakeGrowth {
     /// Steps after which the oldest row of a wake is dropped; none keeps all.
-    pub(crate) kept_steps: Option<usize>,
+    kept_steps: Option<usize>,
     /// Elements at the newest step.
     now: f64,
     /// Elements per step.
@@ -183,8 +183,9 @@ const GROWTH_STEPS: f64 = 16.0;
 /// Groups of steps ahead: enough for sums of squares to a thousandth.
 const GROUPS: usize = 64;
 
-impl Growth {
-    pub(crate) fn new(kept_steps: Option<usize>) -> Self {
+impl WakeGrowth {
+    /// Of a wake that has nothing yet and drops its rows after `kept_steps` steps.
+    pub fn new(kept_steps: Option<usize>) -> Self {
         Self {
             kept_steps,
             now: 0.0,
@@ -194,12 +195,12 @@ impl Growth {
     }
 
     /// Elements at the newest step.
-    pub(crate) fn now(&self) -> f64 {
+    pub fn now(&self) -> f64 {
         self.now
     }
 
     /// Takes the elements after a step.
-    pub(crate) fn step(&mut self, n: f64) {
+    pub fn step(&mut self, n: f64) {
         let grown = n - self.now;
         self.now = n;
         self.rate += (grown - self.rate) / GROWTH_STEPS;
@@ -210,7 +211,7 @@ impl Growth {
     }
 
     /// The next `steps` steps in groups: elements at the beginning of a middle step, steps.
-    pub(crate) fn ahead(self, steps: usize) -> impl Iterator<Item = [f64; 2]> {
+    pub fn ahead(self, steps: usize) -> impl Iterator<Item = [f64; 2]> {
         let most = match self.kept_steps {
             Some(kept) => (self.full_rate * kept as f64).max(self.now),
             None => f64::INFINITY,
@@ -235,7 +236,7 @@ mod tests {
         // Steps scatter by a fifth, the same way every time.
         let noise = |k: usize| 1.0 + 0.2 * (k as f64 * 2.399).sin();
         let seconds = |k: usize| cost(wake(k)) * noise(k);
-        let (mut model, mut growth) = (CostModel::new(2.0), Growth::new(kept));
+        let (mut model, mut growth) = (CostModel::new(2.0), WakeGrowth::new(kept));
         let mut worst = 1.0_f64;
         for k in 0..STEPS - 2 {
             model.step(wake(k), seconds(k));

@@ -1,0 +1,61 @@
+//! What came of many tumbles: how many recovered, how soon, how far away.
+
+use super::Recovery;
+
+/// Recoveries from some tumbles.
+///
+/// ```
+/// use wingbeat_analysis::episode::{Recoveries, Recovery};
+/// let flown = |beats| Recovery { tilt: 1.0, rate: 0.0, beats, strayed: 0.01 };
+/// let tumbles = [flown(Some(20)), flown(None), flown(Some(10)), flown(Some(30))];
+/// let all = Recoveries::of(tumbles.iter().collect());
+/// assert_eq!(all.recovered()[0], 0.75);
+/// assert_eq!(all.beats(0.5), Some(20));
+/// assert_eq!(all.strayed(), Some(0.01)); // m
+/// ```
+pub struct Recoveries<'a> {
+    all: Vec<&'a Recovery>,
+    /// Wingbeats that those who recovered needed, in order.
+    beats: Vec<usize>,
+}
+
+impl<'a> Recoveries<'a> {
+    /// Of these tumbles.
+    pub fn of(all: Vec<&'a Recovery>) -> Self {
+        let mut beats: Vec<usize> = all.iter().filter_map(|r| r.beats).collect();
+        beats.sort_unstable();
+        Self { all, beats }
+    }
+
+    /// Number of tumbles.
+    pub fn len(&self) -> usize {
+        self.all.len()
+    }
+
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.all.is_empty()
+    }
+
+    /// Part that recovered, and its standard error \[1\]: that of Jeffreys' estimate (k + 1/2)/(n + 1), which is not zero where
+    /// all or none did.
+    pub fn recovered(&self) -> [f64; 2] {
+        let (k, n) = (self.beats.len() as f64, self.all.len() as f64);
+        let p = (k + 0.5) / (n + 1.0);
+        [k / n, (p * (1.0 - p) / (n + 1.0)).sqrt()]
+    }
+
+    /// The wingbeats that a part `quantile` of those who recovered do not exceed; none where none did.
+    pub fn beats(&self, quantile: f64) -> Option<usize> {
+        let last = self.beats.len().checked_sub(1)?;
+        Some(self.beats[(quantile * last as f64).round() as usize])
+    }
+
+    /// Median of the farthest distances of those who recovered [m]; none where none did.
+    pub fn strayed(&self) -> Option<f64> {
+        let recovered = self.all.iter().filter(|r| r.beats.is_some());
+        let mut far: Vec<f64> = recovered.map(|r| r.strayed).collect();
+        far.sort_unstable_by(f64::total_cmp);
+        far.get(far.len() / 2).copied()
+    }
+}

@@ -1,0 +1,188 @@
+//! The air of a flight and its model.
+
+use std::sync::Arc;
+
+use wingbeat_air::{AirSettings, CoreModel, LeadingEdge, LoadMethod, SheddingKinds, Wind};
+use wingbeat_blade::{BladeSettings, BodyDrag, DerivativeTable, Unsteady};
+use wingbeat_math::DVec3;
+
+use crate::interface::{Air, ExternalAir};
+
+/// The air and its model: from none to the unsteady lattice.
+#[derive(Clone, Debug, Default)]
+pub enum AirModel {
+    /// Vacuum.
+    #[default]
+    None,
+    /// Quasi-steady blade elements: no memory, fast.
+    BladeElement(BladeOptions),
+    /// Non-linear unsteady vortex lattice with free wakes.
+    VortexLattice(AirOptions),
+    /// Stability derivatives of the whole animal, acting on the root body: linear.
+    Derivatives(DerivativeTable),
+    /// Loads computed by someone else.
+    External(Arc<dyn ExternalAir>),
+    /// A model of your own.
+    Own(Arc<dyn Air>),
+}
+
+impl AirModel {
+    /// What it is called.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::None => "no air",
+            Self::BladeElement(_) => "blade elements",
+            Self::VortexLattice(_) => "vortex lattice",
+            Self::Derivatives(_) => "stability derivatives",
+            Self::External(_) => "external program",
+            Self::Own(_) => "a model of its own",
+        }
+    }
+
+    /// Whether there is air.
+    pub fn is_some(&self) -> bool {
+        !matches!(self, Self::None)
+    }
+
+    /// Velocity of the undisturbed air, N components [m/s]; none where the model has no stream.
+    pub fn stream(&self) -> Option<DVec3> {
+        match self {
+            Self::BladeElement(options) => Some(options.blade.free_stream),
+            Self::VortexLattice(options) => Some(options.lattice.free_stream),
+            Self::None | Self::Derivatives(_) | Self::External(_) | Self::Own(_) => None,
+        }
+    }
+
+    /// The same, to be changed.
+    pub fn stream_mut(&mut self) -> Option<&mut DVec3> {
+        match self {
+            Self::BladeElement(options) => Some(&mut options.blade.free_stream),
+            Self::VortexLattice(options) => Some(&mut options.lattice.free_stream),
+            Self::None | Self::Derivatives(_) | Self::External(_) | Self::Own(_) => None,
+        }
+    }
+
+    /// Whether half of the air stands for the whole.
+    pub fn is_mirrored(&self) -> bool {
+        matches!(self, Self::VortexLattice(options) if options.mirror)
+    }
+
+    /// Shear and gusts that are added to the stream; none where the model has no wind.
+    pub fn wind(&self) -> Option<&Wind> {
+        match self {
+            Self::BladeElement(options) => Some(&options.wind),
+            Self::VortexLattice(options) => Some(&options.lattice.wind),
+            Self::None | Self::Derivatives(_) | Self::External(_) | Self::Own(_) => None,
+        }
+    }
+
+    /// The same, to be changed.
+    pub fn wind_mut(&mut self) -> Option<&mut Wind> {
+        match self {
+            Self::BladeElement(options) => Some(&mut options.wind),
+            Self::VortexLattice(options) => Some(&mut options.lattice.wind),
+            Self::None | Self::Derivatives(_) | Self::External(_) | Self::Own(_) => None,
+        }
+    }
+
+    /// Whether the loads depend on the past.
+    pub fn has_memory(&self) -> bool {
+        self.has_strip_wakes() || self.keeps_wake()
+    }
+
+    /// Whether what is remembered is moved on once a step and known at the ends of steps alone, as a wake in space is.
+    pub fn keeps_wake(&self) -> bool {
+        match self {
+            Self::VortexLattice(_) | Self::External(_) => true,
+            Self::None | Self::BladeElement(_) | Self::Derivatives(_) => false,
+            Self::Own(air) => air.has_memory(),
+        }
+    }
+
+    /// Whether strips remember their own wakes, in a few states each.
+    pub fn has_strip_wakes(&self) -> bool {
+        self.strip_wakes().is_some()
+    }
+
+    /// By which theory strips remember their own wakes, if they do.
+    pub fn strip_wakes(&self) -> Option<Unsteady> {
+        match self {
+            Self::BladeElement(options) => options.blade.unsteady,
+            _ => None,
+        }
+    }
+}
+
+/// Blade elements and what else the air does to the animal.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BladeOptions {
+    /// Coefficients, rotation, added mass, density and stream.
+    pub blade: BladeSettings,
+    /// Drag of the body, at [`Animal::body_centre`] where it names no other point; none leaves the body out of the air.
+    pub body_drag: Option<BodyDrag>,
+    /// Induced flow at the wings, added to the stream, N components [m/s]; zero for coefficients
+    /// that hold it already.
+    pub induced: DVec3,
+    /// Gusts and shear, added to the stream strip by strip.
+    pub wind: Wind,
+}
+
+impl BladeOptions {
+    /// The coefficients of insects in air at rest of this density [kg/m3].
+    pub fn insect(density: f64) -> Self {
+        Self {
+            blade: BladeSettings::insect(density),
+            body_drag: None,
+            induced: DVec3::ZERO,
+            wind: Wind::default(),
+        }
+    }
+}
+
+/// The vortex lattice and which parts of the animal it sees.
+#[derive(Clone, Debug)]
+pub struct AirOptions {
+    /// Settings of the lattice: density, stream, vortex core, shedding, scheme.
+    pub lattice: AirSettings,
+    /// Whether head, thorax and abdomen are part of the lattice.
+    pub body_surfaces: bool,
+    /// Whether animal and motion are mirror-symmetric, so that the air is computed on one half.
+    /// A motion that is not so is refused at the step where it shows.
+    pub mirror: bool,
+    /// Pairs of wings, by their numbers, that share the edge at their roots.
+    pub joined: Vec<[usize; 2]>,
+}
+
+impl AirOptions {
+    /// What the presets of insects fly, for wings of this mean chord [m] in air at rest of this
+    /// density [kg/m3] and kinematic viscosity [m2/s]: the accurate scheme, wakes from trailing edges and tips,
+    /// forces on segments, algebraic cores: bound ones of 0.01 chords, those of wakes from 0.07 chords and never
+    /// narrower than their filaments are long. The
+    /// body is left out of the air.
+    pub fn insect(density: f64, viscosity: f64, chord: f64) -> Self {
+        let core = |chords: f64| CoreModel::Algebraic {
+            radius: chords * chord,
+            viscosity,
+        };
+        Self {
+            lattice: AirSettings {
+                bound_core: core(0.01),
+                wake_core: core(0.07),
+                wake_overlap: 1.0,
+                loads: LoadMethod::Joukowski,
+                shedding: SheddingKinds {
+                    tip: true,
+                    ..SheddingKinds::TRAILING
+                },
+                leading: LeadingEdge::Suction {
+                    threshold: 0.15,
+                    efficiency: 0.0,
+                },
+                ..AirSettings::accurate(density, DVec3::ZERO)
+            },
+            body_surfaces: false,
+            mirror: false,
+            joined: vec![],
+        }
+    }
+}

@@ -1,0 +1,112 @@
+//! Which equations are integrated, how, and in which steps.
+
+/// Which equations of motion are integrated.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum FormulationChoice {
+    /// Momentum form: mass centre, quaternion, linear and angular momentum (default).
+    Momentum,
+    /// The seed's Euler coordinates with multipliers and Baumgarte stabilisation.
+    Euler(BaumgarteChoice),
+    /// Positions and quaternions of all bodies with multipliers: loops, free joints, singular
+    /// nowhere.
+    Quaternion(StabilizationChoice),
+}
+
+/// How the constraints of the quaternion form are kept.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum StabilizationChoice {
+    /// Not at all.
+    None,
+    /// By feedback.
+    Baumgarte(BaumgarteChoice),
+    /// By projection of positions and velocities after every step; one-step integrators only.
+    Projection,
+}
+
+/// The time integrator.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum IntegratorChoice {
+    /// Hamming's modified predictor-corrector, order four: carries a wake along where the air that
+    /// moves with the wings weighs less than a third of what carries it.
+    Hamming,
+    /// Backward differences of order four: carries a wake along whatever the air weighs. Where elastic wings hang on free joints, a
+    /// formula of order two that damps the fastest vibrations as their structures do.
+    Bdf,
+    /// Adams-Bashforth-Moulton, order four.
+    Adams,
+    /// Runge-Kutta, order four.
+    RungeKutta,
+    /// Dormand and Prince's method of order eight, steps inside the time grid chosen by its error
+    /// estimate.
+    OrderEight {
+        /// Error allowed per step, relative to the natural size of each component [1].
+        tolerance: f64,
+    },
+}
+
+impl IntegratorChoice {
+    /// Whether the method evaluates loads at the ends of steps only, as a wake demands, which is
+    /// moved once a step.
+    pub fn carries_wake(&self) -> bool {
+        matches!(self, Self::Hamming | Self::Bdf)
+    }
+
+    /// Whether the method needs nothing but the present state.
+    pub fn is_one_step(&self) -> bool {
+        matches!(self, Self::RungeKutta | Self::OrderEight { .. })
+    }
+}
+
+/// Constants of Baumgarte's stabilisation (seed eq. 29).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum BaumgarteChoice {
+    /// alpha = beta = `a / h` with the step h.
+    StepTied(f64),
+    /// alpha and beta given [1/s]; zero for both reproduces seed eq. 28.
+    Fixed {
+        /// Damping constant alpha [1/s].
+        alpha: f64,
+        /// Stiffness constant beta [1/s].
+        beta: f64,
+    },
+}
+
+/// Equal time steps.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TimeGrid {
+    /// Step h [s].
+    pub step: f64,
+    /// Number of steps.
+    pub steps: usize,
+    /// Period of one wingbeat [s], for cycle means; `None` for motions without one.
+    pub period: Option<f64>,
+}
+
+impl TimeGrid {
+    /// Steps of a wingbeat, the nearest whole number; none of motions without one.
+    pub fn steps_per_beat(&self) -> Option<usize> {
+        let steps = (self.period? / self.step).round() as usize;
+        (steps > 0).then_some(steps)
+    }
+}
+
+/// When the corrector of one step has converged.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CorrectorSettings {
+    /// Largest scaled change between two passes that counts as converged [1].
+    pub tolerance: f64,
+    /// Most passes before the step is given up with an error.
+    pub max_passes: usize,
+    /// Relaxation factor of a pass \[1\], above 0 and up to 1; 1 is the plain iteration.
+    pub relaxation: f64,
+}
+
+impl Default for CorrectorSettings {
+    fn default() -> Self {
+        Self {
+            tolerance: 1e-10,
+            max_passes: 60,
+            relaxation: 1.0,
+        }
+    }
+}

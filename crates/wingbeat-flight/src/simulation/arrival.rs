@@ -1,0 +1,75 @@
+//! What is done at the end of a step: the controller looks, the record is made, the air is accepted.
+
+use wingbeat_math::ode::StepReport;
+
+use super::Simulation;
+use crate::control::Sensed;
+use crate::error::FlightError;
+use crate::recorder::Sources;
+
+impl Simulation {
+    /// Record, acceptance of the air, and the start of a stage that begins here.
+    pub(super) fn finish_arrival(
+        &mut self,
+        report: StepReport,
+        starts: bool,
+    ) -> Result<(), FlightError> {
+        self.control()?;
+        let (step, time) = (self.state.step, self.time(self.state.step));
+        let (wings, feedback) = (&self.wings, self.feedback.as_ref());
+        wings.write(&self.setup, feedback, step, &mut self.record);
+        let sources = Sources {
+            equations: &self.stages[self.state.stage].equations,
+            scratch: &self.scratch,
+            y: &self.state.past.y[self.newest()],
+            air: self.state.air.as_ref(),
+            wings: &self.state.wings,
+            report,
+        };
+        sources.write(step, time, &mut self.state.ledger, &mut self.record)?;
+        self.write_reference();
+        let equations = &self.stages[self.state.stage].equations;
+        let remembered = (&mut self.state.wings[..], &mut self.state.carried[..]);
+        equations.accept(&mut self.state.air, remembered, &self.scratch)?;
+        if starts && !self.finished() && !self.setup.integrator.is_one_step() {
+            self.start()?;
+        }
+        Ok(())
+    }
+
+    /// Puts where the flyer is to be into the record.
+    fn write_reference(&mut self) {
+        let since = self.state.step - self.stages[self.state.stage].from_step;
+        let time = since as f64 * self.setup.time.step;
+        let feedback = self.feedback.as_ref();
+        let aim = feedback.and_then(|f| f.reference(time, self.record.mass_centre));
+        self.record.reference.clear();
+        self.record.reference.extend(aim);
+    }
+
+    /// Asks the controller, where there is one and it is time; a flyer that is held is not steered.
+    fn control(&mut self) -> Result<(), FlightError> {
+        let Some(feedback) = &mut self.feedback else {
+            return Ok(());
+        };
+        let stage = &self.stages[self.state.stage];
+        let since = self.state.step - stage.from_step;
+        let is_last = self.state.stage + 1 == self.stages.len();
+        if is_last && feedback.looks_at(since) {
+            let budget = &self.scratch.solution.budget;
+            let t = self.state.step as f64 * self.setup.time.step;
+            let sensed = Sensed {
+                look: feedback.look(),
+                time: since as f64 * self.setup.time.step,
+                root: self.scratch.motions[0],
+                centre: budget.centre,
+                velocity: budget.momentum / stage.equations.core.system().total_mass(),
+            };
+            feedback.update(t, &sensed)?;
+            // What the scratch knows of the wings at this instant is that of the passage before.
+            self.scratch.fit(&stage.equations);
+            self.state.control = Some(feedback.state());
+        }
+        Ok(())
+    }
+}

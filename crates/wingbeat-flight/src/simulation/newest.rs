@@ -1,0 +1,72 @@
+//! What is asked of a flight at its newest step.
+
+use wingbeat_air::Points;
+use wingbeat_dynamics::BodyMotion;
+
+use super::Simulation;
+use crate::air::LatticeAir;
+use crate::elastic::ElasticWings;
+use crate::error::FlightError;
+use crate::interface::{Instant, WingResponse};
+use crate::record::Snapshot;
+use crate::setup::AirModel;
+
+impl Simulation {
+    /// Motion of the root at the newest step.
+    pub fn root(&self) -> BodyMotion {
+        self.scratch.motions[0]
+    }
+
+    /// Surfaces and wakes at the newest step; empty in vacuum. Pressure jumps are not part of the
+    /// saved state: after [`Self::resume`] they are not numbers until the next step.
+    pub fn snapshot(&self) -> Snapshot {
+        let (memory, s) = (self.state.air.as_ref(), &self.scratch.air_scratch);
+        Snapshot {
+            step: self.state.step,
+            time: self.newest_time(),
+            ..self.equations().air.snapshot(memory, s)
+        }
+    }
+
+    /// Velocity of the air [m/s] at `points` [m], N, at the newest step; none where the air is no
+    /// vortex lattice.
+    pub fn air_velocity(&self, points: &Points) -> Option<Points> {
+        (self.equations().air).velocity(self.state.air.as_ref(), points)
+    }
+
+    /// The wings that loads bend, as [`FlightState::wings`] has their states.
+    pub fn elastic_wings(&self) -> &ElasticWings {
+        &self.equations().elastic
+    }
+
+    /// Added mass of the air on elastic wing number `k` of [`Self::elastic_wings`] at the newest step: six numbers a node
+    /// ([`crate::elastic::ElasticWing::added_mass`]). None where the air has none.
+    ///
+    /// # Errors
+    /// A singular influence matrix.
+    pub fn added_mass(&self, k: usize) -> Result<Option<Vec<f64>>, FlightError> {
+        let wing = &self.elastic_wings().wings()[k];
+        let at = Instant {
+            time: self.newest_time(),
+            step: self.setup.time.step,
+            motions: &self.scratch.motions,
+            accelerations: &self.scratch.solution.bodies,
+            shapes: self.scratch.elastic.shapes(),
+        };
+        let answer = match &self.setup.air {
+            AirModel::VortexLattice(options) => {
+                LatticeAir::inertia(&self.setup, options, wing.wing(), &at)?
+            }
+            _ if self.equations().air.follows_accelerations() => {
+                let (mut answer, memory) = (WingResponse::default(), self.state.air.as_ref());
+                let (air, number) = (&self.equations().air, wing.wing());
+                air.wing_response(number, &at, memory, &mut air.scratch(), &mut answer)?;
+                answer
+            }
+            _ => return Ok(None),
+        };
+        let frame = &self.scratch.motions[wing.wing() + 1];
+        let at = &self.state.wings[k].structure.configuration;
+        Ok(Some(wing.added_mass(&answer, frame, at)))
+    }
+}
