@@ -144,7 +144,7 @@ pub fn trim(setup: &FlightSetup, problem: &TrimProblem) -> Result<Trim, Analysis
     x.extend(steady::first_controls(problem));
     x.extend(periodic_joints(&first, steady::attitude(problem.angles()))?);
     let begun = evaluate(&steadied(setup), problem, &x)?;
-    check_symmetric(begun.solution.aside, AT_START * ROUNDING)?;
+    check_symmetric(begun.solution.lateral, AT_START * ROUNDING)?;
     if !problem.bounds.is_empty() && problem.given.is_empty() {
         let inside = search(setup, problem, x.clone(), true)?;
         if inside.solution.converged {

@@ -290,7 +290,7 @@ impl Map for Flights<'_> {
     fn residual(&mut self, x: &[f64]) -> Result<Vec<f64>, AnalysisError> {
         let found = self.fly(x)?;
         if self.flights == 1 {
-            check_symmetric(found.solution.aside, AT_START * self.rounding())?;
+            check_symmetric(found.solution.lateral, AT_START * self.rounding())?;
         }
         Ok(found.solution.residual)
     }
