@@ -80,3 +80,42 @@ fn refuses_forms_that_no_held_body_with_free_joints_is_integrated_in() {
     }
     load(&["flight={mode=\"tethered\"}"]).unwrap();
 }
+
+/// A mass on a damper that takes it back a hundred times as fast as the steps are, and the same freely: plain passes would lead away.
+#[test]
+fn exact_return_against_a_stiff_damper() {
+    const SLIDE: &str = "format = 1
+name = \"slide\"
+gravity_m_s2 = [0, 0, 0]
+time = { step_s = 1e-3, steps = 60 }
+air.model = \"none\"
+dynamics.integrator = \"bdf\"
+body = { mass_kg = 1.0, inertia_about_centre_kg_m2 = [1, 1, 1, 0, 0, 0] }
+segment.bob = { mass_kg = 0.1, centre_m = [0, 0, 0], inertia_about_centre_kg_m2 = [1e-5, 1e-5, 1e-5, 0, 0, 0] }
+";
+    for (mode, mass) in [("free", 0.1 / 1.1), ("tethered", 0.1)] {
+        for (damper, bound) in [(100.0, 4e-3), (1000.0, 1e-2)] {
+            let stiffness = 20.0 * damper;
+            let joint = format!(
+                "joint.slide={{ child = \"bob\", kind = \"prismatic\", axis = [1, 0, 0], at_m = [0, 0, 0], start_m = 0.01, element = [{{ stiffness_newton_per_m = {stiffness}, damping_newton_s_per_m = {damper} }}] }}"
+            );
+            let set = [joint, format!("flight={{mode=\"{mode}\"}}")];
+            let case = LoadedCase::from_text("slide", SLIDE, Path::new(""), &set).unwrap();
+            let mut flight = Simulation::new(case.setup).unwrap();
+            // Overdamped: two exponentials.
+            let (half, square): (f64, f64) = (0.5 * damper / mass, stiffness / mass);
+            let root = (half * half - square).sqrt();
+            let [slow, fast] = [-square / (half + root), -half - root];
+            let mut worst = 0.0_f64;
+            while !flight.finished() {
+                let r = flight.step().unwrap();
+                let [a, b] = [slow, fast].map(|rate| (rate * r.time).exp());
+                let exact = 0.01 * (slow * b - fast * a) / (slow - fast);
+                worst = worst.max((r.joints[0][0] - exact).abs() / 0.01);
+                assert!(r.corrector_passes <= 6, "{}", r.corrector_passes);
+            }
+            // The starting steps do not resolve how the damper brakes.
+            assert!(worst < bound, "{mode} {damper}: {worst:e}");
+        }
+    }
+}

@@ -53,7 +53,8 @@ pub fn stages(setup: &FlightSetup, law: &WingLaw<'_>) -> Result<Vec<Stage>, Flig
     let moves_by_air = on_joints || is_light;
     let is_carried = !carried.is_empty() || (moves_by_air && !elastic.is_empty());
     let mirror = (moves_by_air && setup.air.is_mirrored()).then(|| mirror(setup, &system));
-    let accelerated_from = accelerated_from(setup, is_carried);
+    let moves_joints = system.speeds() > 0 && !setup.air.keeps_wake();
+    let accelerated_from = accelerated_from(setup, is_carried || moves_joints);
     let stage = |from_step: usize, core: Core| Stage {
         from_step,
         equations: Equations {
@@ -83,12 +84,13 @@ pub fn stages(setup: &FlightSetup, law: &WingLaw<'_>) -> Result<Vec<Stage>, Flig
     })
 }
 
-/// Pass from which those before speed the next ones up: from the first where air is carried along, else where plain passes lead
-/// nowhere, as where one half of the air is computed and the form does not keep to the mirror: least squares raise what parts the halves by rounding.
-fn accelerated_from(setup: &FlightSetup, is_carried: bool) -> Option<usize> {
+/// Pass from which those before speed the next ones up: `at_once` where air is carried along, or springs and dampers of joints may act faster than
+/// the steps; else in a wake where plain passes lead nowhere, as where one half of the air is computed and the form does not keep to the mirror: least squares raise what parts the
+/// halves by rounding.
+fn accelerated_from(setup: &FlightSetup, at_once: bool) -> Option<usize> {
     let parts_halves =
         setup.air.is_mirrored() && matches!(setup.formulation, FormulationChoice::Euler(_));
-    match is_carried && !parts_halves {
+    match at_once && !parts_halves {
         true => Some(1),
         false => setup.air.keeps_wake().then_some(PLAIN_PASSES + 1),
     }
