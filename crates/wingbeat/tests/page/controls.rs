@@ -18,8 +18,15 @@ fn behaves_time_can_be_chosen_while_it_plays() {
     browser.value("document.getElementById('play').click()");
     browser.value("new Promise((r) => setTimeout(r, 300))");
     browser.value(&format!("({set})('time', 10)"));
-    browser.value("new Promise((r) => setTimeout(r, 800))");
-    let frame: usize = browser.state("frame").parse().unwrap();
+    // Slow machines draw late.
+    let mut frame = 0;
+    for _ in 0..50 {
+        browser.value("new Promise((r) => setTimeout(r, 200))");
+        frame = browser.state("frame").parse::<usize>().unwrap();
+        if frame >= 10 {
+            break;
+        }
+    }
     assert!((10..=12).contains(&frame), "it jumped to {frame}");
     assert_eq!(
         browser.value("document.getElementById('time').value"),
