@@ -68,6 +68,21 @@ pub struct LoadCase {
     pub couple_sine_newton_m: Vec<[f64; 3]>,
 }
 
+impl LoadCase {
+    /// Whether there is a force or a couple other than zero.
+    pub fn acts(&self) -> bool {
+        let constant = [self.force_newton, self.couple_newton_m];
+        let series = [
+            &self.force_cosine_newton,
+            &self.force_sine_newton,
+            &self.couple_cosine_newton_m,
+            &self.couple_sine_newton_m,
+        ];
+        let mut all = constant.iter().chain(series.into_iter().flatten());
+        all.any(|v| v.iter().any(|x| *x != 0.0))
+    }
+}
+
 fn root() -> String {
     "body".to_owned()
 }
