@@ -121,6 +121,7 @@ fn kills(n: usize) {
         let done = wingbeat(&scratch.0, &again);
         let said = String::from_utf8_lossy(&done.stderr).into_owned();
         assert!(done.status.success(), "kill {k} ({signal}): {said}");
+        assert!(!said.contains("after step"), "not quiet: {said}");
         assert_same(&dir, &whole, &format!("kill {k} ({signal} at {moment:.2})"));
         assert!(!dir.join("checkpoint.bin").exists());
         fs::remove_dir_all(&dir).unwrap();
