@@ -302,6 +302,14 @@ pub enum AirError {
         /// Part of the settings.
         what: &'static str,
     },
+    /// Wind through a plane through which nothing goes.
+    #[error(
+        "the {part} blows through a plane of symmetry or a ground; what goes along it is allowed"
+    )]
+    WindThroughPlane {
+        /// Part of the wind.
+        part: &'static str,
+    },
     /// A surface on both sides of a plane through which nothing goes.
     #[error(
         "air step {step}: node {node} of surface {surface} is {depth:e} m beyond a plane of symmetry or ground; all surfaces stay on one side of it: start farther from it, or fly without it"

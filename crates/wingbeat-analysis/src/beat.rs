@@ -374,13 +374,13 @@ impl Integration {
 pub(crate) fn check_steady(setup: &FlightSetup) -> Result<(), AnalysisError> {
     if !setup.loads.is_empty() {
         return Err(AnalysisError::not_covered(
-            "the setup has applied loads",
-            "remove them",
+            "the case has applied loads ([[load]])",
+            "remove them, or fly the case with `run`",
         ));
     }
     if setup.feedback.is_some() {
         return Err(AnalysisError::not_covered(
-            "the setup has feedback, which has a memory of its own",
+            "the case has feedback ([control]), which has a memory of its own",
             "analyse the flight without [control]",
         ));
     }

@@ -49,7 +49,7 @@ impl Beat {
                     "joint `{}` moves freely, and loads averaged over a wingbeat need motions that are known beforehand",
                     hinge.name
                 ),
-                "Floquet's modes carry free joints along (`wingbeat stability` gives them); or prescribe the joint's motion",
+                "Floquet's modes carry free joints along (`wingbeat stability` without --write); or prescribe the joint's motion",
             )),
         }
     }

@@ -218,7 +218,7 @@ fn refuses_a_lattice_whose_wingbeats_are_not_alike() {
         couple: Default::default(),
     }];
     let said = refused(&loaded);
-    assert!(said.contains("applied loads"), "{said}");
+    assert!(said.contains("applied loads ([[load]])"), "{said}");
 }
 
 #[test]

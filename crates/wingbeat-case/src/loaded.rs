@@ -40,7 +40,7 @@ impl LoadedCase {
         overrides: &[String],
     ) -> Result<Self, IoError> {
         let source = CaseSource::new(origin, text, overrides)?;
-        let mut raw: raw::Case = decode::decode(&source)?;
+        let mut raw: raw::Case = decode::decode(&source).map_err(of_another_table)?;
         let stem = Path::new(origin)
             .file_stem()
             .and_then(|s| s.to_str())
@@ -220,6 +220,21 @@ impl LoadedCase {
 
 /// Names longer than this many bytes are no names of directories everywhere.
 const LONGEST_NAME: usize = 100;
+
+/// An unknown key whose name a key elsewhere has.
+fn of_another_table(mut error: Box<CaseError>) -> Box<CaseError> {
+    const MOST: usize = 3;
+    let is_lost = error.remedy.starts_with("remove it");
+    if !(is_lost && error.problem.starts_with("unknown key")) {
+        return error;
+    }
+    let name = error.key.rsplit('.').next().unwrap_or_default();
+    let places = keys::places(name);
+    if !places.is_empty() && places.len() <= MOST {
+        error.remedy = format!("did you mean `{}`?", places.join("` or `"));
+    }
+    error
+}
 
 fn check_name(name: &str) -> Result<(), Fault> {
     let plain = |c: char| c.is_alphanumeric() || "-_. ".contains(c);

@@ -85,7 +85,8 @@ impl CaseSource {
             excerpt: None,
         };
         // Where keys are set on top of a case, one of the case may be in their way.
-        if error.remedy.starts_with("remove it") && !self.overrides.is_empty() {
+        let is_typed = error.overridden.is_some() && error.problem.starts_with("unknown key");
+        if error.remedy.starts_with("remove it") && !self.overrides.is_empty() && !is_typed {
             error.remedy += &format!("; `{}=`, set to nothing, takes it away", error.key);
         }
         if let Some((key, typed)) = overridden {
@@ -219,11 +220,36 @@ impl CaseSource {
             Ok(mut table) if table.len() == 1 => table.remove("value"),
             _ => None,
         };
+        if let (None, Some(whole)) = (&value, with_all_digits(typed)) {
+            return Err(Box::new(CaseError {
+                allowed: "numbers with digits on both sides of the point".to_owned(),
+                remedy: format!("{key}={whole}; a text stands between quotes"),
+                ..*wrong(key, "TOML has no numbers like .5 or 5.".to_owned())
+            }));
+        }
         let value = value.unwrap_or_else(|| Value::String(typed.to_owned()));
         set(&mut self.table, key, value).map_err(|problem| wrong(key, problem))?;
         self.overrides.push((key.to_owned(), typed.to_owned()));
         Ok(())
     }
+}
+
+/// The value with zeros where numbers lack digits before or after their point; none where that makes no numbers of it.
+fn with_all_digits(typed: &str) -> Option<String> {
+    let is_digit = |c: Option<char>| c.is_some_and(|c| c.is_ascii_digit());
+    let (mut whole, mut last) = (String::new(), None);
+    let mut rest = typed.chars().peekable();
+    while let Some(c) = rest.next() {
+        let [before, after] = [is_digit(last), is_digit(rest.peek().copied())];
+        match (c, before, after) {
+            ('.', false, true) => whole.push_str("0."),
+            ('.', true, false) => whole.push_str(".0"),
+            _ => whole.push(c),
+        }
+        last = Some(c);
+    }
+    let is_value = || format!("value = {whole}").parse::<Table>();
+    (whole != typed && is_value().is_ok_and(|t| t.len() == 1)).then_some(whole)
 }
 
 /// The start of a long text.

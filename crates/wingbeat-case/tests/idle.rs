@@ -244,6 +244,18 @@ const TABLE: &[(&[&str], &str, &str)] = &[
         "load=[{ point_m = [1, 0, 0], couple_newton_m = [1, 0, 0] }]",
         "load[0].point_m",
     ),
+    (&[VACUUM], "load=[{}]", "load[0]"),
+    (&[VACUUM], "load=[{ body = \"body\" }]", "load[0]"),
+    (
+        &[VACUUM, "flight.mode=tethered"],
+        "flight.tether.x={ frequency_hz = 0, sine_m = [0.1] }",
+        "flight.tether.x.sine_m",
+    ),
+    (
+        &[VACUUM, "flight.mode=tethered"],
+        "flight.tether.roll={ frequency_hz = 0, cosine_deg = [1], sine_deg = [3] }",
+        "flight.tether.roll.sine_deg",
+    ),
     (&["air.shed=[\"trailing\"]"], "air.leading_edge=suction", ""),
     (&[], "air.leading_edge_threshold_deg=20", ""),
     (

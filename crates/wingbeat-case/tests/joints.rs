@@ -313,6 +313,88 @@ fn refuses_two_joints_of_one_pair_that_contradict() {
     );
 }
 
+/// A slider and its crank, which leads; crank 0.1 m, rod 0.3 m.
+const SLIDER_CRANK: &str = "format = 1
+time = { step_s = 0.001, steps = 5 }
+flight.mode = \"tethered\"
+air.model = \"none\"
+[body]
+mass_kg = 2
+inertia_about_centre_kg_m2 = [0.1, 0.1, 0.1, 0, 0, 0]
+[segment.crank]
+mass_kg = 0.2
+centre_m = [0.05, 0, 0]
+inertia_about_centre_kg_m2 = [1e-4, 2e-4, 2e-4, 0, 0, 0]
+[segment.slide]
+mass_kg = 0.05
+centre_m = [0.4, 0, 0]
+inertia_about_centre_kg_m2 = [1e-5, 1e-5, 1e-5, 0, 0, 0]
+[segment.rod]
+mass_kg = 0.1
+centre_m = [0.25, 0, 0]
+inertia_about_centre_kg_m2 = [1e-4, 1e-3, 1e-3, 0, 0, 0]
+[joint.a_crank]
+child = \"crank\"
+at_m = [0, 0, 0]
+kind = \"revolute\"
+axis = [0, 1, 0]
+start_deg = [60]
+start_deg_s = [500]
+[joint.b_rod]
+child = \"rod\"
+parent = \"crank\"
+at_m = [0.1, 0, 0]
+kind = \"revolute\"
+axis = [0, 1, 0]
+[joint.c_slide]
+child = \"slide\"
+at_m = [0.4, 0, 0]
+kind = \"prismatic\"
+axis = [1, 0, 0]
+[joint.d_pin]
+child = \"rod\"
+parent = \"slide\"
+at_m = [0.4, 0, 0]
+kind = \"point_on_line\"
+axis = [0, 1, 0]
+";
+
+#[test]
+fn refuses_starts_that_closed_loops_do_not_admit() {
+    let load = |set: &[String]| {
+        let case = LoadedCase::from_text("crank", SLIDER_CRANK, Path::new(""), set);
+        case.map_err(|e| e.to_string())
+    };
+    load(&[]).unwrap();
+    // By the law of sines, with the rates: angles of crank a and rod b against the slide, sin b = sin a / 3.
+    let (a, a_rate) = (60f64.to_radians(), 500f64.to_radians());
+    let b = (a.sin() / 3.0).asin();
+    let b_rate = a.cos() / 3.0 / b.cos() * a_rate;
+    let [turn, rate] = [-(a + b), -(a_rate + b_rate)].map(f64::to_degrees);
+    let slid = 0.1 * (a.cos() - 1.0) + 0.3 * (b.cos() - 1.0);
+    let speed = -0.1 * a.sin() * a_rate - 0.3 * b.sin() * b_rate;
+    for (key, asked, unit) in [
+        ("b_rod.start_deg", turn, "deg"),
+        ("b_rod.start_deg_s", rate, "deg/s"),
+        ("c_slide.start_m", slid, "m"),
+        ("c_slide.start_m_s", speed, "m/s"),
+    ] {
+        let set = |x: f64| match unit {
+            "deg" | "deg/s" => [format!("joint.{key}=[{x}]")],
+            _ => [format!("joint.{key}={x}")],
+        };
+        let said = load(&set(1.1 * asked)).unwrap_err();
+        let words = format!(
+            "the closed loops ask for {:.2}",
+            (asked * 1e2).trunc() / 1e2
+        );
+        assert!(said.contains(&format!("joint.{key}")), "{said}");
+        assert!(said.contains(&words), "{words}: {said}");
+        load(&set(asked)).unwrap_or_else(|e| panic!("{e}"));
+        load(&set((asked * 1e6).round() / 1e6)).unwrap_or_else(|e| panic!("{e}"));
+    }
+}
+
 #[test]
 fn refuses_joints_that_ask_for_the_same_twice() {
     let weld = "[joint.zagain]\nchild = \"abdomen\"\nat_m = [-0.174e-3, 0, 0]\nkind = \"revolute\"\naxis = [0, 1, 0]\n\n";

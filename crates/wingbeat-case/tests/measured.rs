@@ -169,6 +169,26 @@ fn behaves_air_from_behind_and_drag_of_small_insects_are_named() {
         behind.contains("the air comes from behind at 12.0 m/s"),
         "{behind}"
     );
+    let turned = [
+        "air.stream_m_s=[-12,0,0]",
+        "flight.pitch_deg=0",
+        "flight.yaw_deg=180",
+        "flight.velocity_m_s=[0,0,0]",
+    ];
+    let faced = said("bird-cruise", &turned);
+    assert!(faced.contains("air.stream_m_s = [12.0, 0, 0]"), "{faced}");
+    let backwards = ["flight.velocity_m_s=[-12,0,0]", "flight.pitch_deg=0"];
+    let moving = said("fruit-fly-tethered", &backwards);
+    assert!(
+        moving.contains("from behind") && moving.contains("flight.velocity_m_s"),
+        "{moving}"
+    );
+    assert!(!moving.contains("= ["), "{moving}");
+    let vacuum = said(
+        "fruit-fly-tethered",
+        &[&backwards[..], &["air.model=none"]].concat(),
+    );
+    assert!(!vacuum.contains("from behind"), "{vacuum}");
     let fast = ["air.stream_m_s=[-20,0,0]"];
     let drag = said("hawkmoth-blade", &fast);
     assert!(drag.contains("times the friction of a plate"), "{drag}");

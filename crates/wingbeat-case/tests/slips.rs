@@ -457,3 +457,38 @@ fn behaves_hinges_in_other_units_and_beyond_their_stops_are_doubted() {
     let sound = doubts("joint.hinge-right.start_deg=[70]");
     assert!(!sound.contains("joint `"), "{sound}");
 }
+
+#[test]
+fn refuses_numbers_without_digits_and_keys_of_other_tables() {
+    for (set, says) in [
+        (
+            "air.stream_m_s=[.1,.3,-.2]",
+            &["air.stream_m_s=[0.1,0.3,-0.2]", "no numbers like .5"][..],
+        ),
+        ("flight.pitch_deg=5.", &["flight.pitch_deg=5.0"]),
+        (
+            "dynamics.corrector.tolerance=1e-9",
+            &["unknown key `corrector`", "did you mean `corrector`?"],
+        ),
+        ("flight.frequency_hertz=3", &["remove it"]),
+    ] {
+        let said = refusal("fruit-fly-blade", &[set]);
+        for words in says {
+            assert!(said.contains(words), "{set}: {said}");
+        }
+        assert!(!said.contains("takes it away"), "{said}");
+    }
+}
+
+#[test]
+fn refuses_a_gust_through_the_ground_in_words() {
+    let set = [
+        "air.ground={ point_m = [0, 0, 1], normal = [0, 0, -1] }",
+        "air.gust=[{ amplitude_m_s = [0, 0, 1], duration_s = 0.01 }]",
+    ];
+    let said = refusal("fruit-fly-tethered", &set);
+    assert!(
+        said.contains("air.gust") && said.contains("the gust blows through the ground"),
+        "{said}"
+    );
+}

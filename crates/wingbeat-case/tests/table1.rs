@@ -36,6 +36,19 @@ const ROWS: [(&str, Option<usize>, Air); 12] = [
     ("table1-dietl-garcia-2008", None, Air::BladeElement),
 ];
 
+#[test]
+fn refuses_to_scale_an_animal_whose_derivatives_are_given() {
+    let scaled = |scale: &str| {
+        let set = [format!("animal.scale={scale}")];
+        LoadedCase::find("table1-sun-xiong-2005", &set).map_err(|e| e.to_string())
+    };
+    let said = scaled("2").unwrap_err();
+    for words in ["animal.scale = 2", "of one size", "wingbeat stability"] {
+        assert!(said.contains(words), "{said}");
+    }
+    scaled("1").unwrap();
+}
+
 fn setup(preset: &str) -> FlightSetup {
     LoadedCase::find(preset, &[]).unwrap().setup
 }

@@ -193,6 +193,18 @@ pub enum DynamicsError {
         /// Iterations made.
         iterations: usize,
     },
+    /// A joint starts otherwise than closed loops let it.
+    #[error("joint `{joint}` starts at {given}, where the closed loops ask for {asked}")]
+    NotTheStart {
+        /// Name of the joint.
+        joint: String,
+        /// Whether this is the rate and not the coordinate.
+        is_rate: bool,
+        /// What is given, with its unit.
+        given: String,
+        /// What the loops ask for, with its unit.
+        asked: String,
+    },
     /// The equations of a mechanism are singular.
     #[error(
         "the equations of motion are singular at t = {time:.6e} s at {what}: a body without mass or inertia that its joints leave free, or joints that ask for the same thing twice in this position"

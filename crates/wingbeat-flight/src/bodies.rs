@@ -61,7 +61,7 @@ pub fn check_assembly(setup: &FlightSetup) -> Result<(), DynamicsError> {
     let system = system_of(setup)?;
     let root = setup.root_at_start();
     if !system.loops().is_empty() {
-        quaternion(system.clone(), &root)?;
+        check_closed(&system, &root)?;
     }
     if matches!(setup.mode, MotionMode::Tethered(_)) {
         return Ok(());
@@ -72,6 +72,15 @@ pub fn check_assembly(setup: &FlightSetup) -> Result<(), DynamicsError> {
         FormulationChoice::Euler(_) => EulerForm::new(system, Baumgarte::OFF).initial(0.0, &root),
     }
     .map(|_| ())
+}
+
+/// Closes the loops at time zero; joints that are told how to start do so.
+fn check_closed(system: &System, root: &BodyMotion) -> Result<(), DynamicsError> {
+    let form = QuaternionForm::new(system.clone(), Stabilization::None);
+    let y = form.initial(0.0, root)?;
+    let mut motions = vec![BodyMotion::REST; system.bodies().len()];
+    form.motions(0.0, &y, &mut form.workspace(), &mut motions)?;
+    Mechanism::of(system).check_starts(&motions)
 }
 
 fn quaternion(system: System, root: &BodyMotion) -> Result<Vec<f64>, DynamicsError> {

@@ -10,8 +10,8 @@
 //! | von Karman | `(2 T / pi) / (1 + y^2)^(5/6)`, y = 1.339 x | `(T / pi) (1 + 8/3 y^2) / (1 + y^2)^(11/6)` |
 //!
 //! Waves stand one in each of equal bins of log omega, at a place in its bin and with a phase that the seed draws, and
-//! carry the variance of their bin: the same seed gives the same air, bit for bit, at any time and place and on any
-//! number of threads, for the sum has no memory.
+//! carry their bin's share of the variance, `sum of a^2 / 2 = 1`: the same seed gives the same air, bit for bit, at any
+//! time and place and on any number of threads, for the sum has no memory.
 
 use std::f64::consts::{PI, TAU};
 
@@ -47,7 +47,7 @@ pub enum Spectrum {
 /// Bins of log omega, from [`BAND`].0 / T to [`BAND`].1 / T.
 const WAVES: usize = 64;
 /// Ends of the band over 1 / T. Below it are 0.6 % of the variance (along, Dryden; across 0.3 %), carried by the first wave; above
-/// it 0.6 % (along, Dryden) to 4 % (across, von Karman), left out.
+/// it 0.6 % (along, Dryden) to 4 % (across, von Karman), shared out among all waves.
 const BAND: (f64, f64) = (0.01, 100.0);
 
 /// Turbulent course of one component over its root mean square.
@@ -105,22 +105,27 @@ impl Turbulence {
         require(is_time, "turbulence time scale", time_scale, allowed)?;
         let mut draw = SplitMix64::new(seed);
         let ratio = (BAND.1 / BAND.0).powf(1.0 / WAVES as f64);
-        let wave = |k: usize| {
+        let bin = |k: usize| {
             let from = BAND.0 * ratio.powi(k as i32);
             let below = if k == 0 {
                 from * spectrum.density(0.0)
             } else {
                 0.0
             };
-            let variance = below + spectrum.variance([from, from * ratio]);
+            (from, below + spectrum.variance([from, from * ratio]))
+        };
+        let bins: Vec<_> = (0..WAVES).map(bin).collect();
+        let all: f64 = bins.iter().map(|(_, variance)| variance).sum();
+        let wave = |&(from, variance): &(f64, f64)| {
             let x = from * ratio.powf(draw.unit());
-            [x / time_scale, (2.0 * variance).sqrt(), TAU * draw.unit()]
+            let amplitude = (2.0 * variance / all).sqrt();
+            [x / time_scale, amplitude, TAU * draw.unit()]
         };
         Ok(Self {
             spectrum,
             time_scale,
             seed,
-            waves: (0..WAVES).map(wave).collect(),
+            waves: bins.iter().map(wave).collect(),
         })
     }
 
@@ -173,26 +178,21 @@ mod tests {
         }
     }
 
+    fn variance<'a>(waves: impl IntoIterator<Item = &'a [f64; 3]>) -> f64 {
+        waves.into_iter().map(|w| 0.5 * w[1] * w[1]).sum()
+    }
+
     #[test]
-    fn exact_spectra_have_unit_variance_and_their_bins_share_it() {
-        // Beyond the band, from the tails of the spectra: 2 / pi x, 3 / pi x, 0.587 x^(-2/3), 0.783 x^(-2/3).
-        for (spectrum, above) in [
-            (Spectrum::DrydenAlong, 0.0064),
-            (Spectrum::DrydenAcross, 0.0096),
-            (Spectrum::VonKarmanAlong, 0.0273),
-            (Spectrum::VonKarmanAcross, 0.0363),
+    fn exact_the_waves_have_unit_variance_and_their_bins_share_it() {
+        for spectrum in [
+            Spectrum::DrydenAlong,
+            Spectrum::DrydenAcross,
+            Spectrum::VonKarmanAlong,
+            Spectrum::VonKarmanAcross,
         ] {
             for air in drawn(spectrum).take(5) {
-                let of = |from: f64, to: f64| -> f64 {
-                    let inside = |w: &&[f64; 3]| (from..to).contains(&(w[0] * T));
-                    air.waves
-                        .iter()
-                        .filter(inside)
-                        .map(|w| 0.5 * w[1] * w[1])
-                        .sum()
-                };
-                let all = of(0.0, f64::INFINITY);
-                assert!((1.0 - all - above).abs() < 0.004, "{spectrum:?}: {all}");
+                let all = variance(&air.waves);
+                assert!((all - 1.0).abs() < 1e-14, "{spectrum:?}: {all}"); // roundings of 64 squares
             }
         }
         // Dryden along: (2 / pi) (atan b - atan a) between two frequencies, here of four bins each way.
@@ -201,8 +201,9 @@ mod tests {
         for k in [8, 20, 32, 44] {
             let [a, b] = [edge(k), edge(k + 4)];
             let waves = &air.waves[k as usize..k as usize + 4];
-            let found: f64 = waves.iter().map(|w| 0.5 * w[1] * w[1]).sum();
-            let exact = 2.0 / PI * (b.atan() - a.atan());
+            let found = variance(waves);
+            // Of what is below the upper end of the band.
+            let exact = (b.atan() - a.atan()) / BAND.1.atan();
             assert!((found / exact - 1.0).abs() < 1e-5, "{found} {exact}");
         }
     }

@@ -239,14 +239,7 @@ impl AirSettings {
             return require(false, "images", format!("{plane:?}"), allowed);
         }
         let part = self.images.iter().find_map(|p| self.wind.part_through(p));
-        part.map_or(Ok(()), |part| {
-            require(
-                false,
-                part,
-                "through a plane of symmetry or ground",
-                "air that goes along such planes: no air goes through them",
-            )
-        })
+        part.map_or(Ok(()), |part| Err(AirError::WindThroughPlane { part }))
     }
 }
 

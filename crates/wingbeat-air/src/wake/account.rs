@@ -1,7 +1,7 @@
 //! What happens to the impulse of a wake sheet within a step.
 
 use crate::images::Mirror;
-use crate::state::WakeSheet;
+use crate::state::{AirState, WakeSheet};
 use crate::wake::mover::Mover;
 use wingbeat_math::DVec3;
 
@@ -43,9 +43,14 @@ impl SheetAccount {
         }
     }
 
-    /// The account of the `sheet` moved last, its new row shed; `before` is what its free rings had before, and what its
+    /// The account of the `sheet` k moved last, its new row shed; `before` is what its free rings had before, and what its
     /// particles had.
-    pub(crate) fn of_move(mover: &Mover, sheet: &WakeSheet, before: [DVec3; 2]) -> Self {
+    pub(crate) fn of_move(
+        mover: &Mover,
+        (k, state): (usize, &AirState),
+        sheet: &WakeSheet,
+        before: [DVec3; 2],
+    ) -> Self {
         let rows = sheet.rows();
         let edge = |c: usize| mover.node_before(rows - 1, sheet, c);
         let start = impulse_with(sheet, rows, |r, c| {
@@ -55,23 +60,36 @@ impl SheetAccount {
             true => sheet.node(r, c),
             false => edge(c),
         });
-        let unhindered = match mover.unhindered.is_empty() {
-            true => end,
-            false => impulse_with(sheet, rows, |r, c| {
-                mover.unhindered[r * (sheet.columns + 1) + c]
-            }),
-        };
+        let absorbed = taken_by_surfaces(mover, (k, state), sheet);
         let [rings_before, particles_before] = before;
         let (rings, particles) = (free_rings(sheet), sheet.particles.impulse());
         let taken = mover.taken_from_particles;
         Self {
-            moved: (unhindered - start) + (particles + taken - particles_before),
-            absorbed: unhindered - end + taken,
+            moved: (end + absorbed - start) + (particles + taken - particles_before),
+            absorbed: absorbed + taken,
             released: (start - rings_before) - (end - rings),
             free: rings + particles,
             ..Self::default()
         }
     }
+}
+
+/// Impulse per density [m4/s], N, of the rings of sheet `k` without surfaces in the way, less what it is with them. The newest
+/// rows reach to where the shedding edge goes within the step: were it left behind, they would be longer by the way of the animal,
+/// and what is taken would depend on the inertial frame.
+fn taken_by_surfaces(mover: &Mover, (k, state): (usize, &AirState), sheet: &WakeSheet) -> DVec3 {
+    if mover.unhindered.is_empty() {
+        return DVec3::ZERO;
+    }
+    let (rows, edge) = (sheet.rows(), &mover.lattice.sheets()[k].nodes);
+    let with = |free: &dyn Fn(usize, usize) -> DVec3| {
+        impulse_with(sheet, rows, |r, c| match r < rows {
+            true => free(r, c),
+            false => state.position[edge[c]] + mover.dt * state.velocity[edge[c]],
+        })
+    };
+    let unhindered = with(&|r, c| mover.unhindered[r * (sheet.columns + 1) + c]);
+    unhindered - with(&|r, c| sheet.node(r, c))
 }
 
 /// Impulse per density [m4/s], N, of the rings of a sheet but the newest row, which is still at the edge.

@@ -31,8 +31,7 @@ pub(crate) struct Mover<'a> {
     /// Paths of the nodes or particles of a sheet.
     pub from: Vec<DVec3>,
     pub to: Vec<DVec3>,
-    /// Where the nodes of the sheet would be without surfaces in the way, its shedding edge last; empty if none was held
-    /// back.
+    /// Where the nodes of the sheet would be without surfaces in the way; empty if none was held back.
     pub unhindered: Vec<DVec3>,
     /// Impulse per density [m4/s], N components, that surfaces in the way took from the particles of the sheet moved last.
     pub taken_from_particles: DVec3,
@@ -74,9 +73,8 @@ impl Mover<'_> {
         self.unhindered.clear();
         self.unhindered.extend_from_slice(&to);
         self.keep_clear(&from, &mut to);
-        match self.events.near_surface == held_back {
-            true => self.unhindered.clear(),
-            false => (self.unhindered).extend_from_slice(&from[from.len() - width..]),
+        if self.events.near_surface == held_back {
+            self.unhindered.clear();
         }
         sheet.nodes.clear();
         to.iter().for_each(|&x| sheet.nodes.push(x));

@@ -72,6 +72,55 @@ fn balances_impulse_account_with_contact_and_cuts() {
     }
 }
 
+/// The same hover in a stream that carries the wings along: each part that is dropped, and what is there with it, are the same.
+#[test]
+fn invariant_what_contact_takes_is_galilean() {
+    let (viscosity, radius) = (0.01, 0.07);
+    let flown = |stream: DVec3| {
+        let settings = AirSettings {
+            bound_core: CoreModel::Algebraic { radius, viscosity },
+            wake_core: CoreModel::Algebraic { radius, viscosity },
+            wake_overlap: 1.0,
+            shedding: ALL,
+            loads: LoadMethod::Joukowski,
+            clearance: 0.2,
+            max_rows: Some(15),
+            ..AirSettings::accurate(1.2, stream)
+        };
+        let wings = ["right", "left"].map(|name| Surface::grid(name, 4, 6));
+        let lattice = Lattice::new(wings.to_vec(), settings).unwrap();
+        let moving = |t: f64| {
+            let mut motion = normal_hover(t);
+            motion.position.iter_mut().for_each(|x| *x += t * stream);
+            motion.velocity.iter_mut().for_each(|v| *v += stream);
+            motion
+        };
+        let mut parts = Vec::new();
+        fly(&lattice, moving, 0.025, 30, |_, _, loads, _| {
+            let account = loads.account;
+            parts.push([account.absorbed, account.cut, loads.impulse]);
+        })
+        .unwrap();
+        parts
+    };
+    let still = flown(DVec3::ZERO);
+    for stream in [DVec3::new(1.0, 0.5, -0.3), DVec3::new(10.0, 5.0, -3.0)] {
+        let moving = flown(stream);
+        for part in 0..3 {
+            let largest = still.iter().map(|p| p[part].length()).fold(0.0, f64::max);
+            let gaps = still
+                .iter()
+                .zip(&moving)
+                .map(|(a, b)| a[part].distance(b[part]));
+            let gap = gaps.fold(0.0, f64::max) / largest;
+            println!("{stream}, part {part}: {gap:e}");
+            assert!(largest > 0.0);
+            // Roundings, which the places on the way grow.
+            assert!(gap < 1e-10, "{stream}, part {part}: {gap:e}");
+        }
+    }
+}
+
 #[test]
 fn balances_impulse_account_with_particles() {
     for age in [None, Some(0.8)] {

@@ -135,7 +135,7 @@ fn refuses_air_that_goes_through_a_ground() {
     ];
     for (part, wind) in through {
         match beside(wind, ground()) {
-            Err(AirError::Setting { key, .. }) => assert_eq!(key, part),
+            Err(AirError::WindThroughPlane { part: named }) => assert_eq!(named, part),
             other => panic!("{part}: {:?}", other.map(|_| ())),
         }
     }

@@ -189,16 +189,26 @@ pub(super) fn doubts(setup: &FlightSetup, e: &Estimate) -> Vec<String> {
 /// Flight backwards at a speed that counts beside that of the tips: no animal's, but of streams with a wrong sign.
 fn air_from_behind(setup: &FlightSetup, e: &Estimate) -> Option<String> {
     const COUNTS: f64 = 0.3;
+    if matches!(setup.air, AirModel::None) {
+        return None;
+    }
     let root = setup.root_at_start();
     let forward = root.r.x_axis.with_z(0.0).normalize_or_zero();
     let speed = (root.v - stream(&setup.air)).dot(forward);
     let tips = e.wings.iter().map(|w| w.tip_speed).fold(0.0, f64::max);
     (speed < 0.0 && -speed > COUNTS * tips).then(|| {
-        format!(
-            "the air comes from behind at {} m/s: a stream that the animal faces has air.stream_m_s = [-{}, 0, 0]",
-            rounded(-speed),
-            rounded(-speed)
-        )
+        let remedy = match root.v == DVec3::ZERO {
+            true => {
+                let faced = stream(&setup.air) + 2.0 * speed * forward;
+                let [x, y, z] = faced.to_array().map(|x| match x.abs() > 1e-9 * -speed {
+                    true => rounded(x),
+                    false => "0".to_owned(),
+                });
+                format!("a stream that the animal faces has air.stream_m_s = [{x}, {y}, {z}]")
+            }
+            false => "correct the signs of flight.velocity_m_s and air.stream_m_s, or turn the animal (flight.yaw_deg)".to_owned(),
+        };
+        format!("the air comes from behind at {} m/s: {remedy}", rounded(-speed))
     })
 }
 

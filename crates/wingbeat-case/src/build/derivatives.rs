@@ -19,6 +19,7 @@ pub(super) fn table(case: &Case, animal: &Animal) -> Built<DerivativeTable> {
             "`wingbeat stability CASE --write FILE` makes one from a case with blade elements",
         ));
     };
+    check_scale(case)?;
     let weight = animal.mass() * vector(case.gravity_m_s2).length();
     let force = d.force_newton.unwrap_or([0.0, 0.0, -weight]);
     let [f, m] = [force, d.moment_newton_m];
@@ -31,6 +32,19 @@ pub(super) fn table(case: &Case, animal: &Animal) -> Built<DerivativeTable> {
         added_mass: added_mass(d)?,
         stream: vector(case.air.stream_m_s),
     })
+}
+
+/// Derivatives of an animal of another size depend on how its wingbeat changes with it: the table is of one size.
+fn check_scale(case: &Case) -> Built<()> {
+    if case.animal.scale == 1.0 {
+        return Ok(());
+    }
+    Err(Fault::new(
+        "animal.scale",
+        "a table of derivatives is of an animal of one size: masses would be scaled, forces and derivatives not",
+        "1 with air.model = \"derivatives\"",
+        "scale the case that the table is made from: `wingbeat stability CASE --set animal.scale=... --write FILE`",
+    ))
 }
 
 type Block = [[f64; 3]; 3];

@@ -8,7 +8,8 @@ use wingbeat_model::planform::Spacing;
 use super::Built;
 use crate::error::Fault;
 use crate::raw::{
-    AdjustCase, AirModel, Case, Formulation, JointCase, Mode, StartCase, WingCase, WingMeshCase,
+    AdjustCase, AirModel, Case, Formulation, JointCase, Mode, StartCase, TetherCase, WingCase,
+    WingMeshCase,
 };
 use crate::sides::mirror_name;
 use crate::source::CaseSource;
@@ -31,6 +32,9 @@ pub(crate) fn check(case: &Case, setup: &FlightSetup, source: &CaseSource) -> Bu
     }
     if case.flight.held_beats > 0.0 && setup.time.period.is_none() {
         return Err(idle("flight.held_beats", "where nothing beats"));
+    }
+    if let Some(tether) = &case.flight.tether {
+        still_on_tether(tether)?;
     }
     let is_free = case.flight.mode == Mode::Free;
     if is_free && case.flight.tether.is_some() && case.flight.held_beats == 0.0 {
@@ -288,6 +292,10 @@ fn senses(case: &Case, source: &CaseSource) -> Built<()> {
 fn loads(case: &Case, source: &CaseSource) -> Built<()> {
     for (k, load) in case.load.iter().enumerate() {
         let path = |key: &str| format!("load[{k}].{key}");
+        // One of zero may be where a campaign begins.
+        if !LOADS.iter().any(|key| source.gives(&path(key))) {
+            return Err(idle(format!("load[{k}]"), "without a force or a couple"));
+        }
         let series = [
             ("force_cosine_newton", load.force_cosine_newton.is_empty()),
             (
@@ -302,6 +310,47 @@ fn loads(case: &Case, source: &CaseSource) -> Built<()> {
                 "without frequency_hz this stands still: it is a constant load",
                 "beside frequency_hz",
                 "give frequency_hz, or the constant part: force_newton, couple_newton_m",
+            ));
+        }
+    }
+    Ok(())
+}
+
+/// Keys of forces and couples.
+const LOADS: [&str; 6] = [
+    "force_newton",
+    "force_cosine_newton",
+    "force_sine_newton",
+    "couple_newton_m",
+    "couple_cosine_newton_m",
+    "couple_sine_newton_m",
+];
+
+/// Sines of a tether at no frequency.
+fn still_on_tether(tether: &TetherCase) -> Built<()> {
+    let paths = [("x", &tether.x), ("y", &tether.y), ("z", &tether.z)];
+    let paths = paths.map(|(name, path)| {
+        let path = path.as_ref();
+        (name, "sine_m", path.map(|p| (p.frequency_hz, &p.sine_m)))
+    });
+    let turns = [
+        ("pitch", &tether.pitch),
+        ("yaw", &tether.yaw),
+        ("roll", &tether.roll),
+    ];
+    let turns = turns.map(|(name, turn)| {
+        let turn = turn.as_ref();
+        (
+            name,
+            "sine_deg",
+            turn.map(|t| (t.frequency_hz, &t.sine_deg)),
+        )
+    });
+    for (name, key, oscillation) in paths.into_iter().chain(turns) {
+        if oscillation.is_some_and(|(frequency, sine)| frequency == 0.0 && !sine.is_empty()) {
+            return Err(idle(
+                format!("flight.tether.{name}.{key}"),
+                "at a frequency_hz of 0",
             ));
         }
     }

@@ -331,6 +331,10 @@ fn start(path: &str, joint: &JointCase) -> Built<[Vec<f64>; 2]> {
 pub(super) fn fault_of(case: &Case, setup: &FlightSetup, error: &DynamicsError) -> Fault {
     let (key, remedy) = match error {
         DynamicsError::BadJoint { joint, .. } => (key_of(case, joint), "correct this joint"),
+        DynamicsError::NotTheStart { joint, is_rate, .. } => (
+            key_of_start(case, joint, *is_rate),
+            "give what the loops ask for, or leave it out; the first joints of a loop lead, and the others follow",
+        ),
         DynamicsError::NotAssembled { joint, .. } => (
             key_of(case, joint),
             "check at_m and axes of the joints of the loop: they hold in the reference configuration",
@@ -370,6 +374,16 @@ fn key_of(case: &Case, joint: &str) -> String {
         true => format!("joint.{joint}"),
         false => "joint".to_owned(),
     }
+}
+
+/// The key of a joint's start; its table where its mirror image has the joint.
+fn key_of_start(case: &Case, name: &str, is_rate: bool) -> String {
+    let keys = match case.joint.get(name) {
+        None => return key_of(case, name),
+        Some(joint) if joint.kind == JointKind::Prismatic => ["start_m", "start_m_s"],
+        Some(_) => ["start_deg", "start_deg_s"],
+    };
+    format!("joint.{name}.{}", keys[usize::from(is_rate)])
 }
 
 /// The table of the last joint of the case among `names`, each between backticks.

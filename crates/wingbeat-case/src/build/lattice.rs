@@ -83,6 +83,14 @@ fn settings(case: &AirCase, chord: &Chord) -> Built<AirSettings> {
 
 /// What the lattice refuses, at the key it is about.
 fn refused(case: &AirCase, error: &AirError) -> Fault {
+    if let AirError::WindThroughPlane { part } = error {
+        return Fault::new(
+            key_of(part),
+            format!("the {part} blows through the ground (air.ground)"),
+            "air that goes along the ground: none goes through it",
+            "take the part along the normal of the ground away, or remove air.ground",
+        );
+    }
     let AirError::Setting {
         key,
         value,

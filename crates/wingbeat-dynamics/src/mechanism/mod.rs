@@ -5,13 +5,14 @@
 //! (position and unit quaternion of every body) with multipliers, which are singular nowhere.
 //! Reading order: [`joint`] (what a joint asks of two bodies), [`partition`] (which coordinates
 //! follow from which, and what is asked twice), `equations` (matrix and right-hand side), [`form`], [`assembly`]
-//! (consistent starts).
+//! (consistent starts), `starts` (whether those are the ones given).
 
 pub(crate) mod assembly;
 mod equations;
 pub(crate) mod form;
 pub(crate) mod joint;
 pub(crate) mod partition;
+mod starts;
 mod structure;
 
 pub use structure::Mechanism;

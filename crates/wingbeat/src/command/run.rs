@@ -63,7 +63,7 @@ pub(crate) fn run(args: &RunArgs) -> Result<(), Failure> {
 pub(crate) fn resume(args: &ResumeArgs) -> Result<(), Failure> {
     let threads = set_threads(args.options.threads)?;
     let interrupts = Interrupts::while_building();
-    match go_back(&args.dir, threads, &interrupts)? {
+    match go_back(args, threads, &interrupts)? {
         Some(run) => start(&args.options, run, &interrupts),
         None => Ok(()),
     }
@@ -141,8 +141,12 @@ fn begin(
 
 /// Goes back to the last checkpoint; to the start, where a run was killed before its first one;
 /// nowhere, where it flew to its end.
-fn go_back(dir: &Path, threads: usize, interrupts: &Interrupts) -> Result<Option<Run>, IoError> {
-    let dir = ResultDir::open(dir)?;
+fn go_back(
+    args: &ResumeArgs,
+    threads: usize,
+    interrupts: &Interrupts,
+) -> Result<Option<Run>, IoError> {
+    let dir = ResultDir::open(&args.dir)?;
     let saved = saver::read(dir.path())?;
     if saved.manifest.outcome == Outcome::Finished {
         if !dir.case()?.output.save.keep {
@@ -170,12 +174,14 @@ fn go_back(dir: &Path, threads: usize, interrupts: &Interrupts) -> Result<Option
         problem: format!("the flight cannot go on from it: {e}"),
     })?;
     interrupts.flight_is_built();
-    tell!(
-        "{}: goes on after step {} of {}",
-        case.name,
-        header.step,
-        case.setup.time.steps
-    );
+    if !args.options.silent() {
+        tell!(
+            "{}: goes on after step {} of {}",
+            case.name,
+            header.step,
+            case.setup.time.steps
+        );
+    }
     let flight = RecordedFlight::resume(dir, &case, flight, (&header, saved.manifest), threads)?;
     Ok(Some(Run { case, flight }))
 }

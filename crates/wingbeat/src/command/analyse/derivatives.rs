@@ -49,6 +49,10 @@ fn find(args: &Trimming, report: &mut Report) -> Result<(), Failure> {
         report,
         "\nAxes: level frame, forward, right, down; moments about the mean mass centre, where the control puts it."
     );
+    line!(
+        report,
+        "stroke_amplitude and frequency are in parts of those trimmed: 0.1 is a tenth more, whatever motion.adjust has."
+    );
     report.value("control_derivatives", values);
     Ok(())
 }

@@ -8,7 +8,7 @@ use wingbeat::analysis::wake::{
     WakeMemory, change_by_last_mode, elastic_modes, elastic_monodromy, wake_floquet,
 };
 use wingbeat::analysis::{
-    LOADS, LinearModel, ModeSet, Plane, floquet_of_trim, linear_model, table_model,
+    AnalysisError, LOADS, LinearModel, ModeSet, Plane, floquet_of_trim, linear_model, table_model,
 };
 use wingbeat::case::LoadedCase;
 use wingbeat::case::derivative_case;
@@ -79,6 +79,16 @@ pub(crate) fn run(args: &StabilityArgs) -> Result<(), Failure> {
     args.trimming.report.deliver([&args.write], deliver)
 }
 
+/// Why there is no averaged model; what follows has the modes of the wingbeat.
+fn why_not_averaged(error: AnalysisError) -> String {
+    match error {
+        AnalysisError::NotCovered { what, .. } => {
+            format!("{what}; Floquet's modes carry free joints along")
+        }
+        other => other.to_string(),
+    }
+}
+
 /// Averaged model and orbit of a flight in air without memory.
 fn of_trim(args: &Trimming, report: &mut Report, file: Option<Target>) -> Result<(), Failure> {
     if file.is_some() {
@@ -88,7 +98,7 @@ fn of_trim(args: &Trimming, report: &mut Report, file: Option<Target>) -> Result
     }
     let (case, trim) = trimmed(args, report)?;
     let straight = match trim.turn_rate {
-        0.0 => trim.beat.check_averaged().map_err(|e| e.to_string()),
+        0.0 => trim.beat.check_averaged().map_err(why_not_averaged),
         _ => Err("loads are averaged about a flight that is straight in the mean".to_owned()),
     };
     let averaged = match straight {
