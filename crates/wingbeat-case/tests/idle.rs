@@ -245,7 +245,7 @@ const TABLE: &[(&[&str], &str, &str)] = &[
         "load[0].point_m",
     ),
     (&[VACUUM], "load=[{}]", "load[0]"),
-    (&[VACUUM], "load=[{ body = \"body\" }]", "load[0]"),
+    (&[VACUUM], "load=[{ on = \"body\" }]", "load[0]"),
     (
         &[VACUUM, "flight.mode=tethered"],
         "flight.tether.x={ frequency_hz = 0, sine_m = [0.1] }",
