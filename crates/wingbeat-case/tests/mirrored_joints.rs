@@ -193,3 +193,30 @@ fn exact_stores_on_a_wing_that_came_along_lie_where_they_are_given() {
     let aside = [image[1], image[4], image[5]];
     assert!(aside.iter().all(|x| x.abs() < 1e-12), "{aside:?}");
 }
+
+/// Wings on free joints keep to the mirror: what parts one side from the other ends the flight, and is not left out.
+#[test]
+fn refuses_loads_and_speeds_of_one_side_where_half_of_the_air_is_computed() {
+    let side = [
+        "load=[{ force_newton = [0, 1e-6, 0] }]",
+        "load=[{ on = \"right\", force_newton = [0, 0, 1e-6] }]",
+        "load=[{ on = \"left\", force_newton = [0, 0, 1e-6] }]",
+        "flight.velocity_m_s=[0, 0.01, 0]",
+        "flight.angular_velocity_deg_s=[1, 0, 0]",
+    ];
+    let robot = |more: &str| {
+        let set = ["wing.right.mesh.chordwise=2", "wing.right.mesh.spanwise=4"];
+        let set: Vec<String> = set.iter().chain([&more]).map(|s| s.to_string()).collect();
+        let case = LoadedCase::find("robobee", &set).unwrap();
+        Simulation::new(case.setup)
+            .map(|_| ())
+            .map_err(|e| e.to_string())
+    };
+    for more in side {
+        let text = robot(more).unwrap_err();
+        let words = ["not mirror-symmetric", "air.mirror = false"];
+        assert!(words.iter().all(|w| text.contains(w)), "{more}: {text}");
+    }
+    // A load in the plane parts nothing.
+    robot("load=[{ force_newton = [1e-6, 0, 1e-6] }]").unwrap();
+}

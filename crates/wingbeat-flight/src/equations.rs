@@ -7,8 +7,8 @@ mod loads;
 use std::sync::Arc;
 
 use wingbeat_dynamics::{
-    AbsoluteForm, AddedMass, BodyMotion, Mechanism, MirrorSymmetry, Solution, Stabilization,
-    Workspace, Wrench, mass_centre, relative_energy,
+    AbsoluteForm, AddedMass, BodyMotion, Mechanism, Solution, Stabilization, Workspace, Wrench,
+    mass_centre, relative_energy,
 };
 
 use crate::air::{Air, AirScratch, Instant};
@@ -19,6 +19,7 @@ use crate::elastic::{ElasticScratch, ElasticState, ElasticWings};
 use crate::error::FlightError;
 use crate::interface::Shape;
 use crate::memory::AirMemory;
+use crate::mirrored::Mirrored;
 use crate::quadratures::{QUADRATURES, Quadratures, WORKS};
 
 /// What a flight remembers beside its state vector, frozen within a step.
@@ -51,7 +52,7 @@ pub struct Equations {
     pub springs: Vec<PointSpring>,
     /// The mirror that the motion keeps to, where one half of the air is computed and wings hang on free joints, or the flyer is light as a
     /// whole.
-    pub mirror: Option<MirrorSymmetry>,
+    pub mirror: Option<Mirrored>,
     /// Time step h [s].
     pub step: f64,
     /// Pass of a step from which those before speed the next ones up; none for plain passes.
@@ -86,6 +87,8 @@ pub struct Scratch {
     /// Power of what deforms each body against the air [W]; empty where nothing is deformed.
     pub deformation: Vec<f64>,
     dynamics: Workspace,
+    /// Rates before the mirror has taken anything from them.
+    rates: Vec<f64>,
     /// Scratch of the air.
     pub air_scratch: AirScratch,
     /// Scratch of the elastic wings.
@@ -116,6 +119,7 @@ impl Scratch {
             relative: [0.0; 2],
             deformation: vec![0.0; if equations.air.deforms() { bodies } else { 0 }],
             dynamics: equations.core.workspace(),
+            rates: vec![],
             air_scratch: equations.air.scratch(),
             elastic: equations.elastic.scratch(&equations.elastic.initial()),
         }
@@ -279,14 +283,17 @@ impl Equations {
             false => &s.total,
         };
         (self.core).rates(t, &y[..n], loads, &mut s.dynamics, &mut dy[..n])?;
-        self.symmetrise(&y[..n], &mut dy[..n]);
-        Ok(())
+        self.symmetrise((t, &y[..n]), s, &mut dy[..n])
     }
 
-    fn symmetrise(&self, y: &[f64], dy: &mut [f64]) {
-        if let Some(mirror) = &self.mirror {
-            self.core.symmetrise(mirror, y, dy);
-        }
+    fn symmetrise(
+        &self,
+        at: (f64, &[f64]),
+        s: &mut Scratch,
+        dy: &mut [f64],
+    ) -> Result<(), FlightError> {
+        let mirror = self.mirror.as_ref();
+        mirror.map_or(Ok(()), |m| m.keep(&self.core, at, dy, &mut s.rates))
     }
 
     /// Rates of the core's state `y` alone, without records and quadratures.
@@ -304,8 +311,7 @@ impl Equations {
         self.known_loads(t, y, memory, s)?;
         let (ws, out) = (&mut s.dynamics, &mut s.solution);
         (self.core).rates_with((t, y), &s.added, &mut s.total, ws, out, dy)?;
-        self.symmetrise(y, dy);
-        Ok(())
+        self.symmetrise((t, y), s, dy)
     }
 
     /// Puts the state at time `t` [s] back onto what it must fulfil.

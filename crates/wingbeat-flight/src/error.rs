@@ -104,6 +104,16 @@ pub enum FlightError {
         /// Names of the joints.
         joints: String,
     },
+    /// Motion that is not mirror-symmetric though only one half of the air is computed.
+    #[error(
+        "t = {time:.6e} s: the motion is not mirror-symmetric: within a step it parts from its image by {apart:.1e} of its natural sizes, by loads, springs, speeds or masses of one side; compute both halves: air.mirror = false"
+    )]
+    Asymmetric {
+        /// Time \[s\].
+        time: f64,
+        /// Largest difference within a step over the natural size of what differs \[1\].
+        apart: f64,
+    },
     /// A joint has turned farther than what acts along its angle can know.
     #[error(
         "t = {time:.6e} s: joint `{joint}` has turned by more than half a turn, and its spring, stop or follower knows its angle within half a turn here: free flight by dynamics.formulation = \"momentum\" counts turns of revolute and universal joints, not that of a held root or by \"quaternion\" (joints that close loops); turns of spherical joints are counted nowhere; limit it by a stop, or make its spring stiffer"

@@ -37,6 +37,7 @@ mod interface;
 pub mod joints;
 mod light;
 mod memory;
+mod mirrored;
 mod prescribed;
 mod quadratures;
 pub mod record;

@@ -15,6 +15,7 @@ use crate::elastic::ElasticWings;
 use crate::equations::Equations;
 use crate::error::FlightError;
 use crate::light::is_light;
+use crate::mirrored::Mirrored;
 use crate::setup::{
     AirModel, BaumgarteChoice, FlightSetup, FormulationChoice, IntegratorChoice, MotionMode,
     PrescribedMotion, StabilizationChoice,
@@ -55,20 +56,24 @@ pub fn stages(setup: &FlightSetup, law: &WingLaw<'_>) -> Result<Vec<Stage>, Flig
     let mirror = (moves_by_air && setup.air.is_mirrored()).then(|| mirror(setup, &system));
     let moves_joints = system.speeds() > 0 && !setup.air.keeps_wake();
     let accelerated_from = accelerated_from(setup, is_carried || moves_joints);
-    let stage = |from_step: usize, core: Core| Stage {
-        from_step,
-        equations: Equations {
-            core,
-            air: air.clone(),
-            elastic: elastic.clone(),
-            carried: carried.clone(),
-            mechanism: mechanism.clone(),
-            applied: setup.loads.clone(),
-            springs: setup.springs.clone(),
-            mirror: mirror.clone(),
-            step: setup.time.step,
-            accelerated_from,
-        },
+    let stage = |from_step: usize, core: Core| {
+        let step = setup.time.step;
+        let mirror = mirror.clone().map(|m| Mirrored::new(m, &core, step));
+        Stage {
+            from_step,
+            equations: Equations {
+                core,
+                air: air.clone(),
+                elastic: elastic.clone(),
+                carried: carried.clone(),
+                mechanism: mechanism.clone(),
+                applied: setup.loads.clone(),
+                springs: setup.springs.clone(),
+                mirror,
+                step: setup.time.step,
+                accelerated_from,
+            },
+        }
     };
     Ok(match &setup.mode {
         MotionMode::Tethered(motion) => vec![stage(0, tethered(setup, system, motion))],

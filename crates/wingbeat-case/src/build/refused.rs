@@ -12,6 +12,10 @@ pub(crate) fn refused(case: &Case, setup: &FlightSetup, error: &FlightError) -> 
     let (key, remedy) = match error {
         FlightError::Dynamics(e) => return joint::fault_of(case, setup, e),
         FlightError::Air(e) => of_lattice(e),
+        FlightError::Asymmetric { .. } => (
+            "air.mirror".to_owned(),
+            "set it to false: both sides are computed",
+        ),
         FlightError::Blade(_) => ("air.blade".to_owned(), "change this number"),
         FlightError::External(_) => (
             "air.external.command".to_owned(),
