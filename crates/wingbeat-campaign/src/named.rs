@@ -51,7 +51,14 @@ pub fn of_programs(case: &LoadedCase) -> Option<[u8; 32]> {
 
 /// Names of keys in whose values files are named: a file, a column of the file beside, the command of a program. It is started
 /// in the working folder.
-const NAMES: [&str; 4] = ["file", "phase_column", "angle_column", "command"];
+const NAMES: [&str; 6] = [
+    "file",
+    "phase_column",
+    "angle_column",
+    "x_column",
+    "y_column",
+    "command",
+];
 
 /// The files that a part of a case names; `path` is where it stands.
 fn find(
@@ -67,7 +74,7 @@ fn find(
                 find(inner, &format!("{path}{name}."), base, folder, files)
             }
             ("file", toml::Value::String(file)) => files.push(folder.join(file)),
-            ("phase_column" | "angle_column", _) => {
+            ("phase_column" | "angle_column" | "x_column" | "y_column", _) => {
                 let beside = base.and_then(|base| base.text_at(&format!("{path}file")));
                 files.extend(beside.map(|file| folder.join(file)));
             }

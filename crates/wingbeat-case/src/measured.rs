@@ -1,11 +1,11 @@
 //! Measurements in a case that look like slips: of units, turns, lost frames, the order of points.
 
-use wingbeat_model::Wing;
 use wingbeat_model::motion::Fourier;
+use wingbeat_model::{Planform, Wing};
 
 use crate::fitted::FittedTable;
 use crate::loaded::LoadedCase;
-use crate::raw::{AngleCase, SurfaceCase, WingMotionCase};
+use crate::raw::{AngleCase, OutlineCase, PlanformCase, SurfaceCase, WingMotionCase};
 
 /// Angles of a table that are all below this could be radians \[deg\].
 const HALF_A_TURN: f64 = 3.2;
@@ -17,6 +17,10 @@ const LEAP_DEG: f64 = 10.0;
 /// wing from this part of its length on.
 const OUTLIER: f64 = 5.0;
 const SMALL: f64 = 0.02;
+
+/// Part by which `least_chord` may change the second moment of an outline, and a chord that changes hardly any.
+const WIDENED: f64 = 0.05;
+const NARROW: f64 = 0.02;
 
 impl LoadedCase {
     /// What of the measurements in the case is to be doubted, in sentences.
@@ -30,6 +34,9 @@ impl LoadedCase {
                 let key = format!("wing.{name}.motion.{angle}.table");
                 doubts.extend(turn(&key, rows));
                 doubts.extend(lost(&key, rows));
+            }
+            if let Some(PlanformCase::Outline(outline)) = &wing.planform {
+                doubts.extend(widened(name, outline));
             }
             let surface = wing.deformation.as_ref().and_then(|d| d.surface.as_ref());
             let flown = self.setup.animal.wings.iter().find(|w| w.name == *name);
@@ -125,6 +132,44 @@ fn order(key: &str, surface: &SurfaceCase, wing: &Wing) -> Option<String> {
         return None;
     };
     Some(format!("{key}: {problem}"))
+}
+
+/// An outline that is much narrower somewhere than the wing that is flown.
+fn widened(wing: &str, outline: &OutlineCase) -> Option<String> {
+    let [as_flown, narrow] = [outline.least_chord, f64::MIN_POSITIVE].map(|l| moments(outline, l));
+    let (as_flown, narrow) = (as_flown?, narrow?);
+    let [area, second] = [0, 2].map(|k| as_flown[k] / narrow[k] - 1.0);
+    (second > WIDENED && outline.least_chord > NARROW).then(|| {
+        format!(
+            "wing.{wing}.planform.outline: least_chord = {} widens it where it is narrow: the wing that is flown has {:.1} % more area and {:.1} % more second moment about the hinge; least_chord = {NARROW} keeps it",
+            outline.least_chord,
+            100.0 * area,
+            100.0 * second
+        )
+    })
+}
+
+/// Moments of the area of an outline about the hinge, of order 0, 1 and 2, its chord `least` of the largest at least.
+fn moments(outline: &OutlineCase, least: f64) -> Option<[f64; 3]> {
+    const STRIPS: usize = 2000;
+    let edges = Planform::outline(
+        outline.leading_m.as_deref()?,
+        outline.trailing_m.as_deref()?,
+        least,
+    )
+    .edges()
+    .ok()?;
+    let width = (edges.tip - edges.root) / STRIPS as f64;
+    let mut moments = [0.0; 3];
+    for k in 0..STRIPS {
+        let r = edges.root + (k as f64 + 0.5) * width;
+        let [leading, trailing] = edges.at(r);
+        let area = (leading - trailing) * width;
+        for (power, moment) in (0..).zip(&mut moments) {
+            *moment += area * r.powi(power);
+        }
+    }
+    Some(moments)
 }
 
 /// The phase of a surface that the series of its points pass by.

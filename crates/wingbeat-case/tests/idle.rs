@@ -93,6 +93,11 @@ const TABLE: &[(&[&str], &str, &str)] = &[
         "wing.right.motion.psi.table.phase_column",
     ),
     (
+        &[VACUUM],
+        "wing.right.planform={ outline = { leading_m = [[0, 0], [1e-3, 0]], trailing_m = [[0, -1e-3], [1e-3, -1e-3]], x_column = \"x\" } }",
+        "wing.right.planform.outline.x_column",
+    ),
+    (
         &[VACUUM, "motion.start=impulsive"],
         "motion.start_beats=2",
         "",

@@ -12,6 +12,7 @@ mod keys;
 mod measured;
 mod meshes;
 mod mirrored_joints;
+mod outlines;
 mod presets;
 mod slips;
 mod table1;

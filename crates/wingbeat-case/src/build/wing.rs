@@ -232,7 +232,7 @@ fn mesh(source: &Source<'_>, side: Side) -> Built<GridMesh> {
         }
         PlanformCase::Beta(b) => beta(&format!("{path}.beta"), b)?,
         PlanformCase::Rectangle(r) => rectangle(r),
-        PlanformCase::Outline(o) => outline(o),
+        PlanformCase::Outline(o) => outline(&format!("{path}.outline"), o)?,
     };
     let mesh = wing.mesh.clone().unwrap_or_else(WingMeshCase::default);
     let shape = WingShape {
@@ -293,12 +293,15 @@ fn rectangle(r: &RectangleCase) -> Planform {
     }
 }
 
-fn outline(o: &OutlineCase) -> Planform {
-    let points = |list: &[[f64; 2]]| list.iter().map(|&[r, x]| (r, x)).collect();
-    Planform::Outline {
-        leading: points(&o.leading_m),
-        trailing: points(&o.trailing_m),
-        least_chord: o.least_chord,
+fn outline(path: &str, o: &OutlineCase) -> Built<Planform> {
+    match (&o.leading_m, &o.trailing_m) {
+        (Some(leading), Some(trailing)) => Ok(Planform::outline(leading, trailing, o.least_chord)),
+        _ => Err(Fault::new(
+            path,
+            "an edge is missing",
+            "leading_m and trailing_m, or file",
+            "give both edges from root to tip, or the file of points around the wing",
+        )),
     }
 }
 

@@ -215,26 +215,77 @@ pub struct RectangleCase {
     pub axis_fraction: f64,
 }
 
-/// Edges as points [distance from the hinge along the span, position towards the leading edge].
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+/// Edges as points [distance from the hinge along the span, position towards the leading edge], or as a file of points around the wing.
+#[derive(Clone, Debug, PartialEq, SmartDefault, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
 pub struct OutlineCase {
     /// Leading edge from root to tip.
     ///
     /// Change it to what was measured.
-    #[schemars(length(min = 2))]
-    pub leading_m: Vec<[f64; 2]>,
+    #[schemars(length(min = 2), extend("or" = "file"))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub leading_m: Option<Vec<[f64; 2]>>,
     /// Trailing edge from root to tip.
     ///
     /// Change it to what was measured.
-    #[schemars(length(min = 2))]
-    pub trailing_m: Vec<[f64; 2]>,
+    #[schemars(length(min = 2), extend("or" = "file"))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub trailing_m: Option<Vec<[f64; 2]>>,
+    /// CSV file with a header, path relative to the case file: points once around the wing, in either sense, as they were digitised
+    /// from a picture. Its unit is that of the names of the columns (`x_mm`), or `file_unit_m`, or follows from `file_length_m`.
+    ///
+    /// Change it for outlines digitised from pictures.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub file: Option<String>,
+    /// Column of the first number. Left out: the one called x, or the first.
+    ///
+    /// Change it where the file has other columns.
+    #[schemars(extend("with" = "file"))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub x_column: Option<String>,
+    /// Column of the second number. Left out: the one called y, or the second.
+    ///
+    /// Change it where the file has other columns.
+    #[schemars(extend("with" = "file"))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub y_column: Option<String>,
+    /// Length of one unit of the file.
+    ///
+    /// Change it for pictures with a scale: metres per pixel.
+    #[schemars(extend("exclusiveMinimum" = 0, "with" = "file"))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub file_unit_m: Option<f64>,
+    /// Distance from the hinge to the tip: it gives the file its scale.
+    ///
+    /// Change it for pictures without a scale: to the wing length that was measured.
+    #[schemars(extend("exclusiveMinimum" = 0, "with" = "file_tip", "or" = "file_unit_m"))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub file_length_m: Option<f64>,
+    /// Where the hinge lies in the file. Left out: at \[0, 0\].
+    ///
+    /// Change it to the point of the picture about which the wing strokes.
+    #[schemars(extend("with" = "file"))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub file_hinge: Option<[f64; 2]>,
+    /// Where the wing tip lies in the file: from the hinge to it runs the feathering axis. Left out: along x.
+    ///
+    /// Change it to the tip of the wing in the picture.
+    #[schemars(extend("with" = "file"))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub file_tip: Option<[f64; 2]>,
+    /// Any point of the file on the side of the leading edge. Left out: that side is to the left on the way from hinge to tip where
+    /// the second number is counted upwards.
+    ///
+    /// Change it for pictures that count downwards, as most programs do, or show the other side of the wing.
+    #[schemars(extend("with" = "file"))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub file_leading_edge: Option<[f64; 2]>,
     /// Least chord relative to the largest: narrower places are widened to it, which gives pointed tips area (a triangle gets
     /// 4 % by default, and 21 % of second moment).
     ///
     /// Change it to less, 0.02 say, for measured outlines with pointed tips.
     #[schemars(extend("exclusiveMinimum" = 0, "exclusiveMaximum" = 1))]
-    #[serde(default = "least_chord")]
+    #[default(least_chord())]
     pub least_chord: f64,
 }
 

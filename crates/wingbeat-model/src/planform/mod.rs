@@ -4,12 +4,14 @@
 //! (feathering) axis is x = 0.
 
 pub mod beta;
+mod contour;
 mod edges;
 mod fit;
 mod grid;
 mod outline;
 
 pub use beta::{Beta, BetaChord, ChordSize};
+pub use contour::{EdgePoints, Landmarks};
 pub use edges::Edges;
 pub use grid::{Spacing, WingShape};
 pub use outline::Planform;

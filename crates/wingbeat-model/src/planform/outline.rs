@@ -5,6 +5,7 @@ use crate::error::{
 };
 use crate::integrate::interpolate;
 use crate::planform::beta::Beta;
+use crate::planform::contour;
 use crate::planform::edges::{Curve, Edges};
 
 /// The outline of a wing.
@@ -36,26 +37,23 @@ pub enum Planform {
 }
 
 impl Planform {
-    /// A closed polygon of points (r, x) \[m\] split at its innermost and outermost points; the
-    /// side with larger x is the leading edge.
+    /// Edges as points \[r, x\] \[m\] with r increasing, both from root to tip, nowhere less than `least_chord` of the largest chord apart.
+    pub fn outline(leading: &[[f64; 2]], trailing: &[[f64; 2]], least_chord: f64) -> Self {
+        let points = |edge: &[[f64; 2]]| edge.iter().map(|&point| point.into()).collect();
+        Self::Outline {
+            leading: points(leading),
+            trailing: points(trailing),
+            least_chord,
+        }
+    }
+
+    /// A closed polygon of points (r, x) \[m\], in either sense. Where it has several points in front of one another, as in notches and
+    /// hooks, the edges are the foremost and the rearmost; what reaches behind the hinge, a twentieth of the length at most, is left out.
     ///
     /// # Errors
-    /// Fewer than four points, or edges on which r does not increase from root to tip.
+    /// Fewer than three points, numbers that are not finite, a polygon that reaches further behind the hinge.
     pub fn from_polygon(points: &[(f64, f64)], least_chord: f64) -> Result<Self, ModelError> {
-        let n = points.len();
-        require_count("planform.points", n, n >= 4, ">= 4")?;
-        let r = |k: &usize| points[*k].0;
-        let root = (0..n).min_by(|a, b| r(a).total_cmp(&r(b))).unwrap_or(0);
-        let tip = (0..n).max_by(|a, b| r(a).total_cmp(&r(b))).unwrap_or(0);
-        let walk = |from: usize, to: usize| -> Vec<(f64, f64)> {
-            let count = (to + n - from) % n;
-            (0..=count).map(|k| points[(from + k) % n]).collect()
-        };
-        let (one, mut other) = (walk(root, tip), walk(tip, root));
-        other.reverse();
-        let [a, b] = [ends_trimmed(one), ends_trimmed(other)];
-        let mean = |e: &[(f64, f64)]| e.iter().map(|p| p.1).sum::<f64>() / e.len() as f64;
-        let (leading, trailing) = if mean(&a) > mean(&b) { (a, b) } else { (b, a) };
+        let [leading, trailing] = contour::edges(points)?;
         Ok(Self::Outline {
             leading,
             trailing,
@@ -98,18 +96,6 @@ impl Planform {
             } => outline_edges(leading, trailing, *least_chord),
         }
     }
-}
-
-/// Drops points of the root and tip edges (same r as the end point) but the innermost one of
-/// each, so that r increases strictly on a wing cut off square.
-fn ends_trimmed(mut edge: Vec<(f64, f64)>) -> Vec<(f64, f64)> {
-    while edge.len() > 2 && edge[1].0 == edge[0].0 {
-        edge.remove(0);
-    }
-    while edge.len() > 2 && edge[edge.len() - 2].0 == edge[edge.len() - 1].0 {
-        edge.pop();
-    }
-    edge
 }
 
 fn outline_edges(

@@ -1,7 +1,9 @@
 //! Planforms have the size and shape that was asked for.
 
+use std::f64::consts::PI;
+
 use wingbeat_math::{DVec3, MassProperties};
-use wingbeat_model::planform::{Beta, BetaChord, ChordSize};
+use wingbeat_model::planform::{Beta, BetaChord, ChordSize, Landmarks};
 use wingbeat_model::{
     GridMesh, MassInput, Planform, Side, Spacing, Wing, WingMotion, WingReport, WingShape,
 };
@@ -144,6 +146,92 @@ fn exact_outline_of_a_trapezium_and_the_same_as_a_polygon() {
         report(Planform::from_polygon(&other_way, 0.1).unwrap(), 8),
         r
     );
+}
+
+/// An ellipse in a picture that counts downwards, turned, in pixels, its contour begun anywhere, with a hair and a notch behind it: area and
+/// second moment are `pi a b` and `pi a b (d^2 + a^2 / 4)`, d the distance of its centre.
+#[test]
+fn exact_moments_of_an_ellipse_digitised_from_a_picture() {
+    const N: usize = 720;
+    let (a, b, d, pixel, turn) = (1.5, 0.4, 1.6, 1e-3, 0.7_f64);
+    let hinge = [310.0, 250.0];
+    let picture = |(r, x): (f64, f64)| {
+        let (sin, cos) = turn.sin_cos();
+        let (r, x) = (r / pixel, x / pixel);
+        [hinge[0] + r * cos + x * sin, hinge[1] + r * sin - x * cos]
+    };
+    let around = |k: usize| {
+        let (sin, cos) = (std::f64::consts::TAU * (k as f64 + 0.5) / N as f64).sin_cos();
+        (d + a * cos, b * sin)
+    };
+    let mut points: Vec<[f64; 2]> = (0..N).map(|k| picture(around((k + 100) % N))).collect();
+    let marks = Landmarks {
+        hinge,
+        tip: picture((d + a, 0.0)),
+        leading_edge: Some(picture((0.3, 0.1))),
+        unit: 1.0,
+    };
+    let wanted = PI * a * b;
+    let second = d * d + 0.25 * a * a;
+    let check = |points: &[[f64; 2]]| {
+        let placed = marks.scaled_to(d + a).place(points).unwrap();
+        let r = report(Planform::from_polygon(&placed, 0.01).unwrap(), 40);
+        let r2_hat = (second.sqrt()) / r.length;
+        println!("{} {} of {wanted} {r2_hat}", r.area, r.r2_hat);
+        // A polygon of 720 sides has 1 - (2 pi / 720)^2 / 6 of the area; ends are widened to a hundredth.
+        assert!((r.area / wanted - 1.0).abs() < 1e-4, "{}", r.area);
+        assert!((r.r2_hat / r2_hat - 1.0).abs() < 1e-4, "{}", r.r2_hat);
+        placed
+    };
+    let placed = check(&points);
+    let foremost = placed.iter().map(|p| p.1).fold(0.0, f64::max);
+    assert!((foremost - b).abs() < 1e-4, "{foremost}");
+    points.reverse();
+    check(&points);
+    // A hook inwards: points that turn back behind the rearmost ones.
+    let from = points
+        .iter()
+        .position(|p| *p == picture(around(500)))
+        .unwrap();
+    let behind = [502, 506].map(around).map(|(r, x)| picture((r, x + 0.1)));
+    points.splice(from..from, behind);
+    check(&points);
+}
+
+#[test]
+fn behaves_contours_and_landmarks_that_are_no_wing_are_refused() {
+    let square = [(-0.1, 0.0), (1.0, 0.0), (1.0, 1.0), (-0.1, 1.0)];
+    let said = Planform::from_polygon(&square, 0.1)
+        .unwrap_err()
+        .to_string();
+    assert!(said.contains("behind the hinge"), "{said}");
+    let a_little = [(-0.04, 0.0), (1.0, 0.0), (1.0, 1.0), (-0.04, 1.0)];
+    let r = report(Planform::from_polygon(&a_little, 0.1).unwrap(), 4);
+    assert!((r.area - 1.0).abs() < 1e-14 && r.length == 1.0);
+    assert!(Planform::from_polygon(&square[..2], 0.1).is_err());
+    assert!(Planform::from_polygon(&[(0.0, f64::NAN); 4], 0.1).is_err());
+    let marks = Landmarks {
+        hinge: [1.0, 1.0],
+        tip: [2.0, 1.0],
+        leading_edge: None,
+        unit: 1.0,
+    };
+    assert_eq!(marks.place(&[[2.0, 3.0]]).unwrap(), [(1.0, 2.0)]);
+    let on_the_line = Landmarks {
+        leading_edge: Some([1.5, 1.0]),
+        ..marks
+    };
+    let same = Landmarks {
+        tip: [1.0, 1.0],
+        ..marks
+    };
+    let lost = Landmarks {
+        hinge: [f64::NAN, 0.0],
+        ..marks
+    };
+    for wrong in [on_the_line, same, lost, same.scaled_to(1.0)] {
+        assert!(wrong.place(&[[2.0, 3.0]]).is_err(), "{wrong:?}");
+    }
 }
 
 /// Half of it where edges of the mesh need it: the mesh has the area of the planform, 1.04 with ends as wide as a fifth of the middle.

@@ -1,0 +1,109 @@
+//! Tables of angles.
+
+use std::path::Path;
+
+use csv::StringRecord;
+use wingbeat_model::ModelError;
+use wingbeat_model::motion::{Fourier, PeriodicSpline};
+
+use super::csv_file::{CsvFile, words_of};
+use super::twice;
+use crate::error::Fault;
+use crate::raw::TableCase;
+
+/// The angles of a wing.
+const ANGLES: [&str; 3] = ["phi", "theta", "psi"];
+
+/// Reads the file of the table at `path`, if it names one.
+pub(super) fn read(path: &str, table: &mut TableCase, base: &Path) -> Result<(), Fault> {
+    let Some(name) = table.file.take() else {
+        return Ok(());
+    };
+    let key = format!("{path}.file");
+    if table.rows_deg.is_some() {
+        return Err(twice(key, "the table", "file or rows_deg"));
+    }
+    let csv = CsvFile {
+        file: base.join(&name),
+        key,
+    };
+    let columns = [&table.phase_column, &table.angle_column];
+    let rows = rows(&csv, columns.map(|c| c.as_deref()), table.harmonics)?;
+    table.rows_deg = Some(rows);
+    (table.phase_column, table.angle_column) = (None, None);
+    Ok(())
+}
+
+/// Phase \[1\] and angle \[deg\] of each row, from these columns, or the first two.
+fn rows(
+    csv: &CsvFile,
+    names: [Option<&str>; 2],
+    harmonics: Option<usize>,
+) -> Result<Vec<[f64; 2]>, Fault> {
+    let choose = |header: &StringRecord| {
+        let columns = [
+            csv.column(header, names[0], 0)?,
+            csv.column(header, names[1], 1)?,
+        ];
+        if names[1].is_none() {
+            check_angle(csv, header)?;
+        }
+        Ok(columns)
+    };
+    let mut table = csv.columns(choose)?;
+    let unit = degrees(&table.names[1]);
+    let to_degrees = unit.map_err(|problem| csv.bad(&problem))?;
+    table.rows.iter_mut().for_each(|row| row[1] *= to_degrees);
+    check(csv, &table.rows, &table.lines, harmonics)?;
+    Ok(table.rows)
+}
+
+/// Degrees in the unit that the name of a column says, as `psi_rad` or `psi [deg]`; degrees where it says none.
+fn degrees(column: &str) -> Result<f64, String> {
+    let words = words_of(column);
+    let any = |names: &[&str]| words.iter().any(|w| names.contains(&w.as_str()));
+    let radians = any(&["rad", "rads", "radian", "radians"]);
+    match (radians, any(&["deg", "degs", "degree", "degrees"])) {
+        (true, true) => Err(format!(
+            "the name of the column `{column}` says both radians and degrees"
+        )),
+        (true, false) => Ok(1f64.to_degrees()),
+        (false, _) => Ok(1.0),
+    }
+}
+
+/// Refuses a second column that is named after another angle than the key's.
+fn check_angle(csv: &CsvFile, header: &StringRecord) -> Result<(), Fault> {
+    let name = header.get(1).unwrap_or_default();
+    let own = ANGLES.iter().find(|a| csv.key.contains(&format!(".{a}.")));
+    let named = ANGLES.iter().find(|a| name.starts_with(**a));
+    match (own, named) {
+        (Some(own), Some(named)) if own != named => {
+            let problem = format!("its second column is `{name}`, and this is the table of {own}");
+            let mut fault = csv.bad(&problem);
+            fault.remedy = format!("name the column of {own}: angle_column = \"...\"");
+            Err(fault)
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Rows, at these lines of the file, that are no motion are refused here, where their lines are known.
+fn check(
+    csv: &CsvFile,
+    rows: &[[f64; 2]],
+    lines: &[u64],
+    harmonics: Option<usize>,
+) -> Result<(), Fault> {
+    let pairs: Vec<(f64, f64)> = rows.iter().map(|&[x, q]| (x, q)).collect();
+    let motion = match harmonics {
+        None => PeriodicSpline::new("", &pairs).map(|_| ()),
+        Some(n) => Fourier::fitted("", &pairs, n).map(|_| ()),
+    };
+    if let Err(ModelError::Table { row, problem, .. }) = motion {
+        let line = row.checked_sub(1).and_then(|k| lines.get(k)).copied();
+        let line = line.unwrap_or_default();
+        return Err(csv.bad(&format!("line {line}: {problem}")));
+    }
+    Ok(())
+}

@@ -1,0 +1,127 @@
+//! Columns of numbers in CSV files.
+
+use std::path::PathBuf;
+
+use csv::StringRecord;
+
+use super::bytes_of;
+use crate::error::Fault;
+
+/// A CSV file, and the key that names it.
+pub(super) struct CsvFile {
+    pub key: String,
+    pub file: PathBuf,
+}
+
+/// Two columns of numbers, row by row.
+pub(super) struct Columns {
+    /// Their names; empty where the header has none.
+    pub names: [String; 2],
+    pub rows: Vec<[f64; 2]>,
+    /// The line of the file that each row stands in, counted from 1.
+    pub lines: Vec<u64>,
+}
+
+impl CsvFile {
+    /// The numbers of two columns, which `choose` finds in the header; its error is what is wrong with that.
+    pub fn columns(
+        &self,
+        choose: impl FnOnce(&StringRecord) -> Result<[usize; 2], Fault>,
+    ) -> Result<Columns, Fault> {
+        let text = bytes_of(&self.key, &self.file)?;
+        let mut reader = csv::ReaderBuilder::new()
+            .comment(Some(b'#'))
+            .delimiter(delimiter(&text))
+            .trim(csv::Trim::All)
+            .from_reader(text.as_slice());
+        let header = reader.headers().map_err(|e| self.bad(&e.to_string()))?;
+        self.check_names(header)?;
+        let columns = choose(header)?;
+        let name = |k: usize| header.get(k).unwrap_or_default().to_owned();
+        let mut found = Columns {
+            names: columns.map(name),
+            rows: vec![],
+            lines: vec![],
+        };
+        for record in reader.records() {
+            let record = record.map_err(|e| self.bad(&e.to_string()))?;
+            let [x, y] = columns.map(|k| self.number(&record, k));
+            found.rows.push([x?, y?]);
+            found.lines.push(line_of(&record));
+        }
+        if found.rows.is_empty() {
+            return Err(self.bad("there are no rows below the header"));
+        }
+        Ok(found)
+    }
+
+    /// A header that is numbers is the first row of a table without one.
+    fn check_names(&self, header: &StringRecord) -> Result<(), Fault> {
+        if header.is_empty() || header.iter().any(|h| h.parse::<f64>().is_err()) {
+            return Ok(());
+        }
+        let numbers = header.iter().collect::<Vec<_>>().join(",");
+        let problem = format!(
+            "its first row, `{numbers}`, consists of numbers, and there is no header line above it"
+        );
+        let mut fault = self.bad(&problem);
+        fault.remedy =
+            "write the names of the columns above the numbers, for instance phase,angle_deg or x_mm,y_mm".into();
+        Err(fault)
+    }
+
+    /// Which column has this name; where none is asked for, the one at `default`.
+    pub fn column(
+        &self,
+        header: &StringRecord,
+        name: Option<&str>,
+        default: usize,
+    ) -> Result<usize, Fault> {
+        let Some(name) = name else {
+            return Ok(default);
+        };
+        header.iter().position(|h| h == name).ok_or_else(|| {
+            let names = header.iter().collect::<Vec<_>>().join(", ");
+            self.bad(&format!("there is no column `{name}` among {names}"))
+        })
+    }
+
+    fn number(&self, record: &StringRecord, column: usize) -> Result<f64, Fault> {
+        let text = record.get(column).unwrap_or("");
+        let value = text.parse::<f64>().ok().filter(|x| x.is_finite());
+        value.ok_or_else(|| {
+            let line = line_of(record);
+            self.bad(&format!("line {line}: `{text}` is not a finite number"))
+        })
+    }
+
+    /// What is wrong with the file.
+    pub fn bad(&self, problem: &str) -> Fault {
+        Fault::new(
+            self.key.clone(),
+            format!("`{}`: {problem}", self.file.display()),
+            "a CSV file with one header line and finite numbers, a point before decimals; commas, semicolons or tabs part its columns",
+            "correct the file",
+        )
+    }
+}
+
+/// The words of the name of a column, in small letters: `psi [deg]` has two.
+pub(super) fn words_of(column: &str) -> Vec<String> {
+    let words = column.split(|c: char| !c.is_alphanumeric());
+    words.map(str::to_lowercase).collect()
+}
+
+/// What parts the columns: a comma, or a semicolon or tab where the header has no comma.
+fn delimiter(text: &[u8]) -> u8 {
+    let is_comment = |line: &&[u8]| line.starts_with(b"#") || line.trim_ascii().is_empty();
+    let mut lines = text.split(|&b| b == b'\n');
+    let header = lines.find(|line| !is_comment(line)).unwrap_or_default();
+    let others = [b';', b'\t'];
+    let other = others.into_iter().find(|sign| header.contains(sign));
+    other.filter(|_| !header.contains(&b',')).unwrap_or(b',')
+}
+
+fn line_of(record: &StringRecord) -> u64 {
+    record.position().map_or(0, csv::Position::line)
+}
