@@ -227,7 +227,7 @@ const SUMMARY: [Entry<Summary>; 18] = [
     }),
 ];
 
-const POWERS: [Entry<Power>; 7] = [
+const POWERS: [Entry<Power>; 8] = [
     (
         "aerodynamic_watt",
         "W",
@@ -253,6 +253,12 @@ const POWERS: [Entry<Power>; 7] = [
         |p| p.no_storage,
     ),
     ("peak_watt", "W", "peak power of all wings", |p| p.peak),
+    (
+        "damping_watt",
+        "W",
+        "mean of what the damping of elastic wings takes",
+        |p| p.damping,
+    ),
     (
         "perfect_storage_watt_per_kg",
         "W kg-1",

@@ -31,8 +31,8 @@ const ENTRIES: [&str; 14] = [
 ];
 const FRAMES: &str = "frames";
 const FIGURES: &str = "figures";
-/// Figures for papers, within the folder of figures.
-const PAPER: &str = "figures/paper";
+/// Figures for papers and for slides, within the folder of figures.
+const STYLED: [&str; 2] = ["figures/paper", "figures/dark"];
 /// Figures by their names, the endings left out.
 pub const FIGURE_NAMES: [&str; 12] = [
     "angles",
@@ -120,7 +120,9 @@ impl ResultDir {
             });
         }
         clear(&path.join(FRAMES), is_frame).map_err(make(path))?;
-        clear(&path.join(PAPER), is_figure).map_err(make(path))?;
+        for styled in STYLED {
+            clear(&path.join(styled), is_figure).map_err(make(path))?;
+        }
         clear(&path.join(FIGURES), is_figure).map_err(make(path))?;
         for entry in ENTRIES {
             absent(fs::remove_file(path.join(entry))).map_err(make(path))?;

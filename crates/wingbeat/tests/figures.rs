@@ -59,7 +59,7 @@ fn points(svg: &str) -> [f64; 2] {
 }
 
 #[test]
-fn exact_every_figure_is_drawn_in_both_styles_and_formats() {
+fn exact_every_figure_is_drawn_in_all_styles_and_formats() {
     let scratch = Scratch::new("figures");
     flown(&scratch.0, &CASE);
     let still: Vec<&str> = Kind::ALL
@@ -67,7 +67,7 @@ fn exact_every_figure_is_drawn_in_both_styles_and_formats() {
         .map(|k| k.0)
         .filter(|k| !matches!(*k, "animation" | "bending")) // no wing of this flight is elastic
         .collect();
-    for (style, per_point) in [("screen", 2.0), ("paper", 300.0 / 72.0)] {
+    for (style, per_point) in [("screen", 2.0), ("paper", 300.0 / 72.0), ("dark", 2.0)] {
         let folder = ["--style", style, "--out", style];
         let svgs = plotted(&scratch.0, &folder);
         let stems: Vec<&str> = svgs
@@ -95,6 +95,18 @@ fn exact_every_figure_is_drawn_in_both_styles_and_formats() {
                 );
             }
         }
+    }
+    for figure in still {
+        let [light, dark] = ["screen", "dark"].map(|style| {
+            let file = scratch.0.join(style).join(figure).with_extension("svg");
+            fs::read_to_string(file).unwrap()
+        });
+        assert!(light.contains("fill=\"#ffffff\"") && dark.contains("fill=\"#11161f\""));
+        assert!(
+            !dark.contains("#ffffff") && !dark.contains("#282828"),
+            "{figure}"
+        );
+        assert_eq!(light.lines().count(), dark.lines().count(), "{figure}");
     }
     let paper = fs::read_to_string(scratch.0.join("paper/forces.svg")).unwrap();
     assert!(paper.contains("width=\"510pt\""), "180 mm are 510 points");
@@ -134,6 +146,8 @@ fn refuses_to_replace_figures_unasked() {
     assert_eq!(fs::read(&file).unwrap(), drawn);
     plotted(&scratch.0, &["animation"]);
     refused(&scratch.0, &["plot", "run", "animation"], "exists already");
+    let on_paper = ["plot", "run", "animation", "--style", "paper"];
+    refused(&scratch.0, &on_paper, "drawn for screen or dark");
     for (kind, reason) in [
         ("forces", "this flight has no air"),
         ("wake", "no frames were written"),

@@ -9,6 +9,7 @@ use super::dots::Dots;
 use super::drawing::{Anchor, COLOURS, Drawing, INK, Stroke};
 use super::reel::{Film, Gif, Reel, SIZE};
 use super::source::Source;
+use super::style::Style;
 use super::wake::{Filaments, SKIN, pen};
 use wingbeat_case::IoError;
 use wingbeat_case::LoadedCase;
@@ -29,7 +30,11 @@ const WING_LENGTHS: f64 = 4.8;
 ///
 /// # Errors
 /// A result that is damaged, a file that cannot be written, a film without ffmpeg.
-pub(super) fn write(source: &Source<'_>, path: &Path, film: bool) -> Result<usize, IoError> {
+pub(super) fn write(
+    source: &Source<'_>,
+    (path, film): (&Path, bool),
+    style: Style,
+) -> Result<usize, IoError> {
     let (dir, case) = (source.dir, source.case);
     let fault = |problem: String| IoError::Figure {
         path: path.to_owned(),
@@ -71,7 +76,7 @@ pub(super) fn write(source: &Source<'_>, path: &Path, film: bool) -> Result<usiz
             true => Some(Frame::read(dir, row[0] as usize)?),
             false => None,
         };
-        let drawing = view.draw(case, &poses, row, frame.as_ref());
+        let drawing = view.draw((case, &poses, style), row, frame.as_ref());
         let shown = drawing.to_picture(reel.scale()).map_err(fault)?;
         reel.add(&shown.rgb).map_err(fault)?;
         count += 1;
@@ -105,8 +110,7 @@ impl View {
 
     fn draw(
         &self,
-        case: &LoadedCase,
-        poses: &Poses,
+        (case, poses, style): (&LoadedCase, &Poses, Style),
         row: &[f64],
         frame: Option<&Frame>,
     ) -> Drawing {
@@ -128,6 +132,8 @@ impl View {
             }
             Dots::strongest(&frame.particles, MAX_RINGS).draw(&mut to, flat, 1.6);
         }
+        // The animal has its own light, which is not turned into dark.
+        let mut to = style.grounded(to);
         let mut quads = animal(poses, row);
         quads.sort_by(|a, b| near(&a.0).total_cmp(&near(&b.0)));
         for (quad, wing) in quads {
@@ -137,7 +143,9 @@ impl View {
             to.area(points.clone(), lit, 1.0);
             to.outline(points, Stroke::solid(lit.toward(INK, 0.35), 0.5));
         }
-        words(&mut to, case, row[1]);
+        let mut said = Drawing::new(SIZE);
+        words(&mut said, case, row[1]);
+        to.marks.extend(style.grounded(said).marks);
         to
     }
 

@@ -17,6 +17,8 @@ pub(super) const COLOURS: [Colour; 7] = [
 pub(super) const INK: Colour = Colour(40, 40, 40);
 /// Shaded intervals.
 pub(super) const SHADE: Colour = Colour(233, 233, 236);
+/// What drawings are on.
+pub(super) const GROUND: Colour = Colour(255, 255, 255);
 /// Grid lines.
 pub(super) const FAINT: Colour = Colour(214, 214, 218);
 /// Red, green, blue, 0 to 255.
@@ -87,11 +89,13 @@ pub(super) enum Mark {
     },
 }
 
-/// Marks in the order they are drawn, on white.
+/// Marks in the order they are drawn.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Drawing {
     /// Width and height \[points\].
     pub size: [f64; 2],
+    /// What they are on.
+    pub ground: Colour,
     pub marks: Vec<Mark>,
 }
 
@@ -99,6 +103,7 @@ impl Drawing {
     pub fn new(size: [f64; 2]) -> Self {
         Self {
             size,
+            ground: GROUND,
             marks: vec![],
         }
     }

@@ -10,6 +10,7 @@ mod animation;
 mod beats;
 mod bending;
 mod chart;
+mod dark;
 mod dots;
 mod drawing;
 mod font;
@@ -50,7 +51,7 @@ pub(crate) use window::charts;
 pub use window::{NamedCharts, Window, charts_of};
 use wingbeat_case::IoError;
 use wingbeat_case::LoadedCase;
-use wingbeat_results::file::{Existing, NewFile, make_folder, write_file};
+use wingbeat_results::file::{NewFile, make_folder, write_file};
 use wingbeat_results::{ResultDir, Summary, frames};
 
 use source::Source;
@@ -85,7 +86,7 @@ pub fn plot(dir: &ResultDir, order: &Order) -> Result<Plotted, IoError> {
     if drawn.lacking.is_empty() || !is_empty {
         make_folder(&order.folder)?;
     }
-    drawn.write(&source, order.existing)
+    drawn.write(&source, order)
 }
 
 /// A step that is asked for is one of the run, which has frames.
@@ -122,6 +123,7 @@ impl Drawn {
             let file = format!("{}.{}", kind.name(), format.ending());
             let file = order.folder.join(file);
             if kind == Kind::Animation {
+                check_animated(order.style).map_err(fault(&order.folder))?;
                 drawn.films.push((file, format == Format::Mp4));
                 continue;
             }
@@ -137,12 +139,12 @@ impl Drawn {
         Ok(drawn)
     }
 
-    fn write(self, source: &Source<'_>, existing: Existing) -> Result<Plotted, IoError> {
+    fn write(self, source: &Source<'_>, order: &Order) -> Result<Plotted, IoError> {
         for (file, bytes) in &self.stills {
-            write_file(file, bytes, existing)?;
+            write_file(file, bytes, order.existing)?;
         }
         for (file, film) in &self.films {
-            animate(source, file, *film, existing)?;
+            animate(source, (file, *film), order)?;
         }
         let stills = self.stills.into_iter().map(|(file, _)| file);
         let films = self.films.into_iter().map(|(file, _)| file);
@@ -160,6 +162,16 @@ fn fault(path: &Path) -> impl FnOnce(String) -> IoError + '_ {
     }
 }
 
+/// An animation has no style for papers.
+fn check_animated(style: Style) -> Result<(), String> {
+    match style {
+        Style::Screen | Style::Dark => Ok(()),
+        Style::Paper => Err(
+            "--style paper: the animation is drawn for screen or dark; draw it by a command of its own".into(),
+        ),
+    }
+}
+
 fn encoded(drawing: &Drawing, style: Style, format: Format) -> Result<Vec<u8>, String> {
     let scale = style.look().pixels_per_point;
     match format {
@@ -170,17 +182,14 @@ fn encoded(drawing: &Drawing, style: Style, format: Format) -> Result<Vec<u8>, S
 }
 
 /// The animation is written beside its place and moved there when it is whole.
-fn animate(
-    source: &Source<'_>,
-    path: &Path,
-    film: bool,
-    existing: Existing,
-) -> Result<(), IoError> {
-    let file = NewFile::claim_own(path, existing)?;
-    file.make(|part| match animation::write(source, part, film)? {
-        0 => Err(fault(path)(Kind::Animation.needs().to_owned())),
-        _ => Ok(()),
-    })?;
+fn animate(source: &Source<'_>, (path, film): (&Path, bool), order: &Order) -> Result<(), IoError> {
+    let file = NewFile::claim_own(path, order.existing)?;
+    file.make(
+        |part| match animation::write(source, (part, film), order.style)? {
+            0 => Err(fault(path)(Kind::Animation.needs().to_owned())),
+            _ => Ok(()),
+        },
+    )?;
     Ok(())
 }
 

@@ -6,7 +6,7 @@ use pdf_writer::types::LineJoinStyle;
 use pdf_writer::{Content, Finish, Name, Pdf, Rect, Ref};
 use tiny_skia::{PathBuilder, PathSegment};
 
-use super::drawing::{Anchor, Colour, Drawing, Mark, Stroke};
+use super::drawing::{Anchor, Colour, Drawing, GROUND, Mark, Stroke};
 use super::font;
 
 impl Drawing {
@@ -17,7 +17,16 @@ impl Drawing {
         let mut marks = Content::new();
         marks.transform([1.0, 0.0, 0.0, -1.0, 0.0, height]); // points down, as in drawings
         marks.set_line_join(LineJoinStyle::RoundJoin);
+        let [w, h] = self.size;
+        let sheet = Mark::Area {
+            points: vec![[0.0, 0.0], [w, 0.0], [w, h], [0.0, h]],
+            fill: self.ground,
+            opacity: 1.0,
+        };
         let mut opacities = BTreeSet::new();
+        if self.ground != GROUND {
+            draw(&mut marks, &sheet, &mut opacities);
+        }
         for mark in &self.marks {
             draw(&mut marks, mark, &mut opacities);
         }

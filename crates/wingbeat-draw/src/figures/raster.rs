@@ -20,7 +20,8 @@ impl Drawing {
         let [width, height] = self.size.map(|x| (x * scale).ceil().max(1.0) as u32);
         let mut pixels = Pixmap::new(width, height)
             .ok_or_else(|| format!("a picture of {width} x {height} pixels is too large"))?;
-        pixels.fill(Color::WHITE);
+        let Colour(r, g, b) = self.ground;
+        pixels.fill(Color::from_rgba8(r, g, b, 255));
         let transform = Transform::from_scale(scale as f32, scale as f32);
         for mark in &self.marks {
             draw(&mut pixels, mark, transform);

@@ -120,7 +120,7 @@ impl<'a> Source<'a> {
             let found = self.charts.iter().find(|c| c.0 == kind.name());
             found.map(|c| c.1.drawing(&look))
         };
-        Ok(match kind {
+        let drawn = match kind {
             Kind::Lollipop => lollipop::lollipop(setup, &self.history, &self.part, &look),
             Kind::Beats => beats::beats(
                 setup,
@@ -138,6 +138,7 @@ impl<'a> Source<'a> {
             | Kind::Commands
             | Kind::Bending
             | Kind::Balances => chart(),
-        })
+        };
+        Ok(drawn.map(|d| style.grounded(d)))
     }
 }

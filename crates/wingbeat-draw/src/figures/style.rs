@@ -1,6 +1,6 @@
-//! How figures look: for the screen or for a paper.
+//! How figures look: for the screen, for a paper or for slides.
 
-use super::drawing::{Colour, Stroke};
+use super::drawing::{Colour, Drawing, Stroke};
 
 /// What a figure is for.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -11,15 +11,35 @@ pub enum Style {
     /// 180 mm wide (two columns of most journals), small type, thin lines also told apart by
     /// their dashes, no title: the caption says it.
     Paper,
+    /// As for the screen, on a dark ground: for slides.
+    Dark,
 }
 
 impl Style {
     /// All styles by name.
-    pub const ALL: [(&'static str, Self); 2] = [("screen", Self::Screen), ("paper", Self::Paper)];
+    pub const ALL: [(&'static str, Self); 3] = [
+        ("screen", Self::Screen),
+        ("paper", Self::Paper),
+        ("dark", Self::Dark),
+    ];
+
+    /// Name on the command line.
+    pub fn name(self) -> &'static str {
+        let known = Self::ALL.iter().find(|s| s.1 == self);
+        known.expect("every style has a name").0
+    }
+
+    /// A drawing on its ground.
+    pub(super) fn grounded(self, drawing: Drawing) -> Drawing {
+        match self {
+            Self::Screen | Self::Paper => drawing,
+            Self::Dark => drawing.on_dark(),
+        }
+    }
 
     pub(super) fn look(self) -> Look {
         match self {
-            Self::Screen => Look {
+            Self::Screen | Self::Dark => Look {
                 width: 675.0,
                 font: 10.5,
                 line: 1.5,

@@ -21,7 +21,7 @@ pub(crate) struct PlotArgs {
     /// balances, wake, animation; default all but the animation.
     #[arg(value_name = "KIND", value_parser = kind)]
     kinds: Vec<Kind>,
-    /// For a paper (180 mm wide, no title) or for the screen.
+    /// For the screen, for a paper (180 mm wide, no title), or dark (slides).
     #[arg(long, default_value = "screen", value_parser = style)]
     style: Style,
     /// File format: svg (default), png or pdf; of the animation gif (default) or mp4 (needs ffmpeg).
@@ -42,7 +42,7 @@ pub(crate) struct PlotArgs {
     #[arg(long, value_name = "COUNT", allow_negative_numbers = true,
           value_parser = options::positive)]
     beats: Option<f64>,
-    /// Folder for the files; default DIR/figures, DIR/figures/paper for papers.
+    /// Folder for the files; default DIR/figures, for the other styles DIR/figures/STYLE.
     #[arg(long, value_name = "FOLDER", value_parser = folder)]
     out: Option<PathBuf>,
     /// Replace figures that are there already.
@@ -67,7 +67,7 @@ pub(crate) fn plot(args: &PlotArgs) -> Result<(), Failure> {
     let dir = ResultDir::read(&args.dir)?;
     let folder = args.out.clone().unwrap_or_else(|| match args.style {
         Style::Screen => args.dir.join("figures"),
-        Style::Paper => args.dir.join("figures/paper"),
+        style => args.dir.join("figures").join(style.name()),
     });
     let order = Order {
         kinds: args.kinds.clone(),

@@ -43,6 +43,7 @@ POWER = (
     "perfect_storage_watt",
     "no_storage_watt",
     "peak_watt",
+    "damping_watt",
 )
 ATTITUDE = ("body_pitch_rad", "body_roll_rad", "period_s", "iterations")
 ADJUSTMENT = (
