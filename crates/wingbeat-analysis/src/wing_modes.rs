@@ -153,11 +153,18 @@ pub fn wing_modes(
         ));
     }
     let flight = match about {
-        About::Rest => Simulation::new(setup.clone())?,
+        About::Rest => Simulation::new(at_rest(setup))?,
         About::Steady => steady(setup)?,
     };
     let wings = 0..flight.elastic_wings().wings().len();
     wings.map(|k| of_wing(&flight, k, count)).collect()
+}
+
+/// A flight of no steps: wings that are too soft for the first ones have modes, too.
+fn at_rest(setup: &FlightSetup) -> FlightSetup {
+    let mut setup = setup.clone();
+    setup.time.steps = 0;
+    setup
 }
 
 /// The flight in its steady state.

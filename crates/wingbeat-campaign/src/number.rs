@@ -162,14 +162,14 @@ const BEATS: [Entry<BeatMeans>; 6] = [
     (
         "inviscid_lift_newton",
         "N",
-        "mean inviscid air force against gravity",
-        |b| b.inviscid_lift_newton,
+        "mean inviscid air force against gravity; none without a lattice",
+        |b| b.inviscid_lift_newton.unwrap_or(f64::NAN),
     ),
     (
         "lift_by_impulse_newton",
         "N",
         "the same by the rate of the vortex impulse; with vortex particles it depends on the origin",
-        |b| b.lift_by_impulse_newton,
+        |b| b.lift_by_impulse_newton.unwrap_or(f64::NAN),
     ),
 ];
 

@@ -45,5 +45,5 @@ pub use fitted::FittedTable;
 pub use keys::{SCHEMA_FILE, schema, with_schema};
 pub use loaded::LoadedCase;
 pub use output::{OutputSettings, SaveSettings};
-pub use trimmed::{derivative_case, trimmed_case, wake_trimmed_case};
+pub use trimmed::{derivative_case, lacks_feedback, trimmed_case, wake_trimmed_case};
 pub use written::case_of;

@@ -60,14 +60,24 @@ pub fn trimmed_case(case: &LoadedCase, trim: &Trim) -> String {
     if let Ok(velocity) = trim.mean_velocity() {
         hold(&mut raw, velocity);
     }
-    with_start(case, raw, flight, trim.solution.error())
+    with_start(case, raw, flight, &trim.solution)
 }
+
+/// Whether the case of a trimmed flight goes without the feedback of `case`: it is laid out for flights that are alike on the right and
+/// on the left, and right and left were trimmed apart.
+pub fn lacks_feedback(case: &LoadedCase, trimmed: &TrimSolution) -> bool {
+    let control = case.raw.control.as_ref();
+    let is_laid_out = control.is_some_and(|c| LAWS.contains(&c.controller));
+    is_laid_out && trimmed.unknowns.iter().any(|u| u.is_lateral())
+}
+
+/// Controllers that are laid out for a trimmed flight.
+const LAWS: [ControllerCase; 2] = [ControllerCase::Regulator, ControllerCase::Stabiliser];
 
 /// Feedback holds the flight as it begins, with the mean velocity `velocity` [m/s] of what was trimmed. Waypoints lead
 /// along a way of their own.
 fn hold(raw: &mut Case, velocity: DVec3) {
-    let laws = [ControllerCase::Regulator, ControllerCase::Stabiliser];
-    let holds = |c: &&mut ControlCase| laws.contains(&c.controller) && c.waypoint.is_empty();
+    let holds = |c: &&mut ControlCase| LAWS.contains(&c.controller) && c.waypoint.is_empty();
     let Some(control) = raw.control.as_mut().filter(holds) else {
         return;
     };
@@ -118,7 +128,7 @@ pub fn wake_trimmed_case(case: &LoadedCase, trim: &WakeTrim) -> String {
         ..flight
     };
     hold(&mut raw, trim.velocity);
-    with_start(case, raw, flight, trim.solution.error())
+    with_start(case, raw, flight, &trim.solution)
 }
 
 /// The case with the adjusted wing motion and hinges.
@@ -206,16 +216,27 @@ fn released_into(root: &BodyMotion) -> FlightCase {
 }
 
 /// The case as text with this start of its free flight, in the place that it had.
-fn with_start(case: &LoadedCase, mut raw: Case, flight: FlightCase, error: f64) -> String {
+fn with_start(
+    case: &LoadedCase,
+    mut raw: Case,
+    flight: FlightCase,
+    trimmed: &TrimSolution,
+) -> String {
     raw.flight = FlightCase {
         mode: Mode::Free,
         position_m: raw.flight.position_m,
         ..flight
     };
+    let mut without = "";
+    if lacks_feedback(case, trimmed) {
+        raw.control = None;
+        without = "# Without its feedback, which is laid out for flights that are alike on the right and on the left.\n";
+    }
     let body = written(&raw);
     format!(
-        "# `{}`, trimmed: largest residual {:.1e} of weight, weight times wing length, radian and\n# wing length per beat.\n{body}",
-        case.name, error
+        "# `{}`, trimmed: largest residual {:.1e} of weight, weight times wing length, radian and\n# wing length per beat.\n{without}{body}",
+        case.name,
+        trimmed.error()
     )
 }
 

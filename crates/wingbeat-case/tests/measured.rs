@@ -202,3 +202,54 @@ fn behaves_air_from_behind_and_drag_of_small_insects_are_named() {
         assert_eq!(case.doubtful_measurements(), [""; 0], "{name}");
     }
 }
+
+/// Rotation angles of other conventions, or signs, hardly change the lift, which a plate has both ways round.
+#[test]
+fn behaves_wings_that_fly_with_the_trailing_edge_ahead_are_named() {
+    let ahead = |name: &str, set: &[&str]| {
+        let set: Vec<String> = set.iter().map(|&s| s.to_owned()).collect();
+        let case = LoadedCase::find(name, &set).unwrap();
+        case.setup.trailing_edges_ahead()
+    };
+    for preset in presets::PRESETS {
+        assert_eq!(ahead(preset.name, &[]), [""; 0], "{}", preset.name);
+    }
+    let fly = "fruit-fly-blade";
+    let psi = |law: &str| format!("wing.right.motion.psi={{fourier={{{law}}}}}");
+    let phi = "wing.right.motion.phi={fourier={sine_deg=[70]}}";
+    let plain = "wing.right.motion.theta={constant_deg=0}";
+    let ahead_of = |psi: &str| ahead(fly, &["motion.data=", phi, plain, psi]);
+    // Down at phases 0.75 to 0.25: there psi is below 0.
+    let right = psi("cosine_deg=[-45]");
+    assert_eq!(ahead_of(&right), [""; 0]);
+    let broadside = psi("cosine_deg=[0]");
+    assert_eq!(ahead_of(&broadside), [""; 0]);
+    for (law, strokes) in [
+        (
+            "mean_deg=90,cosine_deg=[45]",
+            "downstroke (psi = 135 deg at its fastest)",
+        ),
+        (
+            "mean_deg=-90,cosine_deg=[45]",
+            "upstroke (psi = -135 deg at its fastest)",
+        ),
+        (
+            "mean_deg=180,cosine_deg=[-45]",
+            "downstroke (psi = 135 deg at its fastest) and the upstroke (psi = 225 deg at its fastest)",
+        ),
+    ] {
+        let [said] = &ahead_of(&psi(law))[..] else {
+            panic!("{law}")
+        };
+        let wanted = format!("ahead in the {strokes} (wings `left`, `right`)");
+        assert!(said.contains(&wanted), "{law}: {said}");
+    }
+    // A stream that comes from behind faster than the wings stroke.
+    let [said] = &ahead(
+        "rectangular-wing",
+        &["air.stream_m_s=[20,0,0]", "motion.frequency_hz=1"],
+    )[..] else {
+        panic!("a stream from behind")
+    };
+    assert!(said.contains("ahead"), "{said}");
+}

@@ -22,12 +22,14 @@
 #![warn(missing_docs)]
 
 pub mod air;
+mod air_past;
 mod applied;
 mod bodies;
 mod carried;
 pub mod control;
 mod controller;
 mod core;
+mod edge_ahead;
 pub mod elastic;
 mod equations;
 mod error;
@@ -53,8 +55,8 @@ mod validate;
 
 pub use air::{check_joined, strips};
 pub use bodies::{
-    JointCoordinate, WingLaw, check_assembly, joint_coordinates, loop_names, natural_units, system,
-    system_of, system_with,
+    JointCoordinate, WingLaw, check_assembly, doubtful_masses, joint_coordinates, loop_names,
+    natural_units, system, system_of, system_with,
 };
 pub use control::Passage;
 pub use controller::{Aim, Controller, Sensed};

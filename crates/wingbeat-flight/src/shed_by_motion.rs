@@ -20,8 +20,8 @@ use std::f64::consts::PI;
 
 use crate::setup::{AirModel, FlightSetup, MotionMode};
 use wingbeat_air::{AirSettings, LeadingEdge};
-use wingbeat_math::{DMat3, DVec3, RotationLaw};
-use wingbeat_model::{Wing, WingMotion};
+use wingbeat_math::DVec3;
+use wingbeat_model::Wing;
 
 /// Of a sweep angle, relative.
 const ROUNDING: f64 = 1e-9;
@@ -82,8 +82,7 @@ impl FlightSetup {
         let held = held(&air.lattice)?;
         let has_joint = |w: usize| self.joints.iter().any(|j| j.child == w + 1);
         let wings = self.animal.wings.iter().enumerate();
-        let attached =
-            wings.filter(|(w, wing)| !has_joint(*w) && self.holds(&air.lattice, wing, held));
+        let attached = wings.filter(|(w, wing)| !has_joint(*w) && self.holds(wing, held));
         let names: Vec<String> = attached
             .map(|(_, wing)| format!("`{}`", wing.name))
             .collect();
@@ -130,7 +129,7 @@ impl FlightSetup {
     }
 
     /// Whether the wing meets air, and no strip of it ever with more suction than `held`.
-    fn holds(&self, lattice: &AirSettings, wing: &Wing, held: f64) -> bool {
+    fn holds(&self, wing: &Wing, held: f64) -> bool {
         let motion = wing.motion.impulsive();
         let steps = self.time.steps;
         // A root that moves may take longer than a beat.
@@ -139,7 +138,7 @@ impl FlightSetup {
             _ => (steps, self.time.step),
         };
         let sections = (0..count).flat_map(|k| {
-            let past = self.air_past(lattice, wing, &motion, k as f64 * step);
+            let past = self.air_past(wing, &motion, k as f64 * step);
             sections(wing, past)
         });
         let mut moving = sections.filter(|s| s.speed > 0.0).peekable();
@@ -161,7 +160,7 @@ impl FlightSetup {
         let (mut net, mut gross) = (0.0, 0.0);
         for k in 0..INSTANTS {
             let t = k as f64 / INSTANTS as f64 / motion.frequency;
-            let past = self.air_past(&air.lattice, wing, &motion, t);
+            let past = self.air_past(wing, &motion, t);
             for rate in shed_rates(&air.lattice, wing, past) {
                 net += rate;
                 gross += rate.abs();
@@ -173,50 +172,6 @@ impl FlightSetup {
             0.0
         }
     }
-
-    /// Velocity of the undisturbed air past a place of the wing at time `t` [s], in wing components [m/s].
-    fn air_past(
-        &self,
-        lattice: &AirSettings,
-        wing: &Wing,
-        motion: &WingMotion,
-        t: f64,
-    ) -> impl Fn(DVec3) -> DVec3 + use<> {
-        let root = self.root_at(t);
-        let turning = motion.at(t);
-        let stream = root.rotation.transpose() * (lattice.free_stream - root.velocity);
-        let hinge = wing.hinge_b;
-        move |x| {
-            let of_body = root.turning.cross(hinge + turning.c * x);
-            turning.c.transpose() * (stream - of_body) - turning.w.cross(x)
-        }
-    }
-
-    /// The root of a flight that goes on as it starts.
-    fn root_at(&self, t: f64) -> Root {
-        match &self.mode {
-            MotionMode::Free(start) => Root {
-                rotation: start.rotation(),
-                velocity: start.velocity,
-                turning: DVec3::ZERO,
-            },
-            MotionMode::Tethered(motion) => {
-                let root = motion.impulsive().at(t);
-                Root {
-                    rotation: root.rotation,
-                    velocity: root.velocity,
-                    turning: root.angular_velocity,
-                }
-            }
-        }
-    }
-}
-
-/// How the root moves: rotation R_NB, velocity of its origin [m/s], N, and angular velocity [rad/s], root components.
-struct Root {
-    rotation: DMat3,
-    velocity: DVec3,
-    turning: DVec3,
 }
 
 /// Suction parameter up to which flow stays attached \[1\]; none where edges shed at any.

@@ -2,7 +2,7 @@
 
 use crate::error::FlightError;
 use crate::setup::{
-    BaumgarteChoice, FlightSetup, FormulationChoice, IntegratorChoice, MotionMode,
+    AirModel, BaumgarteChoice, FlightSetup, FormulationChoice, IntegratorChoice, MotionMode,
     StabilizationChoice,
 };
 
@@ -75,7 +75,7 @@ impl FlightSetup {
     }
 
     fn validate_integrator(&self) -> Result<(), FlightError> {
-        let (key, method) = ("dynamics.integrator", format!("{:?}", self.integrator));
+        let (key, method) = ("dynamics.integrator", self.integrator.name());
         if let IntegratorChoice::OrderEight { tolerance } = self.integrator {
             let ok = tolerance.is_finite() && tolerance > 0.0;
             let allowed = "a finite number above 0";
@@ -83,13 +83,18 @@ impl FlightSetup {
         }
         let remembers = self.air.keeps_wake() || self.animal.is_elastic();
         let fits = !remembers || self.integrator.carries_wake();
-        let problem = match self.air.keeps_wake() {
-            true => "a wake is moved once per step: only hamming and bdf carry it along",
-            false => {
-                "elastic wings are moved on once per step: only hamming and bdf carry them along"
+        let problem = match (&self.air, self.air.keeps_wake()) {
+            (AirModel::Own(_) | AirModel::External(_), true) => {
+                "air that remembers is moved on once per step, and only hamming and bdf carry it along: set this key to one of them"
+            }
+            (_, true) => {
+                "a wake is moved once per step, and only hamming and bdf carry it along: set this key to one of them"
+            }
+            (_, false) => {
+                "elastic wings are moved on once per step, and only hamming and bdf carry them along: set this key to one of them"
             }
         };
-        check(fits, key, &method, problem)?;
+        check(fits, key, method, problem)?;
         let projects =
             self.formulation == FormulationChoice::Quaternion(StabilizationChoice::Projection);
         let fits = !projects || self.integrator.is_one_step();

@@ -3,8 +3,9 @@
 
 use std::f64::consts::PI;
 
-use crate::animal::{Animal, BodyPart};
+use crate::animal::Animal;
 use crate::crossing::{INSTANTS, Sheet, pierces};
+use crate::mesh::QuadMesh;
 use wingbeat_math::DVec3;
 
 /// What is no more than a touch, over the size of the part: hinges lie on surfaces, and panels beside them.
@@ -24,7 +25,7 @@ pub struct Inside {
 /// Which of `wings` of the animal are inside parts of the central body once their motion has started: at 100 instants of a beat,
 /// shapes at rest, on at most 8 x 16 panels, deeper than 3 % of the way from the middle of the part to its surface.
 pub fn inside(animal: &Animal, wings: &[usize]) -> Vec<Inside> {
-    let solids: Vec<Solid> = animal.parts.iter().map(Solid::new).collect();
+    let solids: Vec<Solid> = animal.parts.iter().map(|p| Solid::new(&p.mesh)).collect();
     let of_wing = |&wing: &usize| {
         let sheet = Sheet::new(&animal.wings[wing]);
         let frequency = animal.wings[wing].motion.frequency;
@@ -36,22 +37,29 @@ pub fn inside(animal: &Animal, wings: &[usize]) -> Vec<Inside> {
     wings.iter().flat_map(of_wing).collect()
 }
 
-/// A closed surface of triangles, body components \[m\].
-struct Solid {
+/// What a closed surface of triangles encloses, all places in the same components \[m\].
+#[derive(Clone, Debug, PartialEq)]
+pub struct Solid {
     triangles: Vec<[DVec3; 3]>,
     /// Corners of the box around it.
     bounds: [DVec3; 2],
 }
 
 impl Solid {
-    fn new(part: &BodyPart) -> Self {
-        let corners = |q: &[usize; 4]| q.map(|n| part.mesh.nodes[n]);
+    /// Of a closed surface.
+    pub fn new(surface: &QuadMesh) -> Self {
+        let corners = |q: &[usize; 4]| q.map(|n| surface.nodes[n]);
         let halves = |[a, b, c, d]: [DVec3; 4]| [[a, b, c], [a, c, d]];
-        let quads = part.mesh.quads.iter().map(corners);
         Self {
-            triangles: quads.flat_map(halves).collect(),
-            bounds: part.mesh.bounds(),
+            triangles: surface.quads.iter().map(corners).flat_map(halves).collect(),
+            bounds: surface.bounds(),
         }
+    }
+
+    /// Whether a place [m] is inside.
+    pub fn contains(&self, x: DVec3) -> bool {
+        let [low, high] = self.bounds;
+        x.cmpge(low).all() && x.cmple(high).all() && self.winds_about(x)
     }
 
     /// Part of a beat in which the sheet is inside \[1\].

@@ -48,7 +48,7 @@ pub use crossing::{Crossing, FlownCrossings, crossings, root_gap};
 pub use deformation::{Deformation, DeformingMesh};
 pub use error::ModelError;
 pub use import::Imported;
-pub use inside::{Inside, inside};
+pub use inside::{Inside, Solid, inside};
 pub use integrate::MassInput;
 pub use mesh::{GridMesh, QuadMesh, Side};
 pub use motion::{AngleLaw, AngleLaws, Start, WingMotion};

@@ -4,7 +4,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use wingbeat_case::LoadedCase;
 use wingbeat_case::raw::{AirCase, AirModel, BodyCase, Case, FlightCase, OutputCase, TimeCase};
 use wingbeat_flight::Simulation;
-use wingbeat_results::summary::Verdict;
+use wingbeat_results::summary::{BeatMeans, Verdict};
 use wingbeat_results::{Outcome, ResultDir, RunWriter, Summary, saver};
 
 /// Flies a case to its end and reads the summary of what was written.
@@ -377,7 +377,7 @@ fn agrees_lift_by_all_loads_with_that_by_impulse_in_attached_hover() {
             ],
         ));
         for beat in &summary.beats[1..] {
-            let (lift, impulse) = (beat.inviscid_lift_newton, beat.lift_by_impulse_newton);
+            let [lift, impulse] = two_lifts(beat);
             println!(
                 "{loads}: {:.3e} N, inviscid {lift:.3e} N, by impulse {impulse:.3e} N",
                 beat.lift_newton
@@ -406,10 +406,20 @@ fn agrees_lift_with_that_by_impulse_of_a_wing_that_sheds_all_around_in_hover() {
         ],
     ));
     for beat in &summary.beats[1..] {
-        let ratio = beat.lift_by_impulse_newton / beat.inviscid_lift_newton;
+        let [lift, impulse] = two_lifts(beat);
+        let ratio = impulse / lift;
         println!("{ratio:.3}");
         assert!((ratio - 1.0).abs() < 0.06); // 0.035 to 0.040
     }
+}
+
+#[test]
+fn behaves_air_without_vortices_has_no_inviscid_lift() {
+    let summary = flown(&preset("fruit-fly-blade", &[]));
+    let lifts = |b: &BeatMeans| [b.inviscid_lift_newton, b.lift_by_impulse_newton];
+    assert!(summary.beats.iter().all(|b| lifts(b) == [None; 2]));
+    let means = summary.means.expect("five beats");
+    assert!(means.inviscid_lift_newton.is_none() && means.lift_by_impulse_newton.is_none());
 }
 
 /// Vortex lift is a law of forces on an attached lattice: the inviscid force is that of attached flow, the one flown is less.
@@ -418,7 +428,7 @@ fn agrees_lift_with_that_by_impulse_beside_vortex_lift() {
     let set = ["air.leading_edge=vortex_lift", "time.beats=3"];
     let summary = flown(&preset("fruit-fly-tethered", &set));
     for beat in &summary.beats[1..] {
-        let (lift, impulse) = (beat.inviscid_lift_newton, beat.lift_by_impulse_newton);
+        let [lift, impulse] = two_lifts(beat);
         assert!((impulse / lift - 1.0).abs() < 0.03, "{impulse} {lift}"); // as attached hover
         assert!(beat.lift_newton < 0.85 * lift, "the test is void");
     }
@@ -430,12 +440,17 @@ fn agrees_lift_with_that_by_impulse_beside_vortex_lift() {
     assert!(!says(&summary, "Leading edges shed"));
 }
 
+/// The inviscid lift of a beat in the lattice \[N\], and the same by impulse.
+fn two_lifts(beat: &BeatMeans) -> [f64; 2] {
+    [beat.inviscid_lift_newton, beat.lift_by_impulse_newton].map(|lift| lift.expect("a lattice"))
+}
+
 /// The residual is what the account and the force have in sum, and small.
 fn balances_impulse_budget(summary: &Summary) {
     let budget = summary.impulse_budget.expect("a lattice");
     println!("{budget:?}");
     let period = summary.time_s / summary.beats.len() as f64;
-    let lift: f64 = summary.beats.iter().map(|b| b.inviscid_lift_newton).sum();
+    let lift: f64 = summary.beats.iter().map(|b| two_lifts(b)[0]).sum();
     let gained = budget.created_newton_s + budget.moved_newton_s + budget.converted_newton_s;
     let sum = gained - lift * period;
     // Roundings of parts that are some ten times as large as their sum.
@@ -464,7 +479,7 @@ fn balances_impulse_along_a_ground() {
     let summary = flown(&preset("fruit-fly-tethered", &set));
     let budget = summary.impulse_budget.expect("a lattice");
     let period = summary.time_s / summary.beats.len() as f64;
-    let lift: f64 = summary.beats.iter().map(|b| b.inviscid_lift_newton).sum();
+    let lift: f64 = summary.beats.iter().map(|b| two_lifts(b)[0]).sum();
     println!("{budget:?} {}", lift * period);
     // Measured 0.011, along the stroke.
     assert!(budget.residual_relative < 0.05);

@@ -163,6 +163,32 @@ fn balances_a_trimmed_turn_flies_its_circle() {
     }
 }
 
+/// Feedback is laid out for flights that are alike on both sides: a turn that was trimmed is written without it, and flies.
+#[test]
+fn behaves_a_turn_is_written_without_feedback() {
+    let scratch = Scratch::new("turn-without");
+    let dir = &scratch.0;
+    let trim = [
+        "trim",
+        "fruit-fly-controlled",
+        "--set",
+        "air.model=blade_element",
+        "--forward",
+        "0.3",
+    ];
+    let turn = ["--turn-rate", "300", "--write", "turn.toml"];
+    let text = said(dir, &[&trim[..], &turn].concat());
+    assert!(text.contains("without its feedback"), "{text}");
+    said(dir, &["check", "turn.toml"]);
+    let straight = said(dir, &[&trim[..], &["--write", "straight.toml"]].concat());
+    assert!(!straight.contains("without its feedback"), "{straight}");
+    let read = |name: &str| std::fs::read_to_string(dir.join(name)).unwrap();
+    let [turning, straight] = ["turn.toml", "straight.toml"].map(read);
+    assert!(turning.contains("# Without its feedback") && !turning.contains("[control"));
+    assert!(straight.contains("[control") && !straight.contains("# Without"));
+    said(dir, &["check", "straight.toml"]);
+}
+
 #[test]
 fn refuses_bounds_that_are_none_and_reports_trims_outside() {
     let scratch = Scratch::new("bounds");

@@ -456,3 +456,45 @@ fn agrees_the_velocity_of_exported_circulations_with_that_of_the_flight() {
         assert!(difference < 1e-6, "{x} {y} {z}: {computed} {flown}");
     }
 }
+
+/// A head of 0.84 mm whose middle lies 0.21 mm behind the nose, before a body held level, above a ground 5 mm below.
+#[test]
+fn exact_points_within_the_body_and_below_the_ground_are_not_in_the_air() {
+    let scratch = Scratch::new("in-air");
+    let run = [
+        "run",
+        "fruit-fly-tethered",
+        "--quiet",
+        "--out=run",
+        "--set=time.beats=0.05",
+        "--set=flight.pitch_deg=0",
+        "--set=air.ground={point_m=[0,0,5e-3],normal=[0,0,-1]}",
+        "--set=body.origin=as_given",
+        "--set=output.keep_checkpoint=true",
+        "--set=output.page=false",
+    ];
+    flown(&scratch.0, &run);
+    let points = [
+        ("-0.21e-3,0,0", 0),
+        ("-0.21e-3,0,0.40e-3", 0),
+        ("-0.21e-3,0,0.43e-3", 1),
+        ("-0.21e-3,0.43e-3,0", 1),
+        ("-1.945e-3,0,0.4e-3", 0),
+        ("0.1e-3,0,0", 1),
+        ("0,0,4.9e-3", 1),
+        ("0,0,5.1e-3", 0),
+    ];
+    let asked: Vec<String> = points.iter().map(|(x, _)| format!("--point={x}")).collect();
+    let args: Vec<&str> = asked.iter().map(String::as_str).collect();
+    let out = wingbeat(&scratch.0, &[&["velocity", "run"], &args[..]].concat());
+    let said = String::from_utf8_lossy(&out.stderr);
+    assert!(said.contains("warning: 4 of 8 points"), "{said}");
+    let table = String::from_utf8_lossy(&out.stdout);
+    let marks = table
+        .lines()
+        .skip(1)
+        .map(|row| row.rsplit(',').next().unwrap());
+    for ((point, wanted), found) in points.iter().zip(marks) {
+        assert_eq!(found, wanted.to_string(), "{point}: {table}");
+    }
+}

@@ -9,7 +9,7 @@ use wingbeat::case::LoadedCase;
 
 mod support;
 
-use support::{Scratch, wingbeat};
+use support::{Scratch, said, wingbeat};
 
 /// A wing of 20 chords of a metre, a beam along the middle of its chord.
 const SLENDER: &str = r#"
@@ -280,6 +280,29 @@ fn exact_report_and_shapes_of_the_command_hold_the_modes() {
         "{words}"
     );
     assert!(words.contains("as left"), "{words}");
+}
+
+/// Modes at rest need no step: a film so limp that none of the flight's ends has them, and `check` says what is wrong with it.
+#[test]
+fn behaves_wings_too_limp_to_fly_have_modes_and_are_doubted() {
+    let scratch = Scratch::new("limp");
+    let shell = "wing.right.structure.shell={young_pa=2.2e6,thickness_m=[2e-4,2e-4]}";
+    let limp = ["rectangular-wing", "--set", shell];
+    let found = said(&scratch.0, &[&["modes"], &limp[..]].concat());
+    assert!(found.contains("with the added mass of the air"), "{found}");
+    let doubted = wingbeat(&scratch.0, &[&["check"], &limp[..]].concat());
+    let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
+    let [out, err] = [&doubted.stdout, &doubted.stderr].map(|b| text(b));
+    assert!(
+        !doubted.status.success() && out.contains("this case cannot be flown"),
+        "{out}"
+    );
+    assert!(out.contains("a sheet of 55 nodes"), "{out}");
+    assert!(
+        err.contains("first frequency in vacuum times chord over speed 8.60e-5 is below"),
+        "{err}"
+    );
+    assert!(err.contains("did not agree after"), "{err}");
 }
 
 #[test]

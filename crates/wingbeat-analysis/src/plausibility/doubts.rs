@@ -1,7 +1,7 @@
 //! What of an estimate is implausible: a number outside wide limits.
 
 use wingbeat_air::CoreModel;
-use wingbeat_flight::{AirModel, AirOptions, FlightSetup, MotionMode, system_of};
+use wingbeat_flight::{AirModel, AirOptions, FlightSetup, MotionMode, doubtful_masses};
 use wingbeat_math::DVec3;
 use wingbeat_model::{DeformingMesh, Wing};
 
@@ -166,9 +166,7 @@ pub(super) fn doubts(setup: &FlightSetup, e: &Estimate) -> Vec<String> {
     let Doubts(mut list) = list;
     list.extend(air_from_behind(setup, e));
     list.extend(drag_of_small_insects(setup, e));
-    if !setup.animal.wings.is_empty() {
-        list.extend(system_of(setup).map_or(vec![], |s| s.warnings()));
-    }
+    list.extend(doubtful_masses(setup));
     let mut said = std::collections::BTreeSet::new();
     for (wing, w) in setup.animal.wings.iter().zip(&e.wings) {
         let mut own = wing_doubts(setup, wing, w);
@@ -177,6 +175,7 @@ pub(super) fn doubts(setup: &FlightSetup, e: &Estimate) -> Vec<String> {
         list.extend(own.into_iter().map(name));
     }
     list.extend(against_each_other(&setup.animal.wings));
+    list.extend(setup.trailing_edges_ahead());
     list.extend(setup.scattered_angles());
     list.extend(setup.crossing_wings());
     list.extend(setup.wings_inside_parts());

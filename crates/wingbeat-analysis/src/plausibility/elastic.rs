@@ -19,6 +19,13 @@ const RATIO: Limit = Limit {
     ],
 };
 
+/// Wings in a stream that do not beat: those of gliders and tunnels vibrate at 0.005 to 1 times speed over chord.
+const IN_STREAM: Limit = Limit {
+    low: 1e-3,
+    high: 1000.0,
+    hints: RATIO.hints,
+};
+
 const THICKNESS: Limit = Limit {
     low: 0.0,
     high: 0.25,
@@ -93,6 +100,11 @@ pub(super) fn doubts(wing: &Wing, w: &WingEstimate, list: &mut Doubts) {
     let ratio = "first frequency in vacuum over the wingbeat frequency";
     let before = list.0.len();
     list.see(&RATIO, ratio, w.frequency_ratio, "");
+    if w.frequency_ratio.is_none() && w.speed > 0.0 {
+        let in_stream = w.first_frequency.map(|f| f * w.report.mean_chord / w.speed);
+        let what = "first frequency in vacuum times chord over speed";
+        list.see(&IN_STREAM, what, in_stream, "");
+    }
     if let (Members::Beam(beam), true) = (&structure.members, list.0.len() == before) {
         each_way(wing, beam, w, list);
     }

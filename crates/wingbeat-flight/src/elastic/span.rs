@@ -51,7 +51,7 @@ impl Station {
 
 /// The shape of one column of nodes.
 struct Section {
-    /// Place of the middle of the chord along axis 3 \[m\].
+    /// Place of the middle between the edges along axis 3 \[m\].
     middle: f64,
     pitch: f64,
     /// Largest height over the chord towards -axis 3, over the chord \[1\].

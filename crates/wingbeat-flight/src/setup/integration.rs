@@ -45,6 +45,17 @@ pub enum IntegratorChoice {
 }
 
 impl IntegratorChoice {
+    /// Name, that of case files.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::Hamming => "hamming",
+            Self::Bdf => "bdf",
+            Self::Adams => "adams",
+            Self::RungeKutta => "runge_kutta",
+            Self::OrderEight { .. } => "order_eight",
+        }
+    }
+
     /// Whether the method evaluates loads at the ends of steps only, as a wake demands, which is
     /// moved once a step.
     pub fn carries_wake(&self) -> bool {

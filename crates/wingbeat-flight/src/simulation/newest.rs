@@ -1,14 +1,16 @@
 //! What is asked of a flight at its newest step.
 
-use wingbeat_air::Points;
+use wingbeat_air::{Plane, Points};
 use wingbeat_dynamics::BodyMotion;
+use wingbeat_math::DVec3;
+use wingbeat_model::{QuadMesh, Solid};
 
 use super::Simulation;
 use crate::air::LatticeAir;
 use crate::elastic::ElasticWings;
 use crate::error::FlightError;
 use crate::interface::{Instant, WingResponse};
-use crate::record::Snapshot;
+use crate::record::{Snapshot, SurfaceSnapshot};
 use crate::setup::AirModel;
 
 impl Simulation {
@@ -32,6 +34,25 @@ impl Simulation {
     /// vortex lattice.
     pub fn air_velocity(&self, points: &Points) -> Option<Points> {
         (self.equations().air).velocity(self.state.air.as_ref(), points)
+    }
+
+    /// Whether there is air at `points` [m], N, at the newest step: not within body parts of the lattice nor beyond the ground, where
+    /// [`Self::air_velocity`] is that of vortices and images alone.
+    pub fn is_in_air(&self, points: &[DVec3]) -> Vec<bool> {
+        let AirModel::VortexLattice(air) = &self.setup.air else {
+            return vec![true; points.len()];
+        };
+        let solid = |SurfaceSnapshot { nodes, quads, .. }| Solid::new(&QuadMesh { nodes, quads });
+        let surfaces = self.snapshot().surfaces.into_iter();
+        let parts = surfaces.skip(self.setup.animal.wings.len());
+        let solids: Vec<Solid> = parts.map(solid).collect();
+        let root = self.root().p;
+        let is_beyond = |x: DVec3, plane: &Plane| plane.height(x) * plane.height(root) < 0.0;
+        let is_in_air = |&x: &DVec3| {
+            !solids.iter().any(|s| s.contains(x))
+                && !air.lattice.images.iter().any(|plane| is_beyond(x, plane))
+        };
+        points.iter().map(is_in_air).collect()
     }
 
     /// The wings that loads bend, as [`FlightState::wings`] has their states.

@@ -135,15 +135,18 @@ fn mean_of(members: &[Vec<BeatMeans>], beat: usize) -> BeatMeans {
     let mean = |of: fn(&BeatMeans) -> f64| {
         members.iter().map(|m| of(&m[beat])).sum::<f64>() / members.len() as f64
     };
-    let ratio = mean(|b| b.lift_over_weight.unwrap_or(f64::NAN));
+    let where_known = |of: fn(&BeatMeans) -> Option<f64>| {
+        let values: Option<Vec<f64>> = members.iter().map(|m| of(&m[beat])).collect();
+        values.map(|values| values.iter().sum::<f64>() / members.len() as f64)
+    };
     BeatMeans {
         beat: members[0][beat].beat,
         lift_newton: mean(|b| b.lift_newton),
-        lift_over_weight: ratio.is_finite().then_some(ratio),
+        lift_over_weight: where_known(|b| b.lift_over_weight),
         thrust_newton: mean(|b| b.thrust_newton),
         power_watt: mean(|b| b.power_watt),
-        inviscid_lift_newton: mean(|b| b.inviscid_lift_newton),
-        lift_by_impulse_newton: mean(|b| b.lift_by_impulse_newton),
+        inviscid_lift_newton: where_known(|b| b.inviscid_lift_newton),
+        lift_by_impulse_newton: where_known(|b| b.lift_by_impulse_newton),
     }
 }
 
@@ -224,8 +227,8 @@ mod tests {
             lift_over_weight: Some(x / 2.0),
             thrust_newton: 0.0,
             power_watt: 1.0,
-            inviscid_lift_newton: *x,
-            lift_by_impulse_newton: *x,
+            inviscid_lift_newton: Some(*x),
+            lift_by_impulse_newton: Some(*x),
         };
         lift.iter().enumerate().map(beat).collect()
     }

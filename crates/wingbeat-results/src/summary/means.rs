@@ -27,11 +27,13 @@ pub struct ManyBeats {
     pub thrust_newton: Estimate,
     /// Power of hinge actuators and prescribed deformation \[W\].
     pub power_watt: Estimate,
-    /// Inviscid air force against gravity, with the suction that pressures lack, without friction \[N\]; zero without a
+    /// Inviscid air force against gravity, with the suction that pressures lack, without friction \[N\]; none without a
     /// lattice.
-    pub inviscid_lift_newton: Estimate,
+    #[serde(default)]
+    pub inviscid_lift_newton: Option<Estimate>,
     /// The same by the rate of the vortex impulse \[N\].
-    pub lift_by_impulse_newton: Estimate,
+    #[serde(default)]
+    pub lift_by_impulse_newton: Option<Estimate>,
     /// Change of lift from the first half of these beats to the second, over the mean force \[1\].
     pub change_of_lift: f64,
     /// The same of the thrust \[1\].
@@ -58,7 +60,10 @@ impl ManyBeats {
             Estimate::of(&beats.iter().map(value).collect::<Vec<f64>>())
         };
         let lift_newton = of(|b| b.lift_newton);
-        let ratios: Option<Vec<f64>> = beats.iter().map(|b| b.lift_over_weight).collect();
+        let where_known = |value: fn(&BeatMeans) -> Option<f64>| {
+            let values: Option<Vec<f64>> = beats.iter().map(value).collect();
+            values.map(|values| Estimate::of(&values))
+        };
         let thrust_newton = of(|b| b.thrust_newton);
         let size = lift_newton.mean.hypot(thrust_newton.mean);
         let size = size.max(f64::MIN_POSITIVE);
@@ -69,11 +74,11 @@ impl ManyBeats {
         Some(Self {
             beats: [beats[0].beat, beats[beats.len() - 1].beat],
             lift_newton,
-            lift_over_weight: ratios.map(|r| Estimate::of(&r)),
+            lift_over_weight: where_known(|b| b.lift_over_weight),
             thrust_newton,
             power_watt: of(|b| b.power_watt),
-            inviscid_lift_newton: of(|b| b.inviscid_lift_newton),
-            lift_by_impulse_newton: of(|b| b.lift_by_impulse_newton),
+            inviscid_lift_newton: where_known(|b| b.inviscid_lift_newton),
+            lift_by_impulse_newton: where_known(|b| b.lift_by_impulse_newton),
             change_of_lift: changes[0].change,
             change_of_thrust: changes[1].change,
             is_steady: !changed && !hidden,
@@ -138,8 +143,8 @@ mod tests {
             lift_over_weight: Some(lift(k) / 2.0),
             thrust_newton: thrust(k),
             power_watt: 3.0,
-            inviscid_lift_newton: lift(k),
-            lift_by_impulse_newton: lift(k),
+            inviscid_lift_newton: Some(lift(k)),
+            lift_by_impulse_newton: Some(lift(k)),
         };
         ManyBeats::of(&(1..=10).map(beat).collect::<Vec<_>>())
     }

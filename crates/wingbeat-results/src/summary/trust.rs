@@ -33,7 +33,8 @@ pub(super) fn warnings(setup: &FlightSetup, summary: &Summary) -> Warnings {
     let mut list = Warnings::default();
     balances(setup, summary, &mut list);
     passive_joints(summary, &mut list);
-    joints(setup, &mut list);
+    let masses = wingbeat_flight::doubtful_masses(setup);
+    masses.into_iter().for_each(|text| list.limit(text));
     motion::warnings(setup, summary, &mut list);
     air(setup, summary, &mut list);
     deformation(setup, &mut list);
@@ -42,17 +43,6 @@ pub(super) fn warnings(setup: &FlightSetup, summary: &Summary) -> Warnings {
     steps(setup, summary, &mut list);
     mode(setup, summary, &mut list);
     list
-}
-
-/// What the system of bodies and joints has to say.
-fn joints(setup: &FlightSetup, list: &mut Warnings) {
-    // Without wings, as of a table of derivatives, there is no length to judge the mass by.
-    if setup.animal.wings.is_empty() {
-        return;
-    }
-    let system = wingbeat_flight::system_of(setup);
-    let of_joints = system.map_or(vec![], |s| s.warnings());
-    of_joints.into_iter().for_each(|text| list.limit(text));
 }
 
 /// What the model of the air leaves out.

@@ -128,7 +128,7 @@ pub(super) const ELASTIC: &[Quantity] = &[
     scalar(
         "deflection_quarter_{s}",
         Unit::Metre,
-        "displacement along axis 3 from rest of the middle of the chord at a quarter of the length of {s} from the root of its surface",
+        "displacement along axis 3 from rest of the middle between leading and trailing edge at a quarter of the length of {s} from the root of its surface; a bulge between the edges is camber",
         |r, s, _| Real(&mut r.elastic[s].sections[0].deflection),
     )
     .new_here(),
@@ -149,7 +149,7 @@ pub(super) const ELASTIC: &[Quantity] = &[
     scalar(
         "deflection_half_{s}",
         Unit::Metre,
-        "displacement along axis 3 from rest of the middle of the chord at half of the length of {s} from the root of its surface",
+        "displacement along axis 3 from rest of the middle between leading and trailing edge at half of the length of {s} from the root of its surface; a bulge between the edges is camber",
         |r, s, _| Real(&mut r.elastic[s].sections[1].deflection),
     )
     .new_here(),
@@ -170,7 +170,7 @@ pub(super) const ELASTIC: &[Quantity] = &[
     scalar(
         "deflection_three_quarters_{s}",
         Unit::Metre,
-        "displacement along axis 3 from rest of the middle of the chord at three quarters of the length of {s} from the root of its surface",
+        "displacement along axis 3 from rest of the middle between leading and trailing edge at three quarters of the length of {s} from the root of its surface; a bulge between the edges is camber",
         |r, s, _| Real(&mut r.elastic[s].sections[2].deflection),
     )
     .new_here(),
@@ -191,7 +191,7 @@ pub(super) const ELASTIC: &[Quantity] = &[
     scalar(
         "deflection_tip_{s}",
         Unit::Metre,
-        "displacement along axis 3 from rest of the middle of the chord at the tip of {s}",
+        "displacement along axis 3 from rest of the middle between leading and trailing edge at the tip of {s}; a bulge between the edges is camber",
         |r, s, _| Real(&mut r.elastic[s].sections[3].deflection),
     )
     .new_here(),

@@ -43,9 +43,9 @@ fn look(args: &CheckArgs, report: &mut Report) -> Result<(), IoError> {
     let fits = case.fitted_tables();
     estimate.doubts.extend(case.doubtful_measurements());
     let warn = || estimate.doubts.iter().for_each(|d| tell!("warning: {d}"));
-    // A flight that fails on trial fails of a wrong unit more often than of its steps.
-    let cost = trial_cost(&case, args.trial).inspect_err(|_| warn())?;
-    line!(report, "{}: this case can be flown.\n", case.origin());
+    let cost = trial_cost(&case, args.trial);
+    let can = if cost.is_ok() { "can" } else { "cannot" };
+    line!(report, "{}: this case {can} be flown.\n", case.origin());
     report.value("case", case.name.as_str());
     describe(report, &case.setup);
     feedback(report, &case.setup);
@@ -54,6 +54,8 @@ fn look(args: &CheckArgs, report: &mut Report) -> Result<(), IoError> {
     report.value("panels", panels);
     programs(report, &case);
     expectation::tell(report, &estimate);
+    // A flight that fails on trial fails of a wrong unit more often than of its steps.
+    let cost = cost.inspect_err(|_| warn())?;
     entry!(report, "cost", "{cost}");
     report.value("cost", cost.value());
     tell_fits(report, &fits);

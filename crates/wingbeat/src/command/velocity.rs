@@ -96,8 +96,12 @@ pub(crate) fn run(args: &VelocityArgs) -> Result<(), Failure> {
     let places = places(args)?;
     args.report.deliver([], |report, []| {
         let flight = flight(args)?;
-        let velocities = velocities(&flight, &places)?;
-        tell(report, flight.newest_time(), &places, &velocities);
+        let field = Field {
+            velocities: velocities(&flight, &places)?,
+            in_air: flight.is_in_air(&places),
+            places,
+        };
+        field.tell(report, flight.newest_time());
         Ok(())
     })
 }
@@ -149,18 +153,39 @@ fn velocities(flight: &Simulation, places: &[DVec3]) -> Result<Vec<DVec3>, Failu
     }
 }
 
-fn tell(report: &mut Report, time: f64, places: &[DVec3], velocities: &[DVec3]) {
-    tell!("velocity at t = {time:e} s");
-    line!(
-        report,
-        "x_m,y_m,z_m,velocity_x_m_s,velocity_y_m_s,velocity_z_m_s"
-    );
-    let mut points: Vec<Value> = vec![];
-    for (x, v) in places.iter().zip(velocities) {
-        let cells = [x.x, x.y, x.z, v.x, v.y, v.z].map(|c| format!("{:e}", c + 0.0)); // no -0
-        line!(report, "{}", cells.join(","));
-        points.push(json!({ "position_m": x.to_array(), "velocity_m_s": v.to_array() }));
+/// What is asked for, place by place.
+struct Field {
+    places: Vec<DVec3>,
+    velocities: Vec<DVec3>,
+    in_air: Vec<bool>,
+}
+
+impl Field {
+    fn tell(&self, report: &mut Report, time: f64) {
+        tell!("velocity at t = {time:e} s");
+        let outside = self.in_air.iter().filter(|is| !**is).count();
+        if outside > 0 {
+            tell!(
+                "warning: {outside} of {} points lie in a body part or beyond the ground (in_air = 0): what is said there is no velocity of any air",
+                self.places.len()
+            );
+        }
+        line!(
+            report,
+            "x_m,y_m,z_m,velocity_x_m_s,velocity_y_m_s,velocity_z_m_s,in_air"
+        );
+        let mut points: Vec<Value> = vec![];
+        let both = self.places.iter().zip(&self.velocities);
+        for ((x, v), is_in_air) in both.zip(&self.in_air) {
+            let cells = [x.x, x.y, x.z, v.x, v.y, v.z].map(|c| format!("{:e}", c + 0.0)); // no -0
+            line!(report, "{},{}", cells.join(","), u8::from(*is_in_air));
+            points.push(json!({
+                "position_m": x.to_array(),
+                "velocity_m_s": v.to_array(),
+                "in_air": is_in_air,
+            }));
+        }
+        report.value("time_s", time);
+        report.value("points", points);
     }
-    report.value("time_s", time);
-    report.value("points", points);
 }

@@ -199,11 +199,11 @@ fn two_ways_to_the_lift(lattice: &AirSettings, beat: &BeatMeans, list: &mut Warn
         );
         return;
     }
-    let (other, inviscid, lift) = (
-        beat.lift_by_impulse_newton,
-        beat.inviscid_lift_newton,
-        beat.lift_newton,
-    );
+    let (Some(other), Some(inviscid)) = (beat.lift_by_impulse_newton, beat.inviscid_lift_newton)
+    else {
+        return;
+    };
+    let lift = beat.lift_newton;
     let loads = match lattice.loads {
         LoadMethod::Joukowski => "Joukowski's forces",
         LoadMethod::Pressure | LoadMethod::Polhamus => {

@@ -21,6 +21,9 @@ pub(super) fn warnings(setup: &FlightSetup, summary: &Summary, list: &mut Warnin
     for crossing in setup.crossing_wings() {
         impossible(setup, "The prescribed motion", &crossing, list);
     }
+    for backwards in setup.trailing_edges_ahead() {
+        list.limit(format!("Wings that fly backwards: {backwards}."));
+    }
     for scatter in setup.scattered_angles() {
         list.limit(format!("Angles that scatter: {scatter}."));
     }

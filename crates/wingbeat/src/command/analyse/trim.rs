@@ -3,12 +3,13 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use wingbeat::case::{trimmed_case, wake_trimmed_case};
+use wingbeat::case::{lacks_feedback, trimmed_case, wake_trimmed_case};
 
 use super::sweeping;
 use super::trimming::{Trimming, trimmed, trimmed_with_wake};
 use crate::command::failure::Failure;
 use crate::command::options;
+use crate::command::report::line;
 
 /// Speeds of a sweep at most, and unless told otherwise.
 const MAX_POINTS: usize = 1000;
@@ -47,16 +48,21 @@ pub(crate) fn run(args: &TrimArgs) -> Result<(), Failure> {
             let points = args.points.unwrap_or(DEFAULT_POINTS);
             return sweeping::run(trimming, [from, to], points, report, figure);
         }
-        let text = if trimming.load()?.setup.has_memory() {
+        let (text, is_without) = if trimming.load()?.setup.has_memory() {
             let (case, trim) = trimmed_with_wake(trimming, report)?;
-            wake_trimmed_case(&case, &trim)
+            let lacks = lacks_feedback(&case, &trim.solution);
+            (wake_trimmed_case(&case, &trim), lacks)
         } else {
             let (case, trim) = trimmed(trimming, report)?;
-            trimmed_case(&case, &trim)
+            let lacks = lacks_feedback(&case, &trim.solution);
+            (trimmed_case(&case, &trim), lacks)
         };
         if let Some(file) = file {
             file.write(&text)?;
             report.wrote(&file);
+            if is_without {
+                line!(report, "without its feedback (control), which is laid out for flights that are alike on the right and on the left");
+            }
         }
         Ok(())
     })

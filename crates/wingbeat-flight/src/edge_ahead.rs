@@ -1,0 +1,130 @@
+//! Wings whose prescribed motion moves them with the trailing edge ahead.
+//!
+//! The air past a section, weighted by its dynamic pressure, goes from the leading to the trailing edge in both strokes of every wing that
+//! flies, hovering or not: the mean of the cosine of the angle of attack is above 0. In hover angles in another convention
+//! (a rotation angle counted from the stroke plane, a sign) turn it round in one of the strokes, and the lift, which a plate has both
+//! ways round, hardly tells.
+
+use std::ops::AddAssign;
+
+use wingbeat_math::DVec3;
+use wingbeat_model::Wing;
+
+use crate::setup::FlightSetup;
+
+/// Instants of a beat that are looked at.
+const INSTANTS: usize = 100;
+
+/// Mean cosine of the angle of attack below which the trailing edge is ahead \[1\]: plates that stroke broadside have 0.
+const BACKWARDS: f64 = -0.2;
+
+/// Part of the dynamic pressure of a beat that a stroke has at least to count \[1\].
+const COUNTS: f64 = 0.05;
+
+/// A half of a beat.
+#[derive(Clone, Copy, Debug, Default)]
+struct Stroke {
+    /// Sum over strips and instants of speed squared times width.
+    pressure: f64,
+    /// The same times the cosine of the angle of attack.
+    along: f64,
+    /// Greatest part of one instant in `pressure`, and the feathering angle then \[rad\].
+    most: f64,
+    psi: f64,
+}
+
+impl AddAssign<(f64, f64, f64)> for Stroke {
+    /// Adds pressure and its part along the chord of an instant with this feathering angle.
+    fn add_assign(&mut self, (pressure, along, psi): (f64, f64, f64)) {
+        self.pressure += pressure;
+        self.along += along;
+        if pressure > self.most {
+            (self.most, self.psi) = (pressure, psi);
+        }
+    }
+}
+
+impl FlightSetup {
+    /// Says which wings move with the trailing edge ahead in one of their strokes, and what angles do so. Wings that do not beat, or have
+    /// joints of their own, are left out.
+    pub fn trailing_edges_ahead(&self) -> Vec<String> {
+        let has_joint = |w: usize| self.joints.iter().any(|j| j.child == w + 1);
+        let mut found: Vec<(String, Vec<&str>)> = vec![];
+        for (w, wing) in self.animal.wings.iter().enumerate() {
+            if has_joint(w) || wing.motion.frequency <= 0.0 {
+                continue;
+            }
+            let Some(text) = say(&self.strokes(wing)) else {
+                continue;
+            };
+            match found.iter_mut().find(|f| f.0 == text) {
+                Some((_, wings)) => wings.push(&wing.name),
+                None => found.push((text, vec![&wing.name])),
+            }
+        }
+        let named = |(text, wings): (String, Vec<&str>)| {
+            format!(
+                "{text} (wings `{}`): in the convention of this program psi is below 0 in the downstroke and above 0 in the upstroke of a \
+                 hovering animal; a rotation angle counted from the stroke plane, 0 to 180 deg, gives psi = 90 deg less it, or it less 90 deg \
+                 (ANGLES.md)",
+                wings.join("`, `")
+            )
+        };
+        found.into_iter().map(named).collect()
+    }
+
+    /// Down- and upstroke of a wing in its prescribed motion; the body goes on as it starts.
+    fn strokes(&self, wing: &Wing) -> [Stroke; 2] {
+        let motion = wing.motion.impulsive();
+        let mut strokes = [Stroke::default(); 2];
+        for k in 0..INSTANTS {
+            let t = k as f64 / INSTANTS as f64 / motion.frequency;
+            let [[_, rate, _], _, [psi, ..]] = motion.angles(t);
+            let goes_up = wing.side.sign() * rate < 0.0;
+            let past = self.air_past(wing, &motion, t);
+            let (mut pressure, mut along) = (0.0, 0.0);
+            for [front, rear, across] in strips(wing) {
+                let (speed, aft) = (
+                    past(front.midpoint(rear)),
+                    (rear - front).normalize_or_zero(),
+                );
+                let width = across.reject_from(aft).length();
+                pressure += width * speed.length_squared();
+                along += width * speed.length() * speed.dot(aft);
+            }
+            strokes[usize::from(goes_up)] += (pressure, along, psi);
+        }
+        strokes
+    }
+}
+
+/// Middle of the leading and of the trailing edge of every strip, and its way along the leading edge.
+fn strips(wing: &Wing) -> impl Iterator<Item = [DVec3; 3]> {
+    let mesh = &wing.mesh;
+    let at = |i: usize, j: usize| mesh.nodes[mesh.node(i, j)];
+    (0..mesh.cols).map(move |j| {
+        let [front, rear] = [0, mesh.rows].map(|i| at(i, j).midpoint(at(i, j + 1)));
+        [front, rear, at(0, j + 1) - at(0, j)]
+    })
+}
+
+/// Which strokes move the trailing edge ahead.
+fn say(strokes: &[Stroke; 2]) -> Option<String> {
+    let all: f64 = strokes.iter().map(|s| s.pressure).sum();
+    let both = ["downstroke", "upstroke"].into_iter().zip(strokes);
+    let wrong = both.filter(|(_, s)| s.pressure > COUNTS * all && s.along < BACKWARDS * s.pressure);
+    let said: Vec<String> = wrong
+        .map(|(name, s)| {
+            format!(
+                "{name} (psi = {:.0} deg at its fastest)",
+                s.psi.to_degrees()
+            )
+        })
+        .collect();
+    (!said.is_empty()).then(|| {
+        format!(
+            "the trailing edge is ahead in the {}",
+            said.join(" and the ")
+        )
+    })
+}
