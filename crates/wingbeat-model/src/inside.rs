@@ -105,6 +105,7 @@ impl Solid {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::animal::BodyPart;
     use crate::motion::{AngleLaw, Fourier};
     use crate::{MassInput, Planform, Revolution, Side, Wing, WingMotion, WingShape};
     use wingbeat_math::MassProperties;
