@@ -156,12 +156,15 @@ function dressStage() {
   const u = ground.material.uniforms;
   u.colour.value.setRGB(...rgb(theme.grid)); u.share.value = theme.gridShare; u.shadow.value = theme.shadow;
 }
-let pixelRatio = Math.min(window.devicePixelRatio || 1, 2);
+let pixelRatio = Math.min(window.devicePixelRatio || 1, 2), stageSize = "";
 function resizeStage() {
-  const w = Math.max(1, stage.clientWidth), h = Math.max(1, stage.clientHeight);
+  const w = Math.max(1, stage.clientWidth), h = Math.max(1, stage.clientHeight), size = [w, h, pixelRatio].join();
+  if (size === stageSize) return;
+  stageSize = size;
   renderer.setPixelRatio(pixelRatio);
   renderer.setSize(w, h, false);
   camera.aspect = w / h;
   camera.updateProjectionMatrix();
   sized.forEach((f) => f(w * pixelRatio, h * pixelRatio));
+  if (drawn >= 0) renderer.render(scene, camera); // a new size empties the canvas: it is never shown so
 }
