@@ -253,3 +253,62 @@ fn behaves_wings_that_fly_with_the_trailing_edge_ahead_are_named() {
     };
     assert!(said.contains("ahead"), "{said}");
 }
+
+/// Angles over seconds that count the other way from another zero, in rows and in a file in radians, fly as the same angles in this
+/// program's convention.
+#[test]
+fn exact_tables_in_other_conventions_are_converted() {
+    let here = Path::new(env!("CARGO_TARGET_TMPDIR")).join("conventions");
+    std::fs::create_dir_all(&here).unwrap();
+    let phases = (0..=40).map(|k| f64::from(k) / 40.0);
+    let psi: Vec<[f64; 2]> = phases.map(|x| [x, -45.0 * (TAU * x).cos()]).collect();
+    let rotation: Vec<[f64; 2]> = psi.iter().map(|[x, q]| [x / 200.0, 90.0 - q]).collect();
+    let rows = |list: &[[f64; 2]]| format!("rows_deg={list:?}");
+    let lines = rotation
+        .iter()
+        .map(|[t, q]| format!("{t},{}\n", q.to_radians()));
+    let text = "time_s,rotation_rad\n".to_owned() + &lines.collect::<String>();
+    std::fs::write(here.join("rotation.csv"), text).unwrap();
+    let convention = "beats_per_unit=200,factor=-1,offset_deg=90";
+    for harmonics in ["", ",harmonics=3"] {
+        let wing = |table: &str| {
+            let set = format!("wing.right.motion.psi={{table={{{table}{harmonics}}}}}");
+            let preset = presets::find("fruit-fly-tethered").unwrap().text;
+            let case = LoadedCase::from_text("fly", preset, &here, &[set]).unwrap();
+            // The resolved case is in the convention of this program, and says the same.
+            let again =
+                LoadedCase::from_text("again", &case.resolved(), Path::new("/"), &[]).unwrap();
+            assert!(again.setup.animal == case.setup.animal);
+            case.setup.animal.wings[1].motion.clone()
+        };
+        let known = wing(&rows(&psi));
+        let by_rows = wing(&format!("{},{convention}", rows(&rotation)));
+        let by_file = wing(&format!("file='rotation.csv',{convention}"));
+        for k in 0..50 {
+            let t = f64::from(k) / 50.0 / 200.0;
+            for motion in [&by_rows, &by_file] {
+                let pairs = known.angles(t)[2].into_iter().zip(motion.angles(t)[2]);
+                for ((a, b), size) in pairs.zip([1.0, 1e3, 1e6]) {
+                    assert!((a - b).abs() < 1e-11 * size, "{harmonics} {k}: {a} {b}");
+                }
+            }
+        }
+    }
+    let refused = |key: &str| {
+        let set = format!("wing.right.motion.psi={{table={{{},{key}}}}}", rows(&psi));
+        let preset = presets::find("fruit-fly-tethered").unwrap().text;
+        let error = LoadedCase::from_text("fly", preset, &here, &[set]).map(|_| ());
+        error.unwrap_err().to_string()
+    };
+    for key in [
+        "factor=0",
+        "factor=inf",
+        "offset_deg=nan",
+        "beats_per_unit=0",
+        "beats_per_unit=-1",
+    ] {
+        let name = key.split('=').next().unwrap();
+        let said = refused(key);
+        assert!(said.contains(&format!("psi.table.{name}")), "{key}: {said}");
+    }
+}

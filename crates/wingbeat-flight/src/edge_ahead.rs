@@ -65,8 +65,8 @@ impl FlightSetup {
         let named = |(text, wings): (String, Vec<&str>)| {
             format!(
                 "{text} (wings `{}`): in the convention of this program psi is below 0 in the downstroke and above 0 in the upstroke of a \
-                 hovering animal; a rotation angle counted from the stroke plane, 0 to 180 deg, gives psi = 90 deg less it, or it less 90 deg \
-                 (ANGLES.md)",
+                 hovering animal; a rotation angle counted from the stroke plane, 0 to 180 deg, becomes psi by factor = -1 and offset_deg = 90 \
+                 in its table, or by offset_deg = -90 (ANGLES.md)",
                 wings.join("`, `")
             )
         };

@@ -2,7 +2,7 @@
 //! al. 2014, Science 344:172]: force of the measured wings, by blade elements or by the lattice with leading-edge
 //! vorticity, against the measured acceleration of the body. The records are not shipped:
 //!
-//! `cargo run --example free_flight -- FOLDER [lattice]`
+//! `cargo run -p wingbeat-verify --example free_flight -- FOLDER [lattice]`
 //!
 //! with `wingbeats.csv` and the sequences of frames in the folder; what is not there is skipped by name.
 //!

@@ -14,9 +14,12 @@ use crate::raw::TableCase;
 /// The angles of a wing.
 const ANGLES: [&str; 3] = ["phi", "theta", "psi"];
 
-/// Reads the file of the table at `path`, if it names one.
+/// Puts the rows of the table at `path` into this program's convention, those of its file if it names one.
 pub(super) fn read(path: &str, table: &mut TableCase, base: &Path) -> Result<(), Fault> {
+    let convention = Convention::take(path, table)?;
     let Some(name) = table.file.take() else {
+        let rows = table.rows_deg.iter_mut().flatten();
+        rows.for_each(|row| *row = convention.apply(*row));
         return Ok(());
     };
     let key = format!("{path}.file");
@@ -28,16 +31,51 @@ pub(super) fn read(path: &str, table: &mut TableCase, base: &Path) -> Result<(),
         key,
     };
     let columns = [&table.phase_column, &table.angle_column];
-    let rows = rows(&csv, columns.map(|c| c.as_deref()), table.harmonics)?;
+    let names = columns.map(|c| c.as_deref());
+    let rows = rows(&csv, names, &convention, table.harmonics)?;
     table.rows_deg = Some(rows);
     (table.phase_column, table.angle_column) = (None, None);
     Ok(())
+}
+
+/// How a table counts phases and angles.
+struct Convention {
+    /// Wingbeats in one unit of its first column.
+    beats_per_unit: f64,
+    factor: f64,
+    /// Of the angle that it calls 0 \[deg\].
+    offset: f64,
+}
+
+impl Convention {
+    /// That of the table at `path`, whose rows are in this program's from then on.
+    fn take(path: &str, table: &mut TableCase) -> Result<Self, Fault> {
+        let convention = Self {
+            beats_per_unit: table.beats_per_unit.take().unwrap_or(1.0),
+            factor: table.factor.take().unwrap_or(1.0),
+            offset: table.offset_deg.take().unwrap_or(0.0),
+        };
+        match convention.factor == 0.0 {
+            false => Ok(convention),
+            true => Err(Fault::new(
+                format!("{path}.factor"),
+                "this makes all angles the same",
+                "a finite number other than 0",
+                "1 where angles count as here, -1 where they count the other way",
+            )),
+        }
+    }
+
+    fn apply(&self, [x, angle]: [f64; 2]) -> [f64; 2] {
+        [x * self.beats_per_unit, self.factor * angle + self.offset]
+    }
 }
 
 /// Phase \[1\] and angle \[deg\] of each row, from these columns, or the first two.
 fn rows(
     csv: &CsvFile,
     names: [Option<&str>; 2],
+    convention: &Convention,
     harmonics: Option<usize>,
 ) -> Result<Vec<[f64; 2]>, Fault> {
     let choose = |header: &StringRecord| {
@@ -50,12 +88,13 @@ fn rows(
         }
         Ok(columns)
     };
-    let mut table = csv.columns(choose)?;
+    let table = csv.columns(choose)?;
     let unit = degrees(&table.names[1]);
     let to_degrees = unit.map_err(|problem| csv.bad(&problem))?;
-    table.rows.iter_mut().for_each(|row| row[1] *= to_degrees);
-    check(csv, &table.rows, &table.lines, harmonics)?;
-    Ok(table.rows)
+    let converted = |&[x, angle]: &[f64; 2]| convention.apply([x, to_degrees * angle]);
+    let rows: Vec<_> = table.rows.iter().map(converted).collect();
+    check(csv, &rows, &table.lines, harmonics)?;
+    Ok(rows)
 }
 
 /// Degrees in the unit that the name of a column says, as `psi_rad` or `psi [deg]`; degrees where it says none.

@@ -297,6 +297,23 @@ pub struct TableCase {
     #[schemars(extend("with" = "file"))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub angle_column: Option<String>,
+    /// Wingbeats in one unit of the first column: the wingbeat frequency for times in seconds, frequency over frame rate for frames.
+    /// Left out: 1, phases.
+    ///
+    /// Change it for recordings over time; with `harmonics` they may go on over several wingbeats.
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub beats_per_unit: Option<f64>,
+    /// What the angles of the table are multiplied by before `offset_deg` is added. Left out: 1.
+    ///
+    /// Change it to -1 for angles that count the other way.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub factor: Option<f64>,
+    /// What is added to the angles of the table. Left out: 0.
+    ///
+    /// Change it for angles with another zero: a rotation angle counted from the stroke plane is 90 deg less it (factor -1, offset 90).
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub offset_deg: Option<f64>,
     /// Harmonics of a Fourier series fitted to the samples by least squares; two neighbouring phases may be less than 1 / (2 harmonics)
     /// wingbeats apart, phases may repeat or go on over several beats, which are folded into one, and the beat need not close. Left out: the spline, which goes through every sample.
     ///
