@@ -53,6 +53,7 @@ presets![
     "dragonfly",
     "bird-cruise",
     "bird-cruise-elastic",
+    "membrane-wing",
     "rectangular-wing",
     "flapping-rectangles",
     "robofly-advanced",

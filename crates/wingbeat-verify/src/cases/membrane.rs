@@ -1,7 +1,5 @@
 //! A membrane of latex on a rigid frame in a stream.
 
-use std::path::Path;
-
 use wingbeat_case::LoadedCase;
 use wingbeat_flight::Simulation;
 use wingbeat_math::DVec3;
@@ -41,13 +39,13 @@ fn steady(
         format!("air.stream_m_s=[-{speed},0,0]"),
         format!("time.step_s={}", WAY / speed),
         format!("time.steps={STEPS}"),
+        "air.max_wake_rows=40".to_owned(),
         format!("wing.right.structure.mass_damping_per_s={}", 6.0 * speed),
         format!("wing.right.motion.psi.constant_deg={angle}"),
         format!("wing.right.mesh.chordwise={chordwise}"),
         format!("wing.right.mesh.spanwise={spanwise}"),
     ];
-    let text = include_str!("../../data/membrane.toml");
-    let case = LoadedCase::from_text("membrane", text, Path::new(""), &set)?;
+    let case = LoadedCase::find("membrane-wing", &set)?;
     let mut flight = Simulation::new(case.setup)?;
     let built = flight.state().wings[0].structure.configuration.clone();
     let (mut deepest, mut force) = (0.0, DVec3::ZERO);
