@@ -29,6 +29,8 @@ const ENTRIES: [&str; 14] = [
     "case.toml",
     "manifest.json",
 ];
+/// The folder that runs and campaigns go into unless it is said where.
+pub const RESULTS: &str = "results";
 const FRAMES: &str = "frames";
 const FIGURES: &str = "figures";
 /// Figures for papers and for slides, within the folder of figures.
@@ -253,6 +255,22 @@ fn may_be_taken(path: &Path) -> bool {
 fn holds_run(path: &Path) -> bool {
     let beside = || path.join("manifest.json").is_file() && path.join("history.csv").is_file();
     super::saver::read_manifest(path).is_ok() || beside()
+}
+
+/// The run in a folder of results that was written last.
+pub fn latest_run(folder: &Path) -> Option<PathBuf> {
+    let runs = fs::read_dir(folder)
+        .ok()?
+        .flatten()
+        .map(|entry| entry.path());
+    let written = |run: PathBuf| {
+        let when = fs::metadata(run.join("history.csv"))
+            .ok()?
+            .modified()
+            .ok()?;
+        holds_run(&run).then_some((when, run))
+    };
+    runs.filter_map(written).max().map(|(_, run)| run)
 }
 
 /// The run that a path lies in, and the path within it.

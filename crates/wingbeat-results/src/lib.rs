@@ -46,7 +46,7 @@ mod whole;
 pub mod writer;
 
 pub use columns_page::columns_page;
-pub use directory::ResultDir;
+pub use directory::{RESULTS, ResultDir, latest_run};
 pub use history::History;
 pub use manifest::{Manifest, Outcome};
 pub use recorded::RecordedFlight;

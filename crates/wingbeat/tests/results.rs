@@ -337,6 +337,30 @@ fn exact_ctrl_c_and_sigterm_end_a_run_with_everything_written() {
     }
 }
 
+/// Without a directory the latest run in `results` is meant, and named.
+#[test]
+fn behaves_show_and_view_take_the_latest_run() {
+    let scratch = Scratch::new("latest");
+    for command in ["show", "view"] {
+        let out = wingbeat(&scratch.0, &[command]);
+        let said = String::from_utf8_lossy(&out.stderr);
+        assert_eq!(out.status.code(), Some(2), "{said}");
+        assert!(said.contains("there is none in results/ here"), "{said}");
+    }
+    for steps in ["time.steps=4", "time.steps=6"] {
+        let args = ["run", "benchmark-2", "--quiet", "--set", steps];
+        flown(&scratch.0, &args);
+    }
+    let named = wingbeat(&scratch.0, &["show", "results/benchmark-2-2"]);
+    let latest = wingbeat(&scratch.0, &["show"]);
+    let path = String::from_utf8_lossy(&latest.stderr);
+    assert!(path.trim().ends_with("benchmark-2-2"), "{path}");
+    assert!(named.stdout == latest.stdout && !named.stdout.is_empty());
+    let page = wingbeat(&scratch.0, &["view", "--no-open"]);
+    let wrote = String::from_utf8_lossy(&page.stdout);
+    assert!(wrote.contains("benchmark-2-2"), "{wrote}");
+}
+
 #[test]
 fn exact_show_and_compare_say_what_the_summary_says() {
     let scratch = Scratch::new("show");

@@ -8,7 +8,7 @@ use clap::Args;
 use wingbeat::case::{IoError, LoadedCase, presets};
 use wingbeat::draw::draw_run;
 use wingbeat::flight::{FlightError, Simulation};
-use wingbeat::results::{Outcome, RecordedFlight, ResultDir, saver};
+use wingbeat::results::{Outcome, RESULTS, RecordedFlight, ResultDir, saver};
 
 use crate::command::failure::{FAILED, Failure, INTERRUPTED};
 use crate::command::options::RunOptions;
@@ -116,7 +116,7 @@ fn prepare(args: &RunArgs, threads: usize, interrupts: &Interrupts) -> Result<Ru
     let dir = match &args.out {
         Some(out) if args.overwrite => ResultDir::overwrite(out)?,
         Some(out) => ResultDir::create(out)?,
-        None => ResultDir::next_free(Path::new("results"), &case.name)?,
+        None => ResultDir::next_free(Path::new(RESULTS), &case.name)?,
     };
     begin(dir, case, flight, threads)
 }

@@ -13,12 +13,13 @@ use wingbeat::results::{Manifest, ResultDir, Summary};
 
 use crate::command::failure::Failure;
 use crate::command::report::{Report, ReportArgs, line};
+use crate::command::view::chosen;
 
 /// Arguments of `wingbeat show`.
 #[derive(Args)]
 pub(crate) struct ShowArgs {
-    /// Result directory of the run.
-    dir: PathBuf,
+    /// Result directory of the run; default the latest in results/.
+    dir: Option<PathBuf>,
     #[command(flatten)]
     report: ReportArgs,
 }
@@ -48,7 +49,7 @@ fn read(dir: &Path) -> Result<(Summary, Manifest), IoError> {
 /// `wingbeat show`: the summary made again from the history, whatever state the run is in.
 pub(crate) fn show(args: &ShowArgs) -> Result<(), Failure> {
     args.report.deliver([], |report, []| {
-        let (summary, manifest) = read(&args.dir)?;
+        let (summary, manifest) = read(&chosen(args.dir.as_deref())?)?;
         report.summary(&summary);
         line!(
             report,

@@ -5,17 +5,17 @@ use std::process::{Command, Stdio};
 
 use clap::Args;
 use wingbeat::draw::page;
-use wingbeat::results::ResultDir;
+use wingbeat::results::{RESULTS, ResultDir, latest_run};
 
 use crate::command::failure::Failure;
 use crate::command::options;
-use crate::command::terminal::say;
+use crate::command::terminal::{say, tell};
 
 /// Arguments of `wingbeat view`.
 #[derive(Args)]
 pub(crate) struct ViewArgs {
-    /// Result directory of the run.
-    dir: PathBuf,
+    /// Result directory of the run; default the latest in results/.
+    dir: Option<PathBuf>,
     /// Only write the page.
     #[arg(long)]
     no_open: bool,
@@ -25,9 +25,23 @@ pub(crate) struct ViewArgs {
     size: f64,
 }
 
+/// The run that was named, or the latest of the folder that runs go into, which is then named.
+pub(crate) fn chosen(dir: Option<&Path>) -> Result<PathBuf, Failure> {
+    if let Some(dir) = dir {
+        return Ok(dir.to_owned());
+    }
+    let Some(latest) = latest_run(Path::new(RESULTS)) else {
+        let problem =
+            format!("give the result directory of a run: there is none in {RESULTS}/ here");
+        return Err(Failure::Option(problem));
+    };
+    tell!("{}", latest.display());
+    Ok(latest)
+}
+
 /// The whole command.
 pub(crate) fn view(args: &ViewArgs) -> Result<(), Failure> {
-    let dir = ResultDir::read(&args.dir)?;
+    let dir = ResultDir::read(&chosen(args.dir.as_deref())?)?;
     let outcome = dir.manifest()?.outcome;
     let page = page::write(&dir, &outcome, (args.size * 1e6) as usize)?;
     say!("wrote {}", page.display());

@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use wingbeat::campaign::{Campaign, Store};
 use wingbeat::case::IoError;
+use wingbeat::results::RESULTS;
 
 use crate::command::failure::Failure;
 use crate::command::target::folder;
@@ -36,7 +37,7 @@ impl Place {
 
     /// Its directory.
     pub(super) fn folder(&self, campaign: &Campaign) -> PathBuf {
-        let default = || Path::new("results").join(campaign.name());
+        let default = || Path::new(RESULTS).join(campaign.name());
         operand(&self.out.clone().unwrap_or_else(default))
     }
 
