@@ -171,6 +171,12 @@ fn refuses_bounds_that_are_none_and_reports_trims_outside() {
         ("stroke_amplitude=0.2..-0.2", "FROM below TO"),
         ("lift=0..1", "stroke_amplitude"),
         ("stroke_plane=0..1", "not among the unknowns"),
+        (
+            "stroke_amplitude=-20..20",
+            "parts of 1, not percent, above -1",
+        ),
+        ("frequency=-1..0.5", "parts of 1, not percent, above -1"),
+        ("stroke_amplitude_difference=-5..5", "above -2 and below 2"),
     ] {
         let problem = refused(dir, 2, &["trim", "--bound", bound]);
         assert!(problem.contains(what), "{problem}");
