@@ -32,6 +32,7 @@ pub mod raw;
 mod resolve;
 mod sides;
 mod source;
+mod species;
 mod trimmed;
 mod written;
 
