@@ -34,6 +34,7 @@ mod sides;
 mod source;
 mod species;
 mod trimmed;
+mod ways;
 mod written;
 
 pub use build::column_name;
