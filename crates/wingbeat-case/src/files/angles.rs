@@ -51,6 +51,7 @@ fn rows(
         Ok(columns)
     };
     let mut table = csv.columns(choose)?;
+    check_phase(csv, &table.names[0])?;
     let unit = degrees(&table.names[1]);
     let to_degrees = unit.map_err(|problem| csv.bad(&problem))?;
     table.rows.iter_mut().for_each(|row| row[1] *= to_degrees);
@@ -70,6 +71,35 @@ fn degrees(column: &str) -> Result<f64, String> {
         (true, false) => Ok(1f64.to_degrees()),
         (false, _) => Ok(1.0),
     }
+}
+
+/// Words in the name of a column that say a unit of time, or count frames.
+const TIMES: [&str; 11] = [
+    "s",
+    "ms",
+    "us",
+    "sec",
+    "secs",
+    "second",
+    "seconds",
+    "millisecond",
+    "milliseconds",
+    "frame",
+    "frames",
+];
+
+/// Refuses phases whose column says that they are times.
+fn check_phase(csv: &CsvFile, column: &str) -> Result<(), Fault> {
+    let words = words_of(column);
+    let Some(unit) = words.iter().find(|w| TIMES.contains(&w.as_str())) else {
+        return Ok(());
+    };
+    let mut fault = csv.bad(&format!(
+        "its column `{column}` says `{unit}`, and phases are in wingbeats"
+    ));
+    fault.remedy =
+        "divide the times by the period of a wingbeat, and name the column `phase`".to_owned();
+    Err(fault)
 }
 
 /// Refuses a second column that is named after another angle than the key's.
