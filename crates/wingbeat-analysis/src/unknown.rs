@@ -151,6 +151,27 @@ impl Bound {
         Self { unknown, from, to }
     }
 
+    /// Refuses a relative change with which wings stand still or stroke the other way round.
+    ///
+    /// # Errors
+    /// What is allowed.
+    pub fn check(&self) -> Result<(), String> {
+        let (least, most, allowed) = match self.unknown {
+            Unknown::StrokeAmplitude | Unknown::Frequency => (-1.0, f64::INFINITY, "above -1"),
+            Unknown::StrokeAmplitudeDifference => (-2.0, 2.0, "above -2 and below 2"),
+            _ => return Ok(()),
+        };
+        match self.from > least && self.to < most {
+            true => Ok(()),
+            false => Err(format!(
+                "{} from {} to {} has wings that stand still or stroke the other way round: its values are parts of 1, not percent, {allowed}; -0.2..0.2 is 20 % less to 20 % more",
+                self.unknown.name(),
+                self.from,
+                self.to
+            )),
+        }
+    }
+
     /// By how much `x` is inside; negative outside.
     pub(crate) fn room(&self, x: f64) -> f64 {
         (x - self.from).min(self.to - x)

@@ -4,6 +4,7 @@
 mod angles;
 mod csv_file;
 mod outline;
+mod read;
 
 use std::io::Read as _;
 use std::path::Path;
@@ -11,11 +12,9 @@ use std::sync::{Mutex, PoisonError};
 
 use wingbeat_model::import;
 
+use self::read::{MAX_BYTES, bytes_of, check_file, check_size, twice};
 use super::raw::{AngleCase, Case, PartCase, PlanformCase};
 use crate::error::{Fault, IoError};
-
-/// Bytes of a file at most: a mesh of some million panels.
-const MAX_BYTES: u64 = 200_000_000;
 
 /// The text of a case file.
 ///
@@ -70,23 +69,6 @@ pub(crate) fn text_of_input() -> Result<String, IoError> {
     Ok(text)
 }
 
-/// Devices and pipes, which may never end, are not read; nor is what would fill the memory.
-fn check_file(path: &Path) -> std::io::Result<()> {
-    let data = std::fs::metadata(path)?;
-    if !data.is_file() {
-        return Err(std::io::Error::other("it is not a file"));
-    }
-    check_size(data.len())
-}
-
-fn check_size(bytes: u64) -> std::io::Result<()> {
-    if bytes > MAX_BYTES {
-        let problem = format!("it is larger than {} MB", MAX_BYTES / 1_000_000);
-        return Err(std::io::Error::other(problem));
-    }
-    Ok(())
-}
-
 /// Reads files of meshes, outlines and tables; paths are relative to `base`.
 pub(crate) fn read_in(case: &mut Case, base: &Path) -> Result<(), Fault> {
     for (name, part) in &mut case.body.part {
@@ -112,26 +94,6 @@ pub(crate) fn read_in(case: &mut Case, base: &Path) -> Result<(), Fault> {
         }
     }
     Ok(())
-}
-
-fn twice(key: String, what: &str, allowed: &str) -> Fault {
-    let problem = format!("{what} is given twice");
-    Fault::new(key, problem, allowed, "remove one of them")
-}
-
-fn unreadable(key: String, file: &Path, e: &std::io::Error) -> Fault {
-    Fault::new(
-        key,
-        format!("cannot read `{}`: {e}", file.display()),
-        "a file; paths are relative to the case file",
-        "check the name and the folder",
-    )
-}
-
-/// The bytes of a file.
-fn bytes_of(key: &str, file: &Path) -> Result<Vec<u8>, Fault> {
-    let read = check_file(file).and_then(|()| std::fs::read(file));
-    read.map_err(|e| unreadable(key.to_owned(), file, &e))
 }
 
 fn read_mesh(path: &str, part: &mut PartCase, base: &Path) -> Result<(), Fault> {

@@ -15,6 +15,8 @@ pub struct FittedTable {
     pub harmonics: usize,
     /// Samples of the table, the repetition of the first left out \[1\].
     pub samples: usize,
+    /// How long the samples go on \[wingbeats\].
+    pub span: f64,
     /// Root mean square of what is left between samples and series \[deg\].
     pub residual_deg: f64,
     /// Most that is left of a sample \[deg\], and its phase \[wingbeats\].
@@ -29,6 +31,9 @@ const NOISE_DEG: f64 = 3.0;
 /// A sample farther off than so many times the root mean square is none of the others' kind; of two hundred with normal noise the
 /// farthest is at 3.
 const OUTLIER: f64 = 5.0;
+
+/// Samples of a single beat do not go on for longer, rounding aside \[wingbeats\].
+const ONE_BEAT: f64 = 1.001;
 
 impl FittedTable {
     /// Why samples or number of harmonics are to be doubted; none if the series follows the samples.
@@ -47,9 +52,16 @@ impl FittedTable {
                 n.harmonics
             )
         });
+        let times = match self.span > ONE_BEAT {
+            true => format!(
+                "if the phases, {:.4} wingbeats in all, are times, give beats_per_unit; else ",
+                self.span
+            ),
+            false => String::new(),
+        };
         let coarse = (rms > NOISE_DEG || is_outlier).then(|| {
             format!(
-                "{}: {} harmonics leave {rms:.1} deg (rms) and {most:.1} deg of the sample at phase {phase}: take out samples that are no measurements (lost frames), or fit more harmonics",
+                "{}: {} harmonics leave {rms:.1} deg (rms) and {most:.1} deg of the sample at phase {phase}: {times}take out samples that are no measurements (lost frames), or fit more harmonics",
                 self.key, self.harmonics
             )
         });
@@ -85,6 +97,7 @@ fn of_wing(name: &str, motion: &WingMotionCase) -> Vec<FittedTable> {
             key: format!("wing.{name}.motion.{angle}.table"),
             harmonics,
             samples: left.len(),
+            span: rows[rows.len() - 1][0] - rows[0][0],
             residual_deg: square.sqrt().to_degrees(),
             farthest: [farthest.1, rows[farthest.0][0]],
             noise: series.scatter(left.len()),

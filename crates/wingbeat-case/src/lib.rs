@@ -32,7 +32,9 @@ pub mod raw;
 mod resolve;
 mod sides;
 mod source;
+mod species;
 mod trimmed;
+mod ways;
 mod written;
 
 pub use build::column_name;

@@ -40,7 +40,8 @@ impl LoadedCase {
         overrides: &[String],
     ) -> Result<Self, IoError> {
         let source = CaseSource::new(origin, text, overrides)?;
-        let mut raw: raw::Case = decode::decode(&source).map_err(of_another_table)?;
+        let decoded = decode::decode(&source).map_err(of_another_table);
+        let mut raw: raw::Case = decoded.map_err(|e| of_a_campaign(&source, e))?;
         let stem = Path::new(origin)
             .file_stem()
             .and_then(|s| s.to_str())
@@ -232,6 +233,18 @@ fn of_another_table(mut error: Box<CaseError>) -> Box<CaseError> {
     let places = keys::places(name);
     if !places.is_empty() && places.len() <= MOST {
         error.remedy = format!("did you mean `{}`?", places.join("` or `"));
+    }
+    error
+}
+
+/// An unknown key in the file of a campaign, which names a case.
+fn of_a_campaign(source: &CaseSource, mut error: Box<CaseError>) -> Box<CaseError> {
+    let names_a_case = source.written("case").is_some();
+    if names_a_case && error.problem.starts_with("unknown key") {
+        error.remedy = format!(
+            "this is the file of a campaign, which `wingbeat campaign run {}` flies",
+            source.name
+        );
     }
     error
 }

@@ -2,6 +2,7 @@
 
 use crate::decode::nearest;
 use crate::error::IoError;
+use crate::species::SPECIES;
 
 /// An embedded case.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -88,9 +89,17 @@ pub fn find(name: &str) -> Result<Preset, IoError> {
     let found = PRESETS.iter().find(|p| p.name == name);
     found.copied().ok_or_else(|| {
         let names: Vec<&str> = PRESETS.iter().map(|p| p.name).collect();
+        let is_species = SPECIES.iter().any(|s| s.name == name);
+        let hint = match nearest(name, &names) {
+            _ if is_species => {
+                format!(", but a species: `wingbeat new --species {name}` writes a case of it")
+            }
+            Some(near) => format!(", did you mean `{near}`?"),
+            None => String::new(),
+        };
         IoError::NoCase {
             name: name.to_owned(),
-            hint: nearest(name, &names).map_or(String::new(), |n| format!(", did you mean `{n}`?")),
+            hint,
         }
     })
 }

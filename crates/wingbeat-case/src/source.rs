@@ -218,6 +218,14 @@ impl CaseSource {
         let document = format!("value = {typed}").parse::<Table>();
         let value = match document {
             Ok(mut table) if table.len() == 1 => table.remove("value"),
+            Err(e) if is_no_word(typed) && with_all_digits(typed).is_none() => {
+                return Err(Box::new(CaseError {
+                    allowed: "TOML: numbers, \"texts\", [lists], { tables }".to_owned(),
+                    remedy: "correct it there; in lists and tables texts stand between quotes"
+                        .to_owned(),
+                    ..*wrong(key, not_toml(typed, &e))
+                }));
+            }
             _ => None,
         };
         if let (None, Some(whole)) = (&value, with_all_digits(typed)) {
@@ -232,6 +240,23 @@ impl CaseSource {
         self.overrides.push((key.to_owned(), typed.to_owned()));
         Ok(())
     }
+}
+
+/// Whether a value begins as a list or a table, or is a number, none of which is a text without quotes.
+fn is_no_word(typed: &str) -> bool {
+    typed.starts_with(['[', '{']) || typed.parse::<f64>().is_ok_and(f64::is_finite)
+}
+
+/// What is wrong with a value, and where in it.
+fn not_toml(typed: &str, error: &toml::de::Error) -> String {
+    let at = error.span().map_or(0, |s| s.start);
+    let at = at.saturating_sub("value = ".len()).min(typed.len());
+    let place = match typed.get(at..).unwrap_or_default() {
+        "" => "at its end".to_owned(),
+        rest => format!("at `{}`", shortened(rest)),
+    };
+    let message = error.message().trim().replace('\n', ", ");
+    format!("this is not TOML: {message}, {place}")
 }
 
 /// The value with zeros where numbers lack digits before or after their point; none where that makes no numbers of it.

@@ -174,6 +174,62 @@ fn refuses_phases_in_other_units_by_the_line() {
     }
 }
 
+/// Times in place of phases of angles that harmonics are fitted to: by their span, the name of their column or what the fit leaves.
+#[test]
+fn refuses_times_in_place_of_phases_with_harmonics() {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("times");
+    fs::create_dir_all(&folder).unwrap();
+    // Two beats of 5 ms.
+    let law_at = |column: &str, unit: f64, step: f64| {
+        let file = folder.join(format!("{column}.csv"));
+        let row = |k: i32| {
+            let time = step * f64::from(k);
+            let angle = 60.0 * (std::f64::consts::TAU * 200.0 * time).sin();
+            format!("{},{angle}\n", time / unit)
+        };
+        let rows: String = (0..=50).map(row).collect();
+        fs::write(&file, format!("{column},phi\n{rows}")).unwrap();
+        format!("wing.right.motion.phi={{ table = {{ file = {file:?}, harmonics = 4 }} }}")
+    };
+    let law = |column: &str, unit: f64| law_at(column, unit, 1e-2 / 49.0);
+    let seconds = refusal("fruit-fly-tethered", &[&law("time", 1.0)]);
+    assert!(
+        seconds.contains("all phases lie within 0.0102 wingbeats; times are to be divided by"),
+        "{seconds}"
+    );
+    let named = refusal("fruit-fly-tethered", &[&law("time_ms", 1e-3)]);
+    assert!(
+        named.contains("its column `time_ms` says `ms`") && named.contains("period of a wingbeat"),
+        "{named}"
+    );
+    // A whole number of samples in a millisecond.
+    let coarse = refusal("fruit-fly-tethered", &[&law_at("time", 1e-3, 2e-4)]);
+    assert!(
+        coarse.contains("fewer harmonics; times are to be divided"),
+        "{coarse}"
+    );
+    let doubts = |law: String| {
+        let case = LoadedCase::find("fruit-fly-tethered", &[law]).unwrap();
+        case.doubtful_measurements().join("\n")
+    };
+    let folded = doubts(law("time", 1e-3));
+    assert!(
+        folded.contains("10.2041 wingbeats in all, are times, divide them"),
+        "{folded}"
+    );
+    assert_eq!(doubts(law("phase", 5e-3)), "");
+}
+
+/// Angles that drift are for harmonics, too.
+#[test]
+fn refuses_tables_that_do_not_close_with_harmonics_as_remedy() {
+    let law =
+        "wing.right.motion.phi={ table = { rows_deg = [[0, 10], [0.3, 3], [0.6, -10], [1, 14]] } }";
+    let said = refusal("fruit-fly-tethered", &[law]);
+    let problem = said.lines().find(|l| l.contains("not periodic")).unwrap();
+    assert!(problem.contains("fitted by `harmonics`"), "{said}");
+}
+
 #[test]
 fn exact_angles_of_a_file_are_in_the_unit_that_their_column_says() {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("units");
@@ -491,4 +547,76 @@ fn refuses_a_gust_through_the_ground_in_words() {
         said.contains("air.gust") && said.contains("the gust blows through the ground"),
         "{said}"
     );
+}
+
+/// A place in millimetres for metres; half a metre in two seconds is flown.
+#[test]
+fn behaves_ways_that_no_flyer_covers_are_doubted() {
+    let doubts = |waypoints: &str| {
+        let set = format!("control.waypoint={waypoints}");
+        let case = LoadedCase::find("fruit-fly-controlled", &[set]).unwrap();
+        case.doubtful_ways(&wingbeat_analysis::estimate(&case.setup))
+    };
+    assert_eq!(doubts("[{time_s=2, position_m=[0.5, 0, 0]}]"), [""; 0]);
+    let far = "{time_s=0.1, heading_deg=10}, {time_s=0.3, position_m=[7.5, 0, 0]}";
+    let [said] = &doubts(&format!("[{far}, {{time_s=9, position_m=[8, 0, 0]}}]"))[..] else {
+        panic!("one way is too fast");
+    };
+    // 35/16 of 7.5 m in 0.2 s.
+    assert!(
+        said.starts_with("control.waypoint[1]: the way there takes up to 82.031 m/s"),
+        "{said}"
+    );
+    assert!(said.contains("is position_m in metres"), "{said}");
+}
+
+/// Values of overrides that begin as a list or a table, or are numbers, and are no TOML.
+#[test]
+fn refuses_slips_of_lists_tables_and_numbers_where_they_are() {
+    for (set, says) in [
+        (
+            "air.gust=[{amplitude_m_s=[0,0,1],duration_s=1]",
+            "this is not TOML: ",
+        ),
+        ("air.gust=[{amplitude_m_s=[0,0,1],duration_s=1]", ", at `]`"),
+        ("air.shed=[trailing]", "texts stand between quotes"),
+        ("control={ controller = \"regulator\"", ", at its end"),
+        (
+            "air.gust=[{amplitude_m_s=[0,0,1], seed=9223372036854775808}]",
+            "at `9223372036854775808}]`",
+        ),
+        (
+            "output.frames_every=9223372036854775808",
+            "this is not TOML",
+        ),
+        (
+            "air.gust=[{amplitude_m_s=[0,0,1], turbulence={ time_scale_s=1, seed=-1 }}]",
+            "a whole number >= 0",
+        ),
+    ] {
+        let said = refusal("fruit-fly-blade", &[set]);
+        assert!(said.contains(says), "{set}: {said}");
+    }
+}
+
+/// What is no case and no preset, but something else that the program knows.
+#[test]
+fn refuses_species_and_campaigns_with_the_command_that_takes_them() {
+    let said = refusal("honeybee", &[]);
+    assert!(said.contains("`wingbeat new --species honeybee`"), "{said}");
+    let text = "case = \"fruit-fly-blade\"\nkeep = [\"power_watt\"]\n[budget]\n";
+    let map = LoadedCase::from_text("map.toml", text, Path::new(""), &[]);
+    let said = map.expect_err("a campaign").to_string();
+    assert!(said.contains("`wingbeat campaign run map.toml`"), "{said}");
+}
+
+/// A bound of a time is written without the rounding of its sum.
+#[test]
+fn refuses_waypoints_within_a_wingbeat_with_a_plain_bound() {
+    let waypoints = "control.waypoint=[{time_s=0.1}, {time_s=0.101}]";
+    let said = refusal(
+        "fruit-fly-controlled",
+        &[waypoints, "motion.frequency_hz=200"],
+    );
+    assert!(said.contains("allowed: a number >= 0.105\n"), "{said}");
 }

@@ -165,7 +165,9 @@ impl System {
         // Flying animals: 30 kg/m3 (a bee's mass over its wing length cubed) to 3000.
         if !(0.1..1e5).contains(&density) {
             out.push(format!(
-                "total mass {mass} kg with wing length {length} m: mass over length cubed is {density:.1e} kg/m3, flying animals have 1 to 10000; check the units of mass and length"
+                "total mass {} kg with wing length {} m: mass over length cubed is {density:.1e} kg/m3, flying animals have 1 to 10000; check the units of mass and length",
+                rounded(mass),
+                rounded(length)
             ));
         }
         let g = self.gravity.length();
@@ -240,6 +242,11 @@ fn check_carrying(hinge: &Joint) -> Result<(), DynamicsError> {
 }
 
 /// Where the coordinates of the hinges lie.
+/// A number to four digits.
+fn rounded(x: f64) -> f64 {
+    format!("{x:.3e}").parse().unwrap_or(x)
+}
+
 fn offsets(hinges: &[Joint]) -> Vec<JointOffsets> {
     let next = |before: &mut JointOffsets, h: &Joint| {
         *before = JointOffsets::after(before, h.model.kind);

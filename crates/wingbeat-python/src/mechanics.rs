@@ -74,7 +74,12 @@ pub fn problem(
             return Err(refused(py, "bounds", &problem, remedy));
         }
         let (from, to) = (*from, *to);
-        problem.bounds.push(Limits { unknown, from, to });
+        let bound = Limits { unknown, from, to };
+        if let Err(problem) = bound.check() {
+            let remedy = "parts of 1, which is the whole of what the animal has";
+            return Err(refused(py, "bounds", &problem, remedy));
+        }
+        problem.bounds.push(bound);
     }
     Ok(problem)
 }

@@ -176,6 +176,12 @@ fn behaves_noise_in_angles_is_named_and_a_fit_takes_it_out() {
     ));
     assert!(says(&noisy, "`harmonics = 1` in this table"));
     assert!(noisy.verdict >= Verdict::Amber);
+    assert!(
+        noisy.warnings[0].starts_with("Angles that scatter"),
+        "{:?}",
+        noisy.warnings
+    );
+    assert!(!says(&noisy, "take smaller steps"), "{:?}", noisy.warnings);
     let fitted = fly(&table(", harmonics=1"));
     assert!(!says(&fitted, "scatter"), "{:?}", fitted.warnings);
 }
@@ -548,4 +554,12 @@ fn behaves_a_gust_that_travels_has_no_impulse_budget() {
     assert!(budget.residual_relative < 0.05, "{budget:?}");
     assert!(front.impulse_budget.is_none());
     assert!(!front.to_text().contains("impulse residual"));
+}
+
+/// Feedback of a body that is held to its end has nothing to say.
+#[test]
+fn behaves_feedback_of_a_held_body_is_not_judged() {
+    let fly = |held: &str| flown(&preset("fruit-fly-controlled", &[held, "time.beats=2"]));
+    assert!(!says(&fly("flight.held_beats=2"), "commands stood"));
+    assert!(says(&fly("flight.held_beats=1"), "commands stood"));
 }

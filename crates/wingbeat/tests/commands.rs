@@ -190,6 +190,21 @@ fn behaves_a_turn_is_written_without_feedback() {
 }
 
 #[test]
+fn refuses_speeds_with_a_unit_for_the_unit() {
+    let scratch = Scratch::new("speed-unit");
+    let with_unit = refused(&scratch.0, 2, &["trim", "--forward", "5m/s"]);
+    assert!(
+        with_unit.contains("a number alone, without a unit"),
+        "{with_unit}"
+    );
+    let fast = refused(&scratch.0, 2, &["trim", "--forward", "1e6"]);
+    assert!(
+        fast.contains("below that of sound") && !fast.contains("without a unit"),
+        "{fast}"
+    );
+}
+
+#[test]
 fn refuses_bounds_that_are_none_and_reports_trims_outside() {
     let scratch = Scratch::new("bounds");
     let dir = &scratch.0;
@@ -197,6 +212,12 @@ fn refuses_bounds_that_are_none_and_reports_trims_outside() {
         ("stroke_amplitude=0.2..-0.2", "FROM below TO"),
         ("lift=0..1", "stroke_amplitude"),
         ("stroke_plane=0..1", "not among the unknowns"),
+        (
+            "stroke_amplitude=-20..20",
+            "parts of 1, not percent, above -1",
+        ),
+        ("frequency=-1..0.5", "parts of 1, not percent, above -1"),
+        ("stroke_amplitude_difference=-5..5", "above -2 and below 2"),
     ] {
         let problem = refused(dir, 2, &["trim", "--bound", bound]);
         assert!(problem.contains(what), "{problem}");
@@ -476,6 +497,14 @@ fn balances_stabilised_hover_is_drawn() {
         "s.svg",
     ];
     let text = said(dir, &args);
+    for words in [
+        "disturbed by 10.00 deg, 100 wingbeats under feedback: at most",
+        "within 1 deg of its attitude from beat",
+        "commands at their limits in",
+        "wrote s.svg",
+    ] {
+        assert!(text.contains(words), "no `{words}` in {text}");
+    }
     let rows: Vec<Vec<f64>> = text
         .lines()
         .map(|l| l.split(',').map_while(|w| w.parse().ok()).collect())

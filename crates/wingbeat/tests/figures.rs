@@ -111,6 +111,17 @@ fn exact_every_figure_is_drawn_in_all_styles_and_formats() {
     let paper = fs::read_to_string(scratch.0.join("paper/forces.svg")).unwrap();
     assert!(paper.contains("width=\"510pt\""), "180 mm are 510 points");
     assert!(!paper.contains("fruit-fly-hover"), "a title in a paper");
+    // What the title would say is said for the caption.
+    let again = [
+        "plot", "run", "wake", "forces", "--style", "paper", "--out", "again",
+    ];
+    let said = String::from_utf8(wingbeat(&scratch.0, &again).stderr).unwrap();
+    for words in [
+        "for the caption of again/wake.svg: fruit-fly-hover: wakes after 1.25 wingbeats",
+        "for the caption of again/forces.svg: fruit-fly-hover: forces and power (downstroke",
+    ] {
+        assert!(said.contains(words), "{said}");
+    }
     let axes = [
         "force of the air / weight",
         "power of the hinges [µW]",
@@ -247,7 +258,11 @@ fn exact_a_window_of_the_flight_is_drawn() {
             "chord of wing right and force of the air in wingbeat 2<",
         ),
         ("lollipop", &[], "in the last wingbeat<"),
-        ("beats", &second, "with means, 1 to 2 wingbeats<"),
+        (
+            "beats",
+            &second,
+            "with means (downstroke shaded), 1 to 2 wingbeats<",
+        ),
         ("phase", &second, ", 1 to 2 wingbeats<"),
         ("path", &second, ">after 1 beat<"),
         ("path", &[], ">start<"),

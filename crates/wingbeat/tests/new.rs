@@ -160,13 +160,18 @@ fn behaves_sizes_that_are_not_given_say_where_they_come_from() {
 fn refuses_insects_that_are_none() {
     let scratch = Scratch::new("new-refused");
     let dir = &scratch.0;
-    let lines: [(&[&str], &str); 17] = [
+    let lines: [(&[&str], &str); 19] = [
         (&["bumblebee-blade", "--species", "honeybee"], "two cases"),
         (&["--species", "honeybe"], "did you mean `honeybee`?"),
         (
             &["--species", "honeybee", "--mass", "1mg"],
-            "cannot be used with",
+            "cannot be used with --mass, --wing or --frequency",
         ),
+        (
+            &["--species", "honeybee", "--mass", "1mg"],
+            "change body.mass_kg",
+        ),
+        (&["bumblebee-blade", "--mass", "80mg"], "animal.scale"),
         (&["--mass", "100"], "with its unit"),
         (&["--mass", "-5mg"], "from 20ug to 50g"),
         (&["--mass", "nanmg"], "with its unit"),

@@ -307,6 +307,7 @@ fn refuses_answers_of_a_controller_that_cannot_be_flown() {
         (&format!("echo '{key}'")[..], "unknown field `frequency`"),
         ("echo '{}'", "has no \"wings\""),
         (r#"echo '{"error":"I am lost"}'"#, "I am lost"),
+        (r#"echo '{"error":""}'"#, "an error without words"),
         (
             "sleep 9",
             "no answer within 2 s; allow more with control.external.timeout_s",

@@ -228,7 +228,7 @@ fn table(path: &str, table: &TableCase) -> Built<AngleLaw> {
             ],
             Some(_) => [
                 "at least 4 rows [phase, angle], phases in wingbeats that do not fall, neighbours within a beat less than 1 / (2 harmonics) apart",
-                "divide times by the period of a wingbeat; give more samples, or fewer harmonics",
+                "give beats_per_unit where these are times; give more samples, or fewer harmonics",
             ],
         };
         Fault::new(format!("{path}.rows_deg{row}"), e.to_string(), allowed, remedy)

@@ -242,7 +242,10 @@ impl Conversation {
             )
         })?;
         if let Some(problem) = answer.error {
-            return Err(problem);
+            return Err(match problem.trim() {
+                "" => "its answer is an error without words, {\"error\": \"\"}".to_owned(),
+                _ => problem,
+            });
         }
         let wings = answer.wings.ok_or_else(|| {
             "its answer has no \"wings\": {\"wings\": [{...}, ...]}, one {...} for each".to_owned()

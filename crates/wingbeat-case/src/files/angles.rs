@@ -7,7 +7,7 @@ use wingbeat_model::ModelError;
 use wingbeat_model::motion::{Fourier, PeriodicSpline};
 
 use super::csv_file::{CsvFile, words_of};
-use super::twice;
+use super::read::twice;
 use crate::error::Fault;
 use crate::raw::TableCase;
 
@@ -40,8 +40,8 @@ pub(super) fn read(path: &str, table: &mut TableCase, base: &Path) -> Result<(),
 
 /// How a table counts phases and angles.
 struct Convention {
-    /// Wingbeats in one unit of its first column.
-    beats_per_unit: f64,
+    /// Wingbeats in one unit of its first column; none of phases.
+    beats_per_unit: Option<f64>,
     factor: f64,
     /// Of the angle that it calls 0 \[deg\].
     offset: f64,
@@ -51,7 +51,7 @@ impl Convention {
     /// That of the table at `path`, whose rows are in this program's from then on.
     fn take(path: &str, table: &mut TableCase) -> Result<Self, Fault> {
         let convention = Self {
-            beats_per_unit: table.beats_per_unit.take().unwrap_or(1.0),
+            beats_per_unit: table.beats_per_unit.take(),
             factor: table.factor.take().unwrap_or(1.0),
             offset: table.offset_deg.take().unwrap_or(0.0),
         };
@@ -67,7 +67,8 @@ impl Convention {
     }
 
     fn apply(&self, [x, angle]: [f64; 2]) -> [f64; 2] {
-        [x * self.beats_per_unit, self.factor * angle + self.offset]
+        let x = self.beats_per_unit.map_or(x, |beats| beats * x);
+        [x, self.factor * angle + self.offset]
     }
 }
 
@@ -89,6 +90,9 @@ fn rows(
         Ok(columns)
     };
     let table = csv.columns(choose)?;
+    if convention.beats_per_unit.is_none() {
+        check_phase(csv, &table.names[0])?;
+    }
     let unit = degrees(&table.names[1]);
     let to_degrees = unit.map_err(|problem| csv.bad(&problem))?;
     let converted = |&[x, angle]: &[f64; 2]| convention.apply([x, to_degrees * angle]);
@@ -109,6 +113,35 @@ fn degrees(column: &str) -> Result<f64, String> {
         (true, false) => Ok(1f64.to_degrees()),
         (false, _) => Ok(1.0),
     }
+}
+
+/// Words in the name of a column that say a unit of time, or count frames.
+const TIMES: [&str; 11] = [
+    "s",
+    "ms",
+    "us",
+    "sec",
+    "secs",
+    "second",
+    "seconds",
+    "millisecond",
+    "milliseconds",
+    "frame",
+    "frames",
+];
+
+/// Refuses phases whose column says that they are times.
+fn check_phase(csv: &CsvFile, column: &str) -> Result<(), Fault> {
+    let words = words_of(column);
+    let Some(unit) = words.iter().find(|w| TIMES.contains(&w.as_str())) else {
+        return Ok(());
+    };
+    let mut fault = csv.bad(&format!(
+        "its column `{column}` says `{unit}`, and phases are in wingbeats"
+    ));
+    fault.remedy =
+        "give beats_per_unit, the wingbeats in one unit of it: the frequency in Hz for seconds; or phases, in a column named `phase`".to_owned();
+    Err(fault)
 }
 
 /// Refuses a second column that is named after another angle than the key's.

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use csv::StringRecord;
 
-use super::bytes_of;
+use super::read::bytes_of;
 use crate::error::Fault;
 
 /// A CSV file, and the key that names it.

@@ -6,7 +6,7 @@ use csv::StringRecord;
 use wingbeat_model::planform::{Landmarks, Planform};
 
 use super::csv_file::{CsvFile, words_of};
-use super::twice;
+use super::read::twice;
 use crate::error::Fault;
 use crate::raw::OutlineCase;
 

@@ -1,13 +1,12 @@
 //! Cases of insects that no preset holds: from a species, or from a few sizes and scaling laws, as a commented
 //! case file that hovers.
 //!
-//! The chapter in order: `species` is what is known, `scaling` fills in what is not given, `text` writes
+//! The chapter in order: `species`, beside this one, is what is known, `scaling` fills in what is not given, `text` writes
 //! the case. The stroke is the one with which blade elements carry the weight on average
 //! ([`wingbeat_analysis::estimate`]).
 
 mod number;
 mod scaling;
-mod species;
 mod text;
 
 use std::path::Path;
@@ -18,8 +17,8 @@ use crate::error::IoError;
 use crate::loaded::LoadedCase;
 use scaling::Insect;
 
+pub use crate::species::{SPECIES, Species};
 pub use scaling::Size;
-pub use species::{SPECIES, Species};
 pub use text::InsectAir;
 
 /// Strokes from end to end that are looked at \[deg\].

@@ -9,8 +9,8 @@
 //! Index 0 is the nearest species. Deakin's constant is taken from a later review, which quotes it.
 
 use super::number::number;
-use super::species::Species;
 use crate::error::IoError;
+use crate::species::Species;
 
 /// Deakin's constant in SI units \[Hz m2 / sqrt(kg)\]: 317 for grams and square centimetres.
 const DEAKIN: f64 = 317.0 * 31.622_776_601_683_793 * 1e-4;

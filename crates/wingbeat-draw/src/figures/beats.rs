@@ -5,7 +5,8 @@ use wingbeat_flight::FlightSetup;
 use super::drawing::{COLOURS, Drawing};
 use super::grid::grid;
 use super::plot::{self, Band, Curve, Plot};
-use super::strokes::{downstrokes, stroke};
+use super::shades::Shades;
+use super::strokes::{downstrokes, stroke, strokes};
 use super::style::Look;
 use super::units::{force_unit, prefix, scaled};
 use wingbeat_results::History;
@@ -34,8 +35,15 @@ pub(super) fn beats(
         .iter()
         .map(|q| over_phase(setup, history, &x, q, look))
         .collect();
+    let words = match plots[0].shaded.is_empty() {
+        true => String::new(),
+        false => Shades::new(&strokes(setup, history), &x).words(setup, false),
+    };
     plots.extend(quantities.iter().map(|q| over_beats(q, look)));
-    let title = format!("{}: wingbeat by wingbeat, with means{note}", setup.name);
+    let title = format!(
+        "{}: wingbeat by wingbeat, with means{words}{note}",
+        setup.name
+    );
     let (columns, height) = (quantities.len(), 1.15 * look.panel);
     Some(grid(&plots, columns, height, &title, look).0)
 }
@@ -94,7 +102,8 @@ fn over_phase(
     curves.extend(last_beats(&beats, later.len() > 2, look));
     let [number, last] = means[means.len() - 1];
     let ends = vec![[0.0, last], [1.0, last]];
-    let mut mean = plot::curve("its mean", ends, COLOURS[1], 1, look);
+    let colour = curves.last().map_or(COLOURS[1], |beat| beat.stroke.colour);
+    let mut mean = plot::curve("its mean", ends, colour, 1, look);
     mean.stroke.dash = &[1.5, 1.5];
     let inside = curves.iter().flat_map(|c| &c.points).map(|p| p[1]);
     let edges = bands
@@ -175,6 +184,7 @@ fn over_beats((label, _, means): &Quantity, look: &Look) -> Plot {
         x_label: "number of the wingbeat".to_owned(),
         y_label: format!("mean {label}"),
         x: ends,
+        counts: true,
         y,
         curves: vec![Curve {
             dotted: true,
@@ -188,8 +198,11 @@ fn over_beats((label, _, means): &Quantity, look: &Look) -> Plot {
 mod tests {
     use super::*;
     use crate::figures::Style;
+    use crate::figures::drawing::{Anchor, Mark};
     use wingbeat_case::LoadedCase;
+    use wingbeat_flight::Record;
     use wingbeat_results::columns::Columns;
+    use wingbeat_results::{Outcome, Summary};
 
     /// Of many wingbeats those that the summary counts, of few the last two; no two lines with one dash on paper.
     #[test]
@@ -212,7 +225,69 @@ mod tests {
                 let others = &plot.curves[k + 1..];
                 assert!(others.iter().all(|b| b.stroke.dash != a.stroke.dash));
             }
+            let [.., beat, mean] = &plot.curves[..] else {
+                panic!("two curves or more");
+            };
+            assert_eq!(beat.stroke.colour, mean.stroke.colour);
         }
+    }
+
+    /// Beats have whole numbers, few or many.
+    #[test]
+    fn exact_ticks_at_wingbeats_are_whole() {
+        let look = Style::Screen.look();
+        for count in [1, 2, 3, 7, 40] {
+            let means = (1..=count).map(|k| [f64::from(k), 1.0]).collect();
+            let quantity = ("power [W]".to_owned(), vec![], means);
+            let drawing = grid(&[over_beats(&quantity, &look)], 1, 100.0, "", &look).0;
+            let along = drawing.marks.iter().filter_map(|m| match m {
+                Mark::Text { text, anchor, .. } if *anchor == Anchor::Middle => Some(text),
+                _ => None,
+            });
+            let numbers: Vec<&String> = along.filter(|t| t.parse::<f64>().is_ok()).collect();
+            assert!(!numbers.is_empty(), "{count}");
+            assert!(
+                numbers.iter().all(|t| t.parse::<i32>().is_ok()),
+                "{numbers:?}"
+            );
+        }
+    }
+
+    /// The title says what is shaded, and of which wing where wings beat apart.
+    #[test]
+    fn exact_the_title_says_whose_downstrokes_are_shaded() {
+        let titled = |case: &str, lead: f64| {
+            let setup = LoadedCase::find(case, &[]).unwrap().setup;
+            let columns = Columns::new(&setup, false).unwrap();
+            let steps = setup.time.steps_per_beat().expect("beats");
+            let record = |k: usize| {
+                let mut record = columns.blank();
+                (record.step, record.time) = (k, k as f64 * setup.time.step);
+                for (angles, wing) in record.wing_angles.iter_mut().zip(&setup.animal.wings) {
+                    let lead = if wing.name.contains("fore") {
+                        lead
+                    } else {
+                        0.0
+                    };
+                    let x = std::f64::consts::TAU * (k as f64 / steps as f64 + lead);
+                    angles[0] = wing.side.sign() * x.sin();
+                }
+                record
+            };
+            let records: Vec<Record> = (0..=2 * steps).map(record).collect();
+            let history = History::of(&columns, &records);
+            let summary = Summary::of(&setup, &records, &Outcome::Finished);
+            let look = Style::Screen.look();
+            let drawn = beats(&setup, &history, (&summary.beats, ", note"), &look);
+            drawn.expect("a figure").title
+        };
+        let one = titled("fruit-fly-blade", 0.0);
+        assert!(one.ends_with("(downstroke shaded), note"), "{one}");
+        let two = titled("dragonfly", 0.25);
+        assert!(
+            two.contains("(downstroke of wing hind right shaded)"),
+            "{two}"
+        );
     }
 
     /// Three beats of a ramp, one higher, one lower than the middle one by 1: spread 1 at every phase.

@@ -98,6 +98,7 @@ impl Chart {
             },
             y_label: panel.label.clone(),
             x: self.x_range(),
+            counts: false,
             y: panel.range(),
             logarithmic: panel.logarithmic,
             shaded: panel.shaded.as_ref().unwrap_or(&self.shaded).clone(),

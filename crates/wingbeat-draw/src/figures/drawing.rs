@@ -92,6 +92,8 @@ pub(super) enum Mark {
 /// Marks in the order they are drawn.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Drawing {
+    /// What it shows, for its title or the caption.
+    pub title: String,
     /// Width and height \[points\].
     pub size: [f64; 2],
     /// What they are on.
@@ -102,6 +104,7 @@ pub(super) struct Drawing {
 impl Drawing {
     pub fn new(size: [f64; 2]) -> Self {
         Self {
+            title: String::new(),
             size,
             ground: GROUND,
             marks: vec![],

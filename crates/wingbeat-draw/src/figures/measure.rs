@@ -5,7 +5,6 @@ use wingbeat_flight::FlightSetup;
 
 use super::chart::{Chart, Panel, Series};
 use super::shades::Shades;
-use super::strokes::reference_wing;
 use super::units::{force_unit, prefix, scaled};
 
 /// A figure.
@@ -233,12 +232,9 @@ impl Measured {
             false => vec![],
         };
         let each = self.panels.iter().all(|p| p.wing.is_some());
-        let words = match (shaded.is_empty(), reference_wing(setup)) {
-            (true, _) => String::new(),
-            (_, Some((wing, _))) if shades.differ() && !each => {
-                format!(" (downstroke of {} shaded)", wing.replace('_', " "))
-            }
-            _ => " (downstroke shaded)".to_owned(),
+        let words = match shaded.is_empty() {
+            true => String::new(),
+            false => shades.words(setup, each),
         };
         let panels = self.panels.iter();
         Chart {

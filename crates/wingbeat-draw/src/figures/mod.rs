@@ -61,6 +61,8 @@ use source::Source;
 pub struct Plotted {
     /// The files, newly written or the same already.
     pub files: Vec<PathBuf>,
+    /// What figures without a title show, for their captions: file and words.
+    pub captions: Vec<(PathBuf, String)>,
     /// Figures that were asked for beside others and that the run does not have.
     pub lacking: Vec<IoError>,
 }
@@ -111,6 +113,8 @@ struct Drawn {
     stills: Vec<(PathBuf, Vec<u8>)>,
     /// Files of animations, and whether they are films: they are drawn when they are written.
     films: Vec<(PathBuf, bool)>,
+    /// As [`Plotted::captions`].
+    captions: Vec<(PathBuf, String)>,
     /// As [`Plotted::lacking`].
     lacking: Vec<IoError>,
 }
@@ -130,6 +134,9 @@ impl Drawn {
             match source.draw(kind, order.style)? {
                 Some(drawing) => {
                     let bytes = encoded(&drawing, order.style, format).map_err(fault(&file))?;
+                    if !order.style.look().titled {
+                        drawn.captions.push((file.clone(), drawing.title));
+                    }
                     drawn.stills.push((file, bytes));
                 }
                 None if order.kinds.is_empty() => {}
@@ -150,6 +157,7 @@ impl Drawn {
         let films = self.films.into_iter().map(|(file, _)| file);
         Ok(Plotted {
             files: stills.chain(films).collect(),
+            captions: self.captions,
             lacking: self.lacking,
         })
     }

@@ -33,6 +33,8 @@ pub(super) struct Plot {
     /// Quantity and unit upward.
     pub y_label: String,
     pub x: [f64; 2],
+    /// Whether numbers along are whole.
+    pub counts: bool,
     /// Range upward; of a logarithmic axis, exponents of ten.
     pub y: [f64; 2],
     pub logarithmic: bool,
@@ -134,6 +136,9 @@ impl Plot {
 
     fn x_ticks(&self, width: f64, look: &Look) -> Vec<(f64, String)> {
         let mut most = (width / (3.2 * look.font)).floor().clamp(2.0, 12.0) as usize;
+        if self.counts {
+            most = most.min((self.x[1] - self.x[0]).max(1.0) as usize);
+        }
         loop {
             let ticks = ticks::linear(self.x[0], self.x[1], most);
             let widths = ticks
@@ -295,8 +300,9 @@ pub(super) fn decades(values: impl Iterator<Item = f64>) -> [f64; 2] {
     [lo.log10().floor().max(top - 18.0), top]
 }
 
-/// The title over a figure.
+/// The title over a figure, for its caption where the style has none.
 pub(super) fn title(to: &mut Drawing, text: &str, look: &Look) {
+    text.clone_into(&mut to.title);
     if look.titled {
         let at = [to.size[0] / 2.0, 1.7 * look.font];
         to.text(at, text, 1.15 * look.font, Anchor::Middle);

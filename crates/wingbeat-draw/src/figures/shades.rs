@@ -1,6 +1,8 @@
 //! The downstrokes of the wings, to be shaded.
 
-use super::strokes::downstrokes;
+use wingbeat_flight::FlightSetup;
+
+use super::strokes::{downstrokes, reference_wing};
 
 /// More downstrokes than this are not shaded: they could not be told apart.
 const MAX_SHADED: usize = 80;
@@ -38,6 +40,16 @@ impl Shades {
     pub fn differ(&self) -> bool {
         let beating = self.wings.iter().filter(|w| !w.is_empty());
         beating.into_iter().any(|w| !self.is_as_reference(w))
+    }
+
+    /// What a title says of the shading: of which wing it is, where others beat otherwise and not `each` panel has its own.
+    pub fn words(&self, setup: &FlightSetup, each: bool) -> String {
+        match reference_wing(setup) {
+            Some((wing, _)) if self.differ() && !each => {
+                format!(" (downstroke of {} shaded)", wing.replace('_', " "))
+            }
+            _ => " (downstroke shaded)".to_owned(),
+        }
     }
 
     fn reference(&self) -> &[[f64; 2]] {

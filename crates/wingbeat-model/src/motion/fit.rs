@@ -62,6 +62,11 @@ impl FourierFit {
 /// # Errors
 /// [`ModelError::Table`] names the phase after which the gap is too wide.
 pub(crate) fn check_gaps(table: &str, x: &[f64], harmonics: usize) -> Result<(), ModelError> {
+    check_gaps_or(table, x, harmonics, "give more phases or fewer harmonics")
+}
+
+/// The same with this advice.
+fn check_gaps_or(table: &str, x: &[f64], harmonics: usize, advice: &str) -> Result<(), ModelError> {
     let first = x.first().copied().unwrap_or(0.0);
     let gap = |k: usize| x.get(k + 1).unwrap_or(&(first + 1.0)) - x[k];
     let widest = (0..x.len()).max_by(|&a, &b| gap(a).total_cmp(&gap(b)));
@@ -73,20 +78,30 @@ pub(crate) fn check_gaps(table: &str, x: &[f64], harmonics: usize) -> Result<(),
             table,
             widest,
             format!(
-                "the next phase is {:.4} wingbeats later, and {harmonics} harmonics need less than {limit:.4}: give more phases or fewer harmonics",
+                "the next phase is {:.4} wingbeats later, and {harmonics} harmonics need less than {limit:.4}: {advice}",
                 gap(widest)
             ),
         )),
     }
 }
 
-/// The same for phases of any beats.
+/// Phases that lie closer together are times rather than samples of a beat \[wingbeats\].
+const HALF_A_BEAT: f64 = 0.5;
+
+/// The same for phases of any beats, which are rising.
 fn check_folded_gaps(table: &str, x: &[f64], harmonics: usize) -> Result<(), ModelError> {
     let in_beat = |k: usize| (x[k] - x[0]).rem_euclid(1.0);
     let mut order: Vec<usize> = (0..x.len()).collect();
     order.sort_by(|&a, &b| in_beat(a).total_cmp(&in_beat(b)));
     let sorted: Vec<f64> = order.iter().map(|&k| in_beat(k)).collect();
-    check_gaps(table, &sorted, harmonics).map_err(|e| match e {
+    let span = x.last().unwrap_or(&x[0]) - x[0];
+    let times = "times are to be divided by the period of a wingbeat";
+    let advice = match span {
+        s if s < HALF_A_BEAT => format!("all phases lie within {span:.4} wingbeats; {times}"),
+        s if s > 1.0 => format!("give more phases or fewer harmonics; {times}"),
+        _ => "give more phases or fewer harmonics".to_owned(),
+    };
+    check_gaps_or(table, &sorted, harmonics, &advice).map_err(|e| match e {
         ModelError::Table { row, problem, .. } => in_row(table, order[row - 1], problem),
         other => other,
     })

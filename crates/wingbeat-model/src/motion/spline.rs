@@ -120,7 +120,7 @@ fn check_closure(n: usize, first: (f64, f64), last: (f64, f64), range: f64) -> R
     }
     if (last.1 - first.1).abs() > CLOSURE * range {
         return Err(format!(
-            "the table is not periodic: it ends at {} and starts at {}; the last row must repeat the first value (of measured angles take out the drift first)",
+            "the table is not periodic: it ends at {} and starts at {}; the last row must repeat the first value (measured angles are fitted by `harmonics`; take out a drift first)",
             last.1, first.1
         ));
     }

@@ -94,7 +94,10 @@ impl Summary {
             rows.push((of("forward force [N]"), a.thrust_newton, b.thrust_newton));
             rows.push((of("power [W]"), a.power_watt, b.power_watt));
         }
-        let [a, b] = [self.numbers(), other.numbers()];
+        let moved = without_rounding([self.displacement_m, other.displacement_m], 0.0);
+        let turned = without_rounding([self.turn_deg, other.turn_deg], 1.0);
+        let a = self.numbers(moved[0], turned[0]);
+        let b = other.numbers(moved[1], turned[1]);
         rows.extend(
             a.into_iter()
                 .zip(b)
@@ -103,9 +106,11 @@ impl Summary {
         rows
     }
 
-    fn numbers(&self) -> [(&'static str, f64); 18] {
-        let [x, y, z] = self.displacement_m;
-        let [pitch, yaw, roll] = self.turn_deg;
+    fn numbers(
+        &self,
+        [x, y, z]: [f64; 3],
+        [pitch, yaw, roll]: [f64; 3],
+    ) -> [(&'static str, f64); 18] {
         [
             ("steps", self.steps as f64),
             ("time [s]", self.time_s),
@@ -142,5 +147,27 @@ impl Summary {
     /// As JSON.
     pub fn to_json(&self) -> String {
         serde_json::to_string_pretty(self).expect("a summary is JSON") + "\n"
+    }
+}
+
+/// The vectors of two flights with 0 for components that are rounding beside the largest of them all, or beside `least`.
+fn without_rounding([a, b]: [[f64; 3]; 2], least: f64) -> [[f64; 3]; 2] {
+    const ROUNDING: f64 = 1e-12;
+    let largest = a.iter().chain(&b).fold(least, |m, x| m.max(x.abs()));
+    let kept = |x: f64| if x.abs() > ROUNDING * largest { x } else { 0.0 };
+    [a.map(kept), b.map(kept)]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::without_rounding;
+
+    #[test]
+    fn exact_rounding_of_a_component_is_no_change() {
+        let moved = [[2e-3, -1.7e-19, 1e-3], [1e-9, 1.7e-16, 0.0]];
+        let kept = without_rounding(moved, 0.0);
+        assert_eq!(kept, [[2e-3, 0.0, 1e-3], [1e-9, 0.0, 0.0]]);
+        let turned = without_rounding([[0.0, 3e-15, 1e-6], [0.0; 3]], 1.0);
+        assert_eq!(turned[0], [0.0, 0.0, 1e-6]);
     }
 }

@@ -38,7 +38,7 @@ pub(super) fn warnings(setup: &FlightSetup, summary: &Summary) -> Warnings {
     motion::warnings(setup, summary, &mut list);
     air(setup, summary, &mut list);
     deformation(setup, &mut list);
-    feedback(summary, &mut list);
+    feedback(setup, summary, &mut list);
     euler_angles(setup, summary, &mut list);
     steps(setup, summary, &mut list);
     mode(setup, summary, &mut list);
@@ -103,10 +103,15 @@ fn mode(setup: &FlightSetup, summary: &Summary, list: &mut Warnings) {
     if matches!(setup.mode, MotionMode::Tethered(_)) {
         list.note("Tethered: the body does not answer to the forces on it.");
     }
-    if let MotionMode::Free(start) = &setup.mode
-        && start.held_steps >= summary.steps
-    {
+    if is_never_released(setup, summary) {
         list.note("Held to its end (flight.held_beats): the body has not been released.");
+    }
+}
+
+fn is_never_released(setup: &FlightSetup, summary: &Summary) -> bool {
+    match &setup.mode {
+        MotionMode::Free(start) => start.held_steps >= summary.steps,
+        MotionMode::Tethered(_) => false,
     }
 }
 
@@ -156,8 +161,10 @@ const LOST: f64 = 20.0;
 const TURNED: [f64; 2] = [90.0, 5.0];
 
 /// How far a flight under feedback was from what it is to hold.
-fn feedback(summary: &Summary, list: &mut Warnings) {
-    let Some(departures) = &summary.departures else {
+fn feedback(setup: &FlightSetup, summary: &Summary, list: &mut Warnings) {
+    let departures = summary.departures.as_ref();
+    // A body that is held to its end is not steered.
+    let Some(departures) = departures.filter(|_| !is_never_released(setup, summary)) else {
         return;
     };
     let turn = departures.attitude_deg;
@@ -199,13 +206,18 @@ fn balances(setup: &FlightSetup, summary: &Summary, list: &mut Warnings) {
         true => [OPEN, UNRESOLVED],
         false => [momentum_tolerance(setup), OPEN],
     };
+    // Through samples that scatter wings beat with the noise, which smaller steps follow.
+    let advice = match setup.scattered_angles().is_empty() {
+        true => "take smaller steps before trusting the motion",
+        false => "the samples of wing angles scatter, which smaller steps do not mend",
+    };
     let balances = [
         ("energy", summary.energy_residual_relative, [energy, OPEN]),
         ("momentum", summary.momentum_residual_relative, momentum),
     ];
     for (what, residual, [tolerance, open]) in balances {
         let text = format!(
-            "The {what} balance does not close: residual {residual:.1e} (tolerance {tolerance:.0e}); take smaller steps before trusting the motion."
+            "The {what} balance does not close: residual {residual:.1e} (tolerance {tolerance:.0e}); {advice}."
         );
         match residual {
             r if r <= tolerance => {}

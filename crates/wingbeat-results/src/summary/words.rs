@@ -63,8 +63,8 @@ impl Summary {
             let _ = writeln!(
                 out,
                 "At the end lift is {} and thrust {}.",
-                engineering(self.final_lift_newton, "N").trim(),
-                engineering(self.final_thrust_newton, "N").trim()
+                alone(self.final_lift_newton, "N"),
+                alone(self.final_thrust_newton, "N")
             );
         }
         if self.beats.is_empty() {
@@ -221,6 +221,11 @@ fn engineering(x: f64, unit: &str) -> String {
     format!("{:>8} {prefix}{unit}", fixed(x / scale, 3))
 }
 
+/// The same in a sentence, where nothing stands below it.
+fn alone(x: f64, unit: &str) -> String {
+    engineering(x, unit).trim().replace("  ", " ")
+}
+
 /// The factor and the letter of the prefix for this magnitude, which leaves one to three digits before the point; a blank where there
 /// is none.
 pub fn prefix(x: f64) -> (f64, &'static str) {
@@ -262,6 +267,7 @@ mod tests {
     fn exact_prefixes_and_line_breaks() {
         assert_eq!(engineering(9.24e-6, "N").trim(), "9.240 uN");
         assert_eq!(engineering(0.0, "W").trim(), "0.000  W");
+        assert_eq!(alone(0.0, "W"), "0.000 W");
         assert_eq!(engineering(-2.5e60, "N").trim(), "-2.50e60  N");
         let estimate = |mean, standard_error| Estimate {
             mean,

@@ -42,6 +42,8 @@ fn look(args: &CheckArgs, report: &mut Report) -> Result<(), IoError> {
     let mut estimate = estimate(&case.setup);
     let fits = case.fitted_tables();
     estimate.doubts.extend(case.doubtful_measurements());
+    let ways = case.doubtful_ways(&estimate);
+    estimate.doubts.extend(ways);
     let warn = || estimate.doubts.iter().for_each(|d| tell!("warning: {d}"));
     let cost = trial_cost(&case, args.trial);
     let can = if cost.is_ok() { "can" } else { "cannot" };

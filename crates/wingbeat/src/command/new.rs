@@ -23,8 +23,7 @@ pub(crate) struct NewArgs {
     /// File to write, - for the standard output; default NAME.toml.
     file: Option<PathBuf>,
     /// An insect of this species; `wingbeat presets` lists them.
-    #[arg(long, value_name = "NAME", help_heading = INSECT,
-          conflicts_with_all = ["mass", "wing", "frequency"])]
+    #[arg(long, value_name = "NAME", help_heading = INSECT)]
     species: Option<String>,
     /// An insect of this mass, e.g. 100mg; what is not given follows from scaling laws.
     #[arg(long, help_heading = INSECT, value_parser = options::mass, allow_hyphen_values = true)]
@@ -102,7 +101,11 @@ impl NewArgs {
         }
         let name = self.preset.as_deref();
         if name.is_some_and(|name| presets::find(name).is_ok()) {
-            let problem = "a preset and an insect are two cases; name one of them, and the file with its ending";
+            let problem = "a preset and an insect are two cases; name one of them, and the file with its ending; to change the size of a preset write it alone, and edit its masses and lengths, or animal.scale, in the file";
+            return Err(Failure::Option(problem.to_owned()));
+        }
+        if self.species.is_some() && self.size() != Size::default() {
+            let problem = "--species cannot be used with --mass, --wing or --frequency: its case has those of the species; write it alone, and change body.mass_kg, animal.scale or motion.frequency_hz in the file or by --set, or leave --species out, for an insect by scaling laws";
             return Err(Failure::Option(problem.to_owned()));
         }
         let air = match self.air {

@@ -5,9 +5,13 @@ use wingbeat::analysis::SPEED_OF_SOUND;
 
 /// A finite number for which `allowed` holds; `range` says so in words.
 fn number(text: &str, allowed: impl Fn(f64) -> bool, range: &str) -> Result<f64, String> {
-    let value = text.trim().parse().ok();
-    let value = value.filter(|x: &f64| x.is_finite() && allowed(*x));
-    value.ok_or_else(|| format!("give {range}"))
+    let Ok(value) = text.trim().parse::<f64>() else {
+        return Err(format!("give {range}; a number alone, without a unit"));
+    };
+    match value.is_finite() && allowed(value) {
+        true => Ok(value),
+        false => Err(format!("give {range}")),
+    }
 }
 
 /// A finite number.

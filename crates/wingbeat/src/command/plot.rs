@@ -86,6 +86,9 @@ pub(crate) fn plot(args: &PlotArgs) -> Result<(), Failure> {
     for file in &plotted.files {
         say!("{}", file.display());
     }
+    for (file, caption) in &plotted.captions {
+        tell!("for the caption of {}: {caption}", file.display());
+    }
     for problem in &plotted.lacking {
         tell!("error: {problem}");
     }

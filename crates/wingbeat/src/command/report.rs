@@ -162,6 +162,13 @@ impl Report {
         }
     }
 
+    /// Says that a figure was written, where it went to a file.
+    pub(crate) fn drew(&mut self, figure: &Target) {
+        if let Some(path) = figure.path() {
+            line!(self, "\nwrote {}", path.display());
+        }
+    }
+
     fn finish(mut self) -> Result<(), IoError> {
         if self.json && !self.values.is_empty() {
             self.text = format!("{}\n", Value::Object(self.values));

@@ -18,14 +18,15 @@ pub(super) const NO_MEANING: &str = "The forces of those instants have no meanin
 
 /// Wings that pass through each other, angles that scatter, and a lift that no animal has.
 pub(super) fn warnings(setup: &FlightSetup, summary: &Summary, list: &mut Warnings) {
+    // They are why balances do not close.
+    for scatter in setup.scattered_angles().iter().rev() {
+        list.limit_first(format!("Angles that scatter: {scatter}."));
+    }
     for crossing in setup.crossing_wings() {
         impossible(setup, "The prescribed motion", &crossing, list);
     }
     for backwards in setup.trailing_edges_ahead() {
         list.limit(format!("Wings that fly backwards: {backwards}."));
-    }
-    for scatter in setup.scattered_angles() {
-        list.limit(format!("Angles that scatter: {scatter}."));
     }
     lift(setup, summary, list);
 }

@@ -220,8 +220,9 @@ pub(super) fn bound(text: &str) -> Result<Bound, String> {
         _ => 1.0,
     };
     let (from, to) = (scale * from, scale * to);
+    let bound = Bound { unknown, from, to };
     match from.is_finite() && to.is_finite() {
-        true => Ok(Bound { unknown, from, to }),
+        true => bound.check().map(|()| bound),
         false => Err("give finite numbers".to_owned()),
     }
 }

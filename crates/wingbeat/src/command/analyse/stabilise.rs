@@ -12,6 +12,7 @@ use wingbeat::analysis::control::{
 use wingbeat::analysis::episode::{Recovery, Tumbles};
 use wingbeat::analysis::{AnalysisError, Perturbation, Trim};
 use wingbeat::draw::figures::stabilised::{BeatRow, stabilised};
+use wingbeat::flight::Controller;
 use wingbeat::math::DVec3;
 use wingbeat::results::fixed::fixed;
 
@@ -31,6 +32,9 @@ const MAX_LATENCY: usize = 20;
 const MAX_TUMBLES: usize = 10_000_000;
 /// Wingbeats between sensing and acting unless told otherwise.
 const DEFAULT_LATENCY: usize = 2;
+
+/// Angle from the attitude of the trimmed flight within which a flyer is back \[deg\].
+const BACK_DEG: f64 = 1.0;
 
 /// Arguments of `wingbeat stabilise`.
 #[derive(Args)]
@@ -78,7 +82,7 @@ enum Feedback {
     Free,
 }
 
-/// The whole command: beat by beat as CSV on the standard output.
+/// The whole command: how the flight went in sentences, then beat by beat as CSV.
 pub(crate) fn run(args: &StabiliseArgs) -> Result<(), Failure> {
     let free = args.controller == Feedback::Free;
     for (option, given) in [("latency", args.latency), ("sample", args.sample)] {
@@ -105,11 +109,14 @@ fn fly(args: &StabiliseArgs, report: &mut Report, figure: Option<Target>) -> Res
     let start = disturbed(&trim, &by);
     let mut flight = SteeredBeats::new(&trim, start, controller, latency)?;
     let mut rows = vec![row(&flight)];
-    let mut lost = None;
+    let (mut lost, mut limited) = (None, 0);
     let watch = Watch::of("flying under feedback", args.beats as u64);
     for _ in 0..args.beats {
         match flight.beat() {
-            Ok(()) => rows.push(row(&flight)),
+            Ok(()) => {
+                rows.push(row(&flight));
+                limited += usize::from(flight.controller().is_some_and(|c| c.is_limited()));
+            }
             Err(e) => {
                 lost = Some(e);
                 break;
@@ -118,10 +125,15 @@ fn fly(args: &StabiliseArgs, report: &mut Report, figure: Option<Target>) -> Res
         watch.part(|| {});
     }
     drop(watch);
+    let length = trim.beat.wing_length();
+    say(report, &rows, length, (args.controller, limited));
+    if let Some(e) = &lost {
+        line!(report, "  {e}");
+    }
     tell(report, &rows);
     if let Some(file) = figure {
-        let svg = stabilised(&case.name, trim.beat.wing_length(), &rows);
-        file.write(&svg)?;
+        file.write(&stabilised(&case.name, length, &rows))?;
+        report.drew(&file);
     }
     lost.map_or(Ok(()), |e| Err(e.into()))
 }
@@ -185,6 +197,52 @@ fn row(flight: &SteeredBeats) -> BeatRow {
         tilt: d.state.tilt,
         amplitude: [first.stroke_amplitude, last.stroke_amplitude],
         offset: last.stroke_offset,
+    }
+}
+
+/// How the flight went, in sentences; `limited` beats had a command at a limit.
+fn say(report: &mut Report, rows: &[BeatRow], length: f64, (feedback, limited): (Feedback, usize)) {
+    let turn = |r: &BeatRow| r.tilt.length().to_degrees();
+    let away = |r: &BeatRow| r.position.length() / length;
+    let most = |of: &dyn Fn(&BeatRow) -> f64| rows.iter().map(of).fold(0.0, f64::max);
+    let last = &rows[rows.len() - 1];
+    line!(
+        report,
+        "\ndisturbed by {:.2} deg, {} wingbeats {}: at most {:.2} deg from its attitude and {:.2} wing lengths from its place, in the end {:.2} deg and {:.2} wing lengths",
+        turn(&rows[0]),
+        last.beat,
+        match feedback {
+            Feedback::Free => "without feedback",
+            Feedback::Regulator | Feedback::Pd => "under feedback",
+        },
+        most(&turn),
+        most(&away),
+        turn(last),
+        away(last)
+    );
+    let back = match rows.iter().rposition(|r| turn(r) >= BACK_DEG) {
+        None => Some(0),
+        Some(k) => rows.get(k + 1).map(|r| r.beat),
+    };
+    match back {
+        Some(beats) => line!(
+            report,
+            "  within {BACK_DEG} deg of its attitude from beat {beats} on"
+        ),
+        None => line!(
+            report,
+            "  not within {BACK_DEG} deg of its attitude in the end"
+        ),
+    }
+    report.value("within_a_degree_from_beat", back);
+    if feedback != Feedback::Free {
+        let part = limited as f64 / last.beat.max(1) as f64;
+        line!(
+            report,
+            "  commands at their limits in {:.0} % of the wingbeats",
+            100.0 * part
+        );
+        report.value("limited_part", part);
     }
 }
 

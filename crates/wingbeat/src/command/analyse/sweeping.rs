@@ -34,6 +34,7 @@ pub(super) fn run(
         let rows: Vec<SpeedRow> = found.flights.iter().map(row).collect();
         let lost = found.lost.as_ref().map(|(velocity, _)| velocity.x);
         file.write(&swept(&case.name, &rows, lost))?;
+        report.drew(&file);
     }
     match found.lost {
         None => Ok(()),
