@@ -199,7 +199,7 @@ fn refuses_times_in_place_of_phases_with_harmonics() {
     );
     let named = refusal("fruit-fly-tethered", &[&law("time_ms", 1e-3)]);
     assert!(
-        named.contains("its column `time_ms` says `ms`") && named.contains("period of a wingbeat"),
+        named.contains("its column `time_ms` says `ms`") && named.contains("give beats_per_unit"),
         "{named}"
     );
     // A whole number of samples in a millisecond.
@@ -214,7 +214,7 @@ fn refuses_times_in_place_of_phases_with_harmonics() {
     };
     let folded = doubts(law("time", 1e-3));
     assert!(
-        folded.contains("10.2041 wingbeats in all, are times, divide them"),
+        folded.contains("10.2041 wingbeats in all, are times, give beats_per_unit"),
         "{folded}"
     );
     assert_eq!(doubts(law("phase", 5e-3)), "");
