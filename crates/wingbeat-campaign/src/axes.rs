@@ -170,9 +170,15 @@ impl Reader<'_> {
         if !(2..=MAX_VALUES).contains(&range.count) {
             return Err(self.wrong(
                 &format!("{place}.count"),
-                "a range has both of its ends",
+                match range.count < 2 {
+                    true => "a range has both of its ends",
+                    false => "these are too many values",
+                },
                 format!("a whole number from 2 to {MAX_VALUES}"),
-                "a single value goes into [set]",
+                match range.count < 2 {
+                    true => "a single value goes into [set]",
+                    false => "take fewer, or draw samples instead",
+                },
             ));
         }
         if from == to {

@@ -9,7 +9,7 @@ use wingbeat_flight::FlightSetup;
 use crate::blocks::points_of_block;
 use crate::cases;
 use crate::file::CampaignFile;
-use crate::named::{self, Contents};
+use crate::named::{self, Contents, Programs};
 use crate::number::Number;
 use crate::plan::{Place, Plan};
 use crate::raw::{RawCampaign, Task, TrimOptions};
@@ -28,6 +28,8 @@ pub struct Campaign {
     digest: Sha256,
     /// What is in the files that values name.
     contents: Contents,
+    /// What is in the files that commands name.
+    programs: Programs,
 }
 
 impl Campaign {
@@ -42,6 +44,7 @@ impl Campaign {
             path: path.to_owned(),
             digest: digest_of(&file.raw, &file.base, &numbers),
             contents: named::contents(&file.plan, &file.base, &file.case_folder),
+            programs: named::programs(&file.plan, &file.base, &file.case_folder),
             block: points_of_block(&file.raw, &file.base.setup, file.plan.points()),
             numbers,
             file,
@@ -132,6 +135,15 @@ impl Campaign {
             }
         }
         hash.finalize().into()
+    }
+
+    /// Files that commands of other programs name and that are no longer what they were when the campaign was read.
+    pub fn changed_programs(&self) -> Vec<PathBuf> {
+        let now = named::programs(&self.file.plan, &self.file.base, &self.file.case_folder);
+        let changed = now
+            .into_iter()
+            .filter(|(path, is)| self.programs.get(path) != Some(is));
+        changed.map(|(path, _)| path).collect()
     }
 
     /// SHA-256 of the whole plan, which blocks of points belong to: which points there are and in which order, and what is

@@ -39,7 +39,7 @@ pub fn command(campaign: &Campaign, i: usize) -> String {
 }
 
 /// A word of a command line.
-pub(crate) fn shell(word: &str) -> String {
+pub fn shell(word: &str) -> String {
     let plain = |c: char| c.is_ascii_alphanumeric() || "-_./=+,:@%".contains(c);
     match !word.is_empty() && word.chars().all(plain) {
         true => word.to_owned(),

@@ -43,6 +43,7 @@ mod value;
 mod worker;
 
 pub use campaign::Campaign;
+pub use command::shell;
 pub use cost::Cost;
 pub use number::Number;
 pub use plan::Plan;

@@ -126,7 +126,7 @@ impl Store {
             });
         }
         store.make(root)?;
-        if fs::read_to_string(&mine).ok().as_deref() != Some(text) {
+        if !store.is_of(text) {
             store.write(&mine, text.as_bytes())?;
         }
         Ok(store)
@@ -147,6 +147,11 @@ impl Store {
                 problem: "there is no campaign in this directory (no campaign.toml); `wingbeat campaign run FILE` makes one, --out DIR names another".to_owned(),
             }),
         }
+    }
+
+    /// Whether the campaign that was run here last is that of this text.
+    pub fn is_of(&self, text: &str) -> bool {
+        fs::read_to_string(self.path(FILE)).is_ok_and(|own| own == text)
     }
 
     /// A path inside.

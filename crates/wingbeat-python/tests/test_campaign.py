@@ -472,3 +472,9 @@ def test_exact_grid_is_all_combinations_the_last_key_quickest():
     assert points["motion.frequency_hz"].tolist() == [190.0, 200.0, 210.0] * 2
     with pytest.raises(CaseError, match="no list of values"):
         campaign.grid({"time.beats": []})
+
+
+def test_behaves_single_values_alone_are_one_point():
+    base = wingbeat.Flight.preset("fruit-fly-blade").set("time.beats", 1)
+    table = campaign.map({"motion.frequency_hz": 200.0, "body.mass_kg": 1e-6}, campaign.Serial(), base=base)
+    assert table["power_watt"].shape == (1,)

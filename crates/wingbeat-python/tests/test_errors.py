@@ -25,6 +25,14 @@ def blown(answer: Any) -> Bad:
     return lambda blade, _: blade.with_air(lambda _: answer).fly()
 
 
+def lattice() -> wingbeat.Stepper:
+    return Flight.preset("fruit-fly-hover").start()
+
+
+def problem(blade: Flight) -> wingbeat.Problem:
+    return wingbeat.Problem(blade, {"motion.frequency_hz": (150, 250)}, ["power_watt"], executor=wingbeat.campaign.Serial())
+
+
 BAD: dict[str, Bad] = {
     "unknown preset": lambda *_: Flight.preset("fruit-fli"),
     "empty preset": lambda *_: Flight.preset(""),
@@ -69,6 +77,20 @@ BAD: dict[str, Bad] = {
     "negative steps": lambda blade, _: blade.start().step(-1),
     "half a step": lambda blade, _: blade.start().step(0.5),
     "velocity without a lattice": lambda blade, _: blade.start().air_velocity([[0.0, 0.0, 0.0]]),
+    "velocity at points of two": lambda blade, _: lattice().air_velocity(np.zeros((3, 2))),
+    "velocity at a table of points": lambda blade, _: lattice().air_velocity(np.zeros((2, 2, 3))),
+    "velocity at six numbers": lambda blade, _: lattice().air_velocity(np.zeros(6)),
+    "velocity nowhere": lambda blade, _: lattice().air_velocity([[np.nan, 0.0, 0.0]]),
+    "velocity at complex points": lambda blade, _: lattice().air_velocity(np.zeros((1, 3), complex)),
+    "velocity at a text": lambda blade, _: lattice().air_velocity("a"),
+    "copy of a flight in progress": lambda blade, _: copy.copy(blade.start()),
+    "flight in progress pickled": lambda blade, _: pickle.dumps(blade.start()),
+    "motion in words": lambda blade, _: blade.with_motion(phi_deg=lambda _: "a"),
+    "gradient to less than nothing": lambda blade, _: problem(blade).gradient([200.0], relative=-1),
+    "gradient to no number": lambda blade, _: problem(blade).gradient([200.0], relative=float("nan")),
+    "gradient to anything": lambda blade, _: problem(blade).gradient([200.0], relative=1e300),
+    "gradient to a text": lambda blade, _: problem(blade).gradient([200.0], relative="a"),
+    "gradient at a text": lambda blade, _: problem(blade).gradient("a"),
     "controller that is none": lambda blade, _: blade.with_controller(3),
     "controller too often": lambda blade, _: blade.with_controller(lambda _: Adjustment(), every_steps=1),
     "negative latency": lambda blade, _: blade.with_controller(lambda _: Adjustment(), latency_looks=-1),

@@ -226,6 +226,11 @@ def test_refuses_actions():
                 env.reset(seed=seed)
     with pytest.raises(wingbeat.CaseError):
         Environment().step("abcd")
+    with pytest.raises(wingbeat.CaseError, match=r"shape \(4,\)"):
+        Environment().step(np.zeros(3))
+    with pytest.raises(wingbeat.CaseError) as caught:
+        envs.reset(options={"reset_mask": [True]})
+    assert caught.value.key == "reset_mask"
     for actions in (np.zeros((3, 4)), np.zeros(4), np.full((2, 4), np.nan), np.zeros((2, 4), complex), "ab"):
         with pytest.raises(wingbeat.CaseError):
             envs.step(actions)

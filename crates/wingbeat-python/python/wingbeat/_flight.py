@@ -7,7 +7,7 @@ import sys
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NoReturn
 
 from wingbeat import _core, _toml
 from wingbeat._case import Part
@@ -302,6 +302,13 @@ class Stepper:
     def __repr__(self) -> str:
         return f"<wingbeat.Stepper after step {self.steps_done}>"
 
+    def __reduce__(self) -> NoReturn:
+        raise CaseError(
+            "a flight in progress cannot be copied or pickled",
+            key="stepper",
+            remedy="keep the Flight: start() and as many steps give the same bits",
+        )
+
     def step(self, count: int = 1) -> int:
         """Makes up to ``count`` steps; how many were made before the end. An exception that ends the flight has what was flown as
         its ``run``.
@@ -335,8 +342,17 @@ class Stepper:
         return Frame(self._core.frame())
 
     def air_velocity(self, points_m: ArrayLike) -> NDArray[Any]:
-        """Velocity of the air at points, both N components of shape (n, 3) [m, m/s]: vortex lattice only."""
-        velocity = self._core.air_velocity(points_m)
+        """Velocity of the air at points, both N components of shape (n, 3) [m, m/s], a single point as (3,) too: vortex lattice
+        only.
+        """
+        import numpy as np
+
+        points = reals("points_m", points_m)
+        if points.ndim not in (1, 2) or points.shape[-1] != 3 or not np.isfinite(points).all():
+            what = f"an array of shape {points.shape}" if np.isfinite(points).all() else "a number is not finite"
+            remedy = "finite coordinates, shape (n, 3) or (3,)"
+            raise CaseError(f"points_m: {what}", key="points_m", remedy=remedy)
+        velocity = self._core.air_velocity(points)
         if velocity is None:
             raise CaseError(
                 "the air of this flight is no vortex lattice", key="air.model", remedy='air.model = "vortex_lattice"'
@@ -388,7 +404,7 @@ def _rows(name: str, angle: ArrayLike | Callable[[float], float], samples: int) 
 
     if callable(angle):
         samples = whole("samples", samples, 4, 100_000)
-        angle = [float(angle(k / samples)) for k in range(samples)]
+        angle = [real(f"{name}_deg", angle(k / samples)) for k in range(samples)]
     values = reals(f"{name}_deg", angle)
     if values.ndim != 1 or values.size < 4:
         raise CaseError(

@@ -24,9 +24,12 @@ def whole(key: str, number: Any, least: int, most: int) -> int:
 
 def real(key: str, number: Any) -> float:
     """A real number; texts that read like one are none."""
-    if isinstance(number, str | bytes):
-        raise CaseError(f"{key} = {number!r}: no number", key=key, remedy="a number")
-    return float(number)
+    try:
+        if isinstance(number, str | bytes):
+            raise TypeError
+        return float(number)
+    except (TypeError, ValueError, OverflowError):
+        raise CaseError(f"{key} = {number!r}: no number", key=key, remedy="a number") from None
 
 
 def reals(key: str, numbers: Any, kind: Any = float) -> NDArray[Any]:

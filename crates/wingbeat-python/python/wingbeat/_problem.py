@@ -8,6 +8,7 @@ from concurrent.futures import Executor
 from types import TracebackType
 from typing import TYPE_CHECKING, Any
 
+from wingbeat._numbers import real, reals
 from wingbeat.campaign import Processes, Serial, _engines, _names, _plan, _points
 from wingbeat.errors import CaseError
 
@@ -83,7 +84,7 @@ class Problem:
         """Numbers of points: from shape (n, d) to (n, m), or from (d,) to (m,); NaN where a point failed."""
         import numpy as np
 
-        points = np.asarray(X, dtype=np.float64)
+        points = reals("X", X)
         rows = np.atleast_2d(points)
         if points.ndim > 2 or rows.shape[1] != len(self.variables):
             raise CaseError(
@@ -111,9 +112,11 @@ class Problem:
 
         from wingbeat import _gradient
 
-        if not 0.0 < first_step <= 0.05:
+        if not 0.0 < real("first_step", first_step) <= 0.05:
             raise CaseError(f"first_step = {first_step!r}: no part of a range", key="first_step", remedy="above 0, up to 0.05")
-        points = np.atleast_2d(np.asarray(x, dtype=np.float64))
+        if not 0.0 < real("relative", relative) < 1.0:
+            raise CaseError(f"relative = {relative!r}: no part of a number", key="relative", remedy="above 0, below 1, e.g. 1e-7")
+        points = np.atleast_2d(reals("x", x))
         if points.shape[1:] != self.lower.shape or not ((self.lower <= points) & (points <= self.upper)).all():
             raise CaseError("x: not within the bounds of the variables", key="x", remedy="lower <= x <= upper, shape (d,) or (n, d)")
         pairs = [_gradient.jacobian(self.evaluate, at, self.lower, self.upper, first_step, relative) for at in points]

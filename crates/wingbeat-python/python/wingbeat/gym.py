@@ -189,7 +189,10 @@ class Environment(_Uncopied, gymnasium.Env[Any, Any]):
     def step(self, action: Any) -> tuple[Any, float, bool, bool, dict[str, Any]]:
         """One control step."""
         fleet = self._fleet
-        fleet.step(reals("actions", action, np.float32)[np.newaxis])
+        plain = reals("action", action, np.float32)
+        if plain.shape != (_CONTROLS,):
+            raise CaseError(f"action: an array of shape {plain.shape}", key="action", remedy=f"shape ({_CONTROLS},)")
+        fleet.step(plain[np.newaxis])
         ended = bool(fleet.terminated[0]), bool(fleet.truncated[0])
         return fleet.observed[0].copy(), float(fleet.rewards[0]), *ended, {}
 
@@ -246,8 +249,11 @@ class VectorEnvironment(_Uncopied, gymnasium.vector.VectorEnv[Any, Any, Any]):
             first = None if seed is None else whole("seed", seed, 0, 2**64 - count)
             seeds = [None if first is None else first + k for k in range(count)]
         mask = np.ones(count, np.bool_) if options is None else options.get("reset_mask", np.ones(count, np.bool_))
-        if len(seeds) != count or np.shape(mask) != (count,):
-            raise CaseError("seed: not one for each", key="seed", remedy=f"{count} seeds, a mask of {count}")
+        if len(seeds) != count:
+            raise CaseError(f"seed: {len(seeds)} of them for {count} environments", key="seed", remedy=f"{count} seeds")
+        if np.shape(mask) != (count,):
+            problem = f"reset_mask: an array of shape {np.shape(mask)}"
+            raise CaseError(problem, key="reset_mask", remedy=f"shape ({count},), True where an episode begins")
         self._fleet.reset(seeds, [bool(x) for x in mask])
         observed = self._fleet.observed
         return (observed.copy() if self._copy else observed), {}

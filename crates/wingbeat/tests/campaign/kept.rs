@@ -80,6 +80,64 @@ list = [1, 2]
     assert_eq!(first, again);
 }
 
+/// A program that writes a file which its command names makes other points of all of them: the run says which file.
+#[test]
+fn behaves_a_file_that_a_program_writes_is_named() {
+    let scratch = Scratch::new("campaign-written");
+    let dir = &scratch.0;
+    let text = r#"case = "fruit-fly-blade"
+keep = ["lift_over_weight"]
+[set]
+"control.controller" = "external"
+"control.external" = { command = ["python3", "wings.py", "log.txt"] }
+[parameter."time.beats"]
+list = [1, 2]
+"#;
+    write(dir, text);
+    fs::write(
+        dir.join("wings.py"),
+        "import sys\nopen(sys.argv[1], 'a').write('x')\n",
+    )
+    .unwrap();
+    let out = wingbeat(dir, &["campaign", "run", "c.toml", "--out", "r"]);
+    let report = String::from_utf8_lossy(&out.stderr);
+    assert!(
+        report.contains("`log.txt` was changed while the points were flown"),
+        "{report}"
+    );
+    assert!(!report.contains("`wings.py`"), "{report}");
+}
+
+/// The tables of a campaign are not those of another one that is merged into its directory by mistake.
+#[test]
+fn refuses_to_merge_into_the_directory_of_another_campaign() {
+    let scratch = Scratch::new("campaign-other");
+    let dir = &scratch.0;
+    write(
+        dir,
+        "case = \"case.toml\"\nkeep = [\"end.mass_centre_n3_m\"]\n[parameter.\"motion.frequency_hz\"]\nlist = [90, 100]\n",
+    );
+    flown(dir, &["campaign", "run", "c.toml", "--out", "r", "--quiet"]);
+    flown(dir, &["campaign", "merge", "c.toml", "--out", "r"]);
+    let tables = fs::read(dir.join("r/points.csv")).unwrap();
+    let text = fs::read_to_string(dir.join("c.toml")).unwrap();
+    fs::write(dir.join("b.toml"), text.replace("90, 100", "90, 110")).unwrap();
+    let merge = ["campaign", "merge", "b.toml", "--out", "r", "--partial"];
+    let out = wingbeat(dir, &merge);
+    let report = String::from_utf8_lossy(&out.stderr);
+    assert_eq!(out.status.code(), Some(2), "{report}");
+    for word in [
+        "another campaign",
+        "campaign run b.toml --out r`",
+        "--overwrite",
+    ] {
+        assert!(report.contains(word), "{word}: {report}");
+    }
+    assert!(fs::read(dir.join("r/points.csv")).unwrap() == tables);
+    flown(dir, &[&merge[..], &["--overwrite"]].concat());
+    assert!(fs::read(dir.join("r/points.csv")).unwrap() != tables);
+}
+
 /// What is doubtful of the case or of a point that is tried is said before anything is flown, once.
 #[test]
 fn behaves_a_check_tells_what_is_doubtful() {

@@ -35,7 +35,7 @@ type Wrong = (
     &'static [&'static str],
 );
 
-const FILES: [Wrong; 43] = [
+const FILES: [Wrong; 44] = [
     (
         "do = [\"run\"]",
         "do = [\"run\"",
@@ -242,6 +242,16 @@ const FILES: [Wrong; 43] = [
         "count = 1",
         "range =",
         &["a range has both of its ends"],
+    ),
+    (
+        "count = 3",
+        "count = 30_000_000",
+        "range =",
+        &[
+            "these are too many values",
+            "a whole number from 2 to 1000000",
+            "take fewer",
+        ],
     ),
     (
         "to = 110.0",

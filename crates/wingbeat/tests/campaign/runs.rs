@@ -254,7 +254,10 @@ fn behaves_files_that_begin_with_a_dash_are_flown() {
     let report = String::from_utf8_lossy(&out.stderr);
     assert!(out.status.success(), "{report}");
     let said = String::from_utf8(out.stdout).unwrap();
-    assert!(said.contains("campaign merge ./-c.toml"), "{said}");
+    assert!(
+        said.contains("campaign merge ./-c.toml --out ./-r`"),
+        "{said}"
+    );
     flown(dir, &["campaign", "merge", "./-c.toml", "--out=-r"]);
     assert_eq!(numbers(dir, "-r", "success"), [1.0; 3]);
     for engine in ["slurm", "snakemake"] {

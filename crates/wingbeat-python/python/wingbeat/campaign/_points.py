@@ -79,9 +79,9 @@ def _of_columns(given: Mapping[Any, Any]) -> Points:
         if columns[key].dtype == object:
             raise _wrong(f"{key}: values that are neither numbers nor texts")
     lengths = {key: len(column) for key, column in columns.items() if column.ndim}
-    if not lengths or not min(lengths.values()):
+    if not columns or not min(lengths.values(), default=1):
         raise _wrong("there are none")
-    count = max(lengths.values())
+    count = max(lengths.values(), default=1)
     for key, length in lengths.items():
         if length != count:
             raise _wrong(f"{key} has {length} values, others have {count}")

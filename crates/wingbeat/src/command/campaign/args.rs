@@ -4,7 +4,7 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use wingbeat::campaign::{Campaign, Store};
+use wingbeat::campaign::{Campaign, Store, shell};
 use wingbeat::case::IoError;
 use wingbeat::results::RESULTS;
 
@@ -39,6 +39,16 @@ impl Place {
     pub(super) fn folder(&self, campaign: &Campaign) -> PathBuf {
         let default = || Path::new(RESULTS).join(campaign.name());
         operand(&self.out.clone().unwrap_or_else(default))
+    }
+
+    /// What a shell takes for this place in a command.
+    pub(super) fn words(&self) -> String {
+        let word = |path: &Path| shell(&path.display().to_string());
+        let file = word(&operand(&self.file));
+        match &self.out {
+            Some(out) => format!("{file} --out {}", word(&operand(out))),
+            None => file,
+        }
     }
 
     /// The campaign and its directory, which is there.

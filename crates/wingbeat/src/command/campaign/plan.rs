@@ -9,7 +9,7 @@ use wingbeat::campaign::{Campaign, Status, Store};
 use wingbeat::case::IoError;
 use wingbeat::results::file::{Existing, NewFile};
 
-use super::args::{Part, Place, operand};
+use super::args::{Part, Place};
 use crate::command::failure::{FAILED, Failure};
 use crate::command::terminal::{output, say, tell};
 
@@ -43,6 +43,9 @@ pub(super) struct MergeArgs {
     /// Also while points have no result yet.
     #[arg(long)]
     partial: bool,
+    /// Also where another campaign was run last, whose tables are replaced.
+    #[arg(long)]
+    overwrite: bool,
 }
 
 /// `wingbeat campaign plan`.
@@ -89,19 +92,25 @@ pub(super) fn numbers(args: &NumbersArgs) -> Result<(), Failure> {
 /// `wingbeat campaign merge`.
 pub(super) fn merge(args: &MergeArgs) -> Result<(), Failure> {
     let (campaign, store) = args.place.existing()?;
-    tables(&campaign, &store, args.partial)
+    let place = args.place.words();
+    if !args.overwrite && !store.is_of(campaign.text()) {
+        return Err(Failure::Option(format!(
+            "{}: another campaign was run here last, or this one before its file was changed, and its tables are left untouched; `wingbeat campaign run {place}` runs this one here, --out names another directory, --overwrite replaces the tables",
+            store.root().display()
+        )));
+    }
+    let missing = merge::missing(&campaign, &store)?;
+    if missing > 0 && !args.partial {
+        return Err(Failure::Option(format!(
+            "{missing} of {} points have no result yet; `wingbeat campaign run {place}` flies them, --partial merges what there is",
+            campaign.plan().points(),
+        )));
+    }
+    tables(&campaign, &store)
 }
 
 /// Writes the tables.
-fn tables(campaign: &Campaign, store: &Store, partial: bool) -> Result<(), Failure> {
-    let missing = merge::missing(campaign, store)?;
-    if missing > 0 && !partial {
-        return Err(Failure::Option(format!(
-            "{missing} of {} points have no result yet; `wingbeat campaign run {}` flies them, --partial merges what there is",
-            campaign.plan().points(),
-            operand(&campaign.path).display()
-        )));
-    }
+fn tables(campaign: &Campaign, store: &Store) -> Result<(), Failure> {
     for path in merge::merge(campaign, store)? {
         say!("wrote {}", path.display());
     }

@@ -1,11 +1,9 @@
 //! `wingbeat campaign run`: local processes fly the points.
 
-use std::path::Path;
-
 use clap::Args;
 use wingbeat::campaign::{Campaign, Status, Store, inspect, left, plan_name};
 
-use super::args::{Part, Place, operand};
+use super::args::{Part, Place};
 use super::master::{Master, processors};
 use crate::command::failure::{Failure, INTERRUPTED};
 use crate::command::options;
@@ -55,7 +53,9 @@ pub(super) fn run(args: &RunArgs) -> Result<(), Failure> {
         let stop = stop_flag();
         let (file, plan) = (&args.place.file, plan_name(&campaign));
         let mut master = Master::new(file, &folder, &plan, range.clone(), args.quiet);
-        master.work(jobs, done, &stop)?;
+        let worked = master.work(jobs, done, &stop);
+        warn_of_programs(&campaign);
+        worked?;
     }
     let left = left(&campaign, &store, &range);
     if left > 0 {
@@ -64,14 +64,23 @@ pub(super) fn run(args: &RunArgs) -> Result<(), Failure> {
     }
     match args.quiet {
         true => Ok(()),
-        false => finish(&campaign, &store, &args.place.file),
+        false => finish(&campaign, &store, &args.place),
     }
 }
 
-fn finish(campaign: &Campaign, store: &Store, file: &Path) -> Result<(), Failure> {
+/// Says which files of programs have changed meanwhile: what is in them belongs to the points.
+fn warn_of_programs(campaign: &Campaign) {
+    for path in campaign.changed_programs() {
+        tell!(
+            "warning: `{}` was changed while the points were flown; the command of a program names it, so it belongs to every point and the next run flies them again: if the program writes it, leave its name out of the command",
+            path.display()
+        );
+    }
+}
+
+fn finish(campaign: &Campaign, store: &Store, place: &Place) -> Result<(), Failure> {
     let status = Status::of(campaign, store)?;
-    let file = operand(file);
-    let file = file.display();
+    let place = place.words();
     say!(
         "{} of {} points are done, {} failed.",
         status.done,
@@ -80,12 +89,12 @@ fn finish(campaign: &Campaign, store: &Store, file: &Path) -> Result<(), Failure
     );
     if status.done == status.points {
         say!(
-            "`wingbeat campaign merge {file}` writes them as one table, `wingbeat campaign view {file}` shows them."
+            "`wingbeat campaign merge {place}` writes them as one table, `wingbeat campaign view {place}` shows them."
         );
     }
     if status.failed > 0 {
         say!(
-            "failed.csv of the merge has those that failed; `wingbeat campaign retry {file}` has them flown again."
+            "failed.csv of the merge has those that failed; `wingbeat campaign retry {place}` has them flown again."
         );
     }
     Ok(())

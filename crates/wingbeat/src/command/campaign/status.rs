@@ -5,8 +5,7 @@ use std::time::Duration;
 use clap::Args;
 use wingbeat::campaign::{Status, plan_name, retry as forget};
 
-use super::args::Place;
-use super::args::{duration, operand};
+use super::args::{Place, duration};
 use crate::command::failure::Failure;
 use crate::command::terminal::say;
 
@@ -87,7 +86,7 @@ pub(super) fn retry(place: &Place) -> Result<(), Failure> {
     let count = forget(&campaign, &store)?;
     say!(
         "{count} points that failed are forgotten; `wingbeat campaign run {}` flies them again.",
-        operand(&place.file).display()
+        place.words()
     );
     Ok(())
 }

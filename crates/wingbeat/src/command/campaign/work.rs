@@ -43,7 +43,7 @@ pub(super) fn work(args: &WorkArgs) -> Result<(), Failure> {
         .is_some_and(|p| *p != plan_name(&campaign))
     {
         tell!(
-            "error: {} was changed while it was flown; what is done is kept: the same command flies the file as it is now",
+            "error: {} was changed while it was flown, or a file that it names; what is done is kept: the same command flies the file as it is now",
             args.place.file.display()
         );
         return Err(Failure::Told(FAILED));
