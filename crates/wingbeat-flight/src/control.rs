@@ -281,8 +281,8 @@ impl Loop {
             return wrong(format!("{} adjustments for {wings} wings", command.len()));
         }
         for (k, a) in command.iter().enumerate() {
-            if !a.is_finite() {
-                return wrong(format!("the adjustment of wing {k} is not finite: {a:?}"));
+            if let Some((name, x)) = a.numbers().iter().find(|(_, x)| !x.is_finite()) {
+                return wrong(format!("{name} of wing {k} is not finite: {x}"));
             }
             if a.frequency != 0.0 {
                 return wrong(format!("wing {k}: the frequency cannot change in flight"));

@@ -64,7 +64,26 @@ pub fn raised(py: Python<'_>, error: &Error) -> PyErr {
         Error::Ensemble { remedy, .. } => ("FlightError", about("members", *remedy)),
         Error::Threads(_) => ("FlightError", about("threads", "fly on fewer threads")),
     };
-    exception(py, class, &error.to_string(), parts)
+    let parts = Parts {
+        remedy: in_python(&parts.remedy),
+        ..parts
+    };
+    exception(py, class, &in_python(&error.to_string()), parts)
+}
+
+/// Words of the command line and those of Python in their place. A new flight takes no directory of an old one there.
+const SPOKEN: [(&str, &str); 6] = [
+    (" with --out, or take this one with --overwrite", ""),
+    (" with --out DIR", ""),
+    (" with --out", ""),
+    ("with --overwrite", "with overwrite=True"),
+    ("which --overwrite", "which overwrite=True"),
+    ("`wingbeat presets`", "wingbeat.presets()"),
+];
+
+fn in_python(message: &str) -> String {
+    let replaced = |text: String, (from, to): &(&str, &str)| text.replace(from, to);
+    SPOKEN.iter().fold(message.to_owned(), replaced)
 }
 
 /// Of a command that is not done because its work ended in a panic.
@@ -84,7 +103,8 @@ fn file(error: &IoError) -> (&'static str, Parts) {
     match error {
         IoError::Case(e) => ("CaseError", of_case(e)),
         IoError::NoCase { name, hint } => {
-            let remedy = format!("wingbeat.presets() lists the presets{hint}");
+            let remedy = format!("{hint}; `wingbeat presets` lists the presets");
+            let remedy = remedy.trim_start_matches([',', ';', ' ']); // as the message has it
             ("CaseError", about(or_case(name), remedy))
         }
         IoError::NoSpecies { name, known, .. } => {
@@ -148,6 +168,22 @@ fn flight(error: &FlightError) -> (&'static str, Parts) {
             ("FlightError", about("control", remedy))
         }
         FlightError::External(_) => ("FlightError", about("air", "see what the air says")),
+        FlightError::ElasticNotConverged { .. } => {
+            let remedy = "a smaller step (time.steps_per_beat), more damping (structure.damping_s)";
+            ("FlightError", about("time.steps_per_beat", remedy))
+        }
+        FlightError::Asymmetric { .. } => {
+            let remedy = "compute both halves: air.mirror = false";
+            ("FlightError", about("air.mirror", remedy))
+        }
+        FlightError::StepTooSmall { .. } => {
+            let remedy = "smooth it, or take integrator = \"hamming\"";
+            ("FlightError", about("dynamics.integrator", remedy))
+        }
+        FlightError::TooManySteps { .. } => {
+            let remedy = "make it softer or slower, or shorten the step";
+            ("FlightError", about("time.steps_per_beat", remedy))
+        }
         _ => ("FlightError", about("", "see the message")),
     }
 }

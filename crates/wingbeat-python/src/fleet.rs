@@ -353,7 +353,7 @@ impl Fleet {
             let Some(regulator) = &mut cell.regulator else {
                 return Ok(false);
             };
-            let d = cell.episode.seen();
+            let d = cell.episode.seen_on_the_way();
             let u = limits.applied(regulator.controls(&d));
             regulator.remember(&d, u, limits.reached(&u));
             *row = std::array::from_fn(|i| (u[i] / sizes[i]) as f32);

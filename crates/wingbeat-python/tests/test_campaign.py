@@ -420,7 +420,6 @@ BAD = {
     "a point that is none": {"points": [{"time.beats": 1}, 2]},
     "other keys": {"points": [{"time.beats": 1}, {"motion.frequency_hz": 200.0}]},
     "lengths": {"points": {"time.beats": [1, 2], "motion.frequency_hz": [200.0]}},
-    "one value only": {"points": {"time.beats": 1}},
     "no key": {"points": {"": [1]}},
     "ragged": {"points": {"air.stream_m_s": [[1, 2], [1]]}},
     "objects": {"points": {"time.beats": [object()]}},

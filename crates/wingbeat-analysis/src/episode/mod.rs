@@ -224,6 +224,14 @@ impl Episode {
         *self.seen.front().expect("one at least")
     }
 
+    /// The same with its velocity less that of the target: what a controller brings to zero that follows the target.
+    pub fn seen_on_the_way(&self) -> Departure {
+        let (_, velocity) = self.course.task.target(&self.course.trim.beat, self.time());
+        let mut departure = self.seen();
+        departure.state.velocity -= velocity;
+        departure
+    }
+
     /// What departs from the target, in truth.
     ///
     /// # Errors

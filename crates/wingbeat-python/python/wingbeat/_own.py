@@ -65,7 +65,7 @@ class Steering:
         for item in answer if isinstance(answer, Sequence) else [answer]:
             if not isinstance(item, Adjustment):
                 raise CaseError(
-                    f"control: the controller answered with a {type(item).__name__}",
+                    f"control: the controller answered with {item!r:.60}, a value of type {type(item).__name__}",
                     key="control",
                     remedy="one wingbeat.Adjustment for all wings, or a list with one for each",
                 )

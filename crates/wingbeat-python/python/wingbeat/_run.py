@@ -90,7 +90,7 @@ class Run:
 
     def __repr__(self) -> str:
         where = f" in {self.dir}" if self.dir else ""
-        return f"<wingbeat.Run {self.outcome}: {self._core.rows} rows{where}>"
+        return f"<wingbeat.Run {self.outcome}, {self.summary['verdict']}: {self._core.rows} rows{where}>"
 
     def __reduce__(self) -> tuple[Callable[[str], Run], tuple[str]]:
         if self.dir is None:
