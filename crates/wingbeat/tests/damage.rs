@@ -246,7 +246,8 @@ fn agrees_velocity_of_the_air_with_the_flight_and_refuses_damage() {
     let table = String::from_utf8(out.stdout).unwrap();
     let row = table.lines().nth(1).unwrap();
     let numbers: Vec<f64> = row.split(',').map(|x| x.parse().unwrap()).collect();
-    assert_eq!(numbers, [place.to_array(), velocity.to_array()].concat());
+    let wanted = [&place.to_array()[..], &velocity.to_array(), &[1.0]].concat();
+    assert_eq!(numbers, wanted);
     let path = dir.join("run/checkpoint.bin");
     let whole = fs::read(&path).unwrap();
     let damage = |bytes: &[u8], reason: &str| {

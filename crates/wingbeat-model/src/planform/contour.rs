@@ -11,11 +11,11 @@ pub type EdgePoints = Vec<(f64, f64)>;
 /// Where a wing lies in the picture it was digitised from, in the numbers of the picture.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Landmarks {
-    /// The hinge.
+    /// The hinge \[`unit`\].
     pub hinge: [f64; 2],
-    /// The wing tip, or any other point on the span axis.
+    /// The wing tip, or any other point on the span axis \[`unit`\].
     pub tip: [f64; 2],
-    /// A point on the side of the leading edge. None: that side is to the left on the way from the hinge to the tip, the second
+    /// A point on the side of the leading edge \[`unit`\]. None: that side is to the left on the way from the hinge to the tip, the second
     /// number counted upwards.
     pub leading_edge: Option<[f64; 2]>,
     /// Length of one unit of the picture \[m\].
