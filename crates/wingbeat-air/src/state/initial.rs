@@ -54,6 +54,9 @@ impl Lattice {
         {
             return mismatch("number of leading-edge strips");
         }
+        if state.hold.iter().any(|hold| hold.is_nan() || *hold < 0.0) {
+            return mismatch("circulation that leading edges hold");
+        }
         if [&state.inner, &state.inner_before]
             .iter()
             .any(|x| x.len() != self.surfaces().len())

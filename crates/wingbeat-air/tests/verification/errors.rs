@@ -169,6 +169,15 @@ fn exact_step_errors() {
         loads(&state, -1.0, &good),
         Err(AirError::TimeStep { .. })
     ));
+    for hold in [f64::NAN, -1.0] {
+        let mut odd = state.clone();
+        assert!(!odd.hold.is_empty());
+        odd.hold.fill(hold);
+        assert!(matches!(
+            loads(&odd, 1.0, &good),
+            Err(AirError::StateMismatch { .. })
+        ));
+    }
     state.sheets.clear();
     assert!(matches!(
         loads(&state, 1.0, &good),
