@@ -171,6 +171,14 @@ impl LoadedCase {
         &self.source.text
     }
 
+    /// The number at a key of the case as it was written.
+    pub(crate) fn number_at(&self, key: &str) -> Option<f64> {
+        let value = self.source.value_at(key)?;
+        value
+            .as_float()
+            .or(value.as_integer().map(|whole| whole as f64))
+    }
+
     /// The text that is given for a key, with what is set on top; none where it is left out or no text.
     pub fn text_at(&self, key: &str) -> Option<&str> {
         self.source.value_at(key)?.as_str()

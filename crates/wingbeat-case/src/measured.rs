@@ -33,7 +33,7 @@ impl LoadedCase {
             for (angle, rows) in tables {
                 let key = format!("wing.{name}.motion.{angle}.table");
                 doubts.extend(turn(&key, rows));
-                doubts.extend(lost(&key, rows));
+                doubts.extend(lost(&key, rows, self.zero_of(&key)));
             }
             if let Some(PlanformCase::Outline(outline)) = &wing.planform {
                 doubts.extend(widened(name, outline));
@@ -47,6 +47,11 @@ impl LoadedCase {
             }
         }
         doubts
+    }
+
+    /// The angle that 0 in the table at `key` stands for \[deg\].
+    fn zero_of(&self, key: &str) -> f64 {
+        self.number_at(&format!("{key}.offset_deg")).unwrap_or(0.0)
     }
 }
 
@@ -85,18 +90,18 @@ fn turn(key: &str, rows: &[[f64; 2]]) -> Option<String> {
     ))
 }
 
-/// Rows that hold zero in the midst of other angles, as frames do in which nothing was found.
-fn lost(key: &str, rows: &[[f64; 2]]) -> Option<String> {
+/// Rows that held zero, which stands for the angle `zero`, in the midst of other angles, as frames do in which nothing was found.
+fn lost(key: &str, rows: &[[f64; 2]], zero: f64) -> Option<String> {
     let mut from = 1;
     while from + 1 < rows.len() {
-        let length = rows[from..].iter().take_while(|r| r[1] == 0.0).count();
+        let length = rows[from..].iter().take_while(|r| r[1] == zero).count();
         let (before, after) = (rows[from - 1][1], rows.get(from + length));
         if let Some(after) = after.filter(|_| length > 0)
-            && before.abs().min(after[1].abs()) > LEAP_DEG
+            && (before - zero).abs().min((after[1] - zero).abs()) > LEAP_DEG
         {
             let [first, last] = [rows[from][0], rows[from + length - 1][0]];
             return Some(format!(
-                "{key}: exactly 0 from phase {first} to {last}, between {before} and {} deg: lost frames? Leave such rows out",
+                "{key}: exactly {zero} from phase {first} to {last}, between {before} and {} deg: lost frames? Leave such rows out",
                 after[1]
             ));
         }

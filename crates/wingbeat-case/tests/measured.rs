@@ -294,6 +294,22 @@ fn exact_tables_in_other_conventions_are_converted() {
             }
         }
     }
+    // Lost frames that were stored as 0 are those of the table, whatever 0 stands for.
+    let doubts = |list: &[[f64; 2]]| {
+        let set = format!(
+            "wing.right.motion.psi={{table={{{},{convention}}}}}",
+            rows(list)
+        );
+        fly(&[set]).doubtful_measurements().join("\n")
+    };
+    assert_eq!(doubts(&rotation), "");
+    let mut lost = rotation.clone();
+    lost[19..21].iter_mut().for_each(|row| row[1] = 0.0);
+    let said = doubts(&lost);
+    assert!(
+        said.contains("exactly 90 from phase 0.475 to 0.5"),
+        "{said}"
+    );
     let refused = |key: &str| {
         let set = format!("wing.right.motion.psi={{table={{{},{key}}}}}", rows(&psi));
         let preset = presets::find("fruit-fly-tethered").unwrap().text;

@@ -1,6 +1,7 @@
 //! All tests of the crate in one program: it is linked once.
 
 mod absurd;
+mod angle_tables;
 mod defaults;
 mod differences;
 mod held;
