@@ -442,6 +442,9 @@ BAD = {
     "executor that is a class": {"executor": campaign.Serial},
     "unknown preset": {"base": "fruit-fli"},
     "base with parts of its own": {"base": Flight.preset("fruit-fly-blade").with_air(lambda _: np.zeros((3, 6)))},
+    "base that is a number": {"base": 3},
+    "question to a trim that is not made": {"points": {"trim.forward_m_per_s": [1.0]}},
+    "progress that is none": {"progress": 3},
     "out that is a file": {"out": __file__},
 }
 
@@ -469,8 +472,9 @@ def test_exact_grid_is_all_combinations_the_last_key_quickest():
     points = campaign.grid({"time.beats": [1, 2], "motion.frequency_hz": [190.0, 200.0, 210.0]})
     assert points["time.beats"].tolist() == [1, 1, 1, 2, 2, 2]
     assert points["motion.frequency_hz"].tolist() == [190.0, 200.0, 210.0] * 2
-    with pytest.raises(CaseError, match="no list of values"):
-        campaign.grid({"time.beats": []})
+    for values in ([], 3, "abc", [[1.0, 2.0], [1.0]]):
+        with pytest.raises(CaseError, match="time.beats has no list of values"):
+            campaign.grid({"time.beats": values})
 
 
 def test_behaves_single_values_alone_are_one_point():

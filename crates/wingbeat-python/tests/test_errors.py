@@ -18,7 +18,11 @@ Bad = Callable[[Flight, Path], Any]
 
 
 def controlled(answer: Any) -> Bad:
-    return lambda blade, _: blade.with_controller(lambda _: answer).fly()
+    return controlled_by(lambda: answer)
+
+
+def controlled_by(answer: Callable[[], Any]) -> Bad:
+    return lambda blade, _: blade.with_controller(lambda _: answer()).fly()
 
 
 def blown(answer: Any) -> Bad:
@@ -132,6 +136,10 @@ BAD: dict[str, Bad] = {
     "complex motion": lambda blade, _: blade.with_motion(phi_deg=np.zeros(8, complex)),
     "trim with a wake, to nothing": lambda *_: Flight.preset("fruit-fly-hover").trim_with_wake(tolerance=0),
     "trim with a wake, held for nothing": lambda *_: Flight.preset("fruit-fly-hover").trim_with_wake(held_beats=0),
+    "case that is a number": lambda *_: Flight.from_case(3),
+    "progress that is none": lambda blade, _: blade.fly(progress=3),
+    "adjustment in words": controlled_by(lambda: Adjustment(stroke_amplitude="0.1")),
+    "adjustment of an array": controlled_by(lambda: Adjustment(stroke_amplitude=np.zeros(2))),
     "trim under a load": lambda blade, _: Flight.preset("fruit-fly-hover").trim(),
 }
 

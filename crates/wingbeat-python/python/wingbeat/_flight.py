@@ -58,6 +58,8 @@ class Flight:
             return _made(Source("case", _toml.document(case), ""))
         if isinstance(case, str) and ("\n" in case or "=" in case):
             return _made(Source("case", case, ""))
+        if not isinstance(case, str | os.PathLike):
+            raise CaseError(f"a case is no {type(case).__name__}", key="case", remedy="the path of a file, the text of a case, or a dict")
         path = Path(case)
         if not path.is_file():
             raise CaseError(
@@ -224,7 +226,7 @@ class Flight:
                 key="out",
                 remedy="fly() in memory, then run.write(FOLDER)",
             )
-        bar = _bar(self.name) if progress is True else progress or None
+        bar = shown(progress, self.name, "step")
         folder = None if out is None else os.fspath(out)
         run, error = self._core.fly(folder, bar, frames)
         if error is not None:
@@ -417,7 +419,20 @@ def _rows(name: str, angle: ArrayLike | Callable[[float], float], samples: int) 
     return [[float(phase), float(x)] for phase, x in zip(phases, angles, strict=True)]
 
 
-def _bar(name: str, unit: str = "step") -> Progress:
+def shown(progress: bool | Progress | None, name: str, unit: str) -> Progress | None:
+    """What is called with the progress: True asks for a bar."""
+    if progress is None or isinstance(progress, bool):
+        return _bar(name, unit) if progress else None
+    if not callable(progress):
+        raise CaseError(
+            f"progress = {progress!r}: cannot be called",
+            key="progress",
+            remedy="True for a bar, or a function of what is done and of all",
+        )
+    return progress
+
+
+def _bar(name: str, unit: str) -> Progress:
     """A bar of tqdm, or a line on the standard error."""
     try:
         from tqdm.auto import tqdm

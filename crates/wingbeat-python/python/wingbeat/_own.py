@@ -7,7 +7,7 @@ from dataclasses import astuple, dataclass
 from typing import TYPE_CHECKING, Any, Protocol
 
 from wingbeat._core import Sensed
-from wingbeat._numbers import reals
+from wingbeat._numbers import real, reals
 from wingbeat.errors import CaseError
 
 if TYPE_CHECKING:
@@ -39,6 +39,12 @@ class Adjustment:
     """Added to the pitch of the stroke plane."""
     frequency: float = 0.0
     """Relative change of the frequency; 0 in flight."""
+
+    def __post_init__(self) -> None:
+        for name in self.__slots__:
+            value = getattr(self, name)
+            if type(value) is not float:
+                object.__setattr__(self, name, real(name, value))
 
 
 Controller = Callable[[Sensed], "Adjustment | Sequence[Adjustment]"]

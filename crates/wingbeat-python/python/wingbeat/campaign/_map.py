@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterable, Mapping
 from concurrent.futures import Executor
 from typing import Any
 
-from wingbeat._flight import Flight
+from wingbeat._flight import Flight, shown
 from wingbeat.campaign import _engines, _plan, _points
 from wingbeat.campaign._plan import Progress
 from wingbeat.campaign._table import Table
@@ -48,9 +48,10 @@ def map(
     """
     read = _points.read(points)
     plan = _plan.plan(read.columns, base, do, keep, last_beats, out, workers, chunk_s, attempts)
+    bar = shown(progress, "campaign", "point")
     used, is_made_here = _engines.engine(executor, workers)
     try:
-        table = plan.fly(read, used, _bar() if progress is True else progress or None)
+        table = plan.fly(read, used, bar)
     except BaseException:
         if is_made_here and isinstance(used, _engines.Processes):
             used.stop()
@@ -58,9 +59,3 @@ def map(
     if is_made_here:
         used.shutdown()
     return table
-
-
-def _bar() -> Progress:
-    from wingbeat import _flight
-
-    return _flight._bar("campaign", "point")

@@ -141,6 +141,8 @@ def _check_keys(task: Task, keys: Iterable[str]) -> None:
             if name not in _names.TRIM_OPTIONS:
                 there = ", ".join(f"trim.{option}" for option in _names.TRIM_OPTIONS)
                 raise CaseError(f"{key}: a trim is not asked for this", key=key, remedy=f"one of {there}")
+        elif key != name and task.do == "fly" and name in _names.TRIM_OPTIONS:
+            raise CaseError(f"{key}: asked of trims, and points are flown", key=key, remedy="do='trim'")
         elif isinstance(task.base, Flight):
             check_key(key)
 

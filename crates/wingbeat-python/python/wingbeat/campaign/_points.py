@@ -56,10 +56,14 @@ def grid(axes: Mapping[str, Iterable[Any]]) -> dict[str, NDArray[Any]]:
 
     if not isinstance(axes, Mapping) or not axes:
         raise CaseError("grid: no key is given", key="grid", remedy="a dict of keys and their values")
-    values = [np.asarray(list(axis)) for axis in axes.values()]
-    for key, axis in zip(axes, values, strict=True):
-        if axis.ndim != 1 or axis.size == 0:
-            raise CaseError(f"grid: {key} has no list of values", key=str(key), remedy="at least one number or text")
+    values = []
+    for key, axis in axes.items():
+        try:
+            values.append(np.asarray(None if isinstance(axis, str) else list(axis)))
+        except (TypeError, ValueError):  # one value alone, lists of several lengths
+            values.append(np.asarray(None))
+        if values[-1].ndim != 1 or values[-1].size == 0:
+            raise CaseError(f"grid: {key} has no list of values", key=str(key), remedy="a list of numbers or texts, one at least")
     return {key: axis.ravel() for key, axis in zip(axes, np.meshgrid(*values, indexing="ij"), strict=True)}
 
 
