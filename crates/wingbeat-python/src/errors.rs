@@ -184,8 +184,14 @@ fn flight(error: &FlightError) -> (&'static str, Parts) {
             let remedy = "make it softer or slower, or shorten the step";
             ("FlightError", about("time.steps_per_beat", remedy))
         }
-        _ => ("FlightError", about("", "see the message")),
+        _ => ("FlightError", about("", last_clause(&error.to_string()))),
     }
+}
+
+/// What a message ends with, which is what to try.
+fn last_clause(message: &str) -> &str {
+    let parts = message.rsplit_once("; ").or(message.rsplit_once(": "));
+    parts.map_or(message, |(_, last)| last)
 }
 
 fn analysis(error: &AnalysisError) -> (&'static str, Parts) {

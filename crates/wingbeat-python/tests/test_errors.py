@@ -192,6 +192,16 @@ def test_behaves_errors_name_the_line_of_a_case(blade):
     assert isinstance(caught.value, ValueError)
 
 
+def test_behaves_what_to_try_is_said_of_a_flight_that_leaves_its_mirror():
+    def turn(sensed: wingbeat.Sensed) -> list[Adjustment]:
+        return [Adjustment(stroke_amplitude=0.05), Adjustment(stroke_amplitude=-0.05)]
+
+    hover = Flight.preset("fruit-fly-hover").set({"time.beats": 1.5, "time.steps_per_beat": 20})
+    with pytest.raises(wingbeat.FlightError, match="not mirror-symmetric") as caught:
+        hover.with_controller(turn, every_steps=5).fly()
+    assert caught.value.remedy.endswith("compute both halves") and str(caught.value).count("compute both halves") == 1
+
+
 def test_behaves_a_flight_that_cannot_go_on_keeps_what_was_flown(blade):
     """Loads that grow with the acceleration they make: bodies and air do not agree."""
 

@@ -134,7 +134,8 @@ class Flight:
         """A new flight under ``controller``, called with what is sensed (:class:`wingbeat.Sensed`) at the release and
         every ``every_steps`` steps after it (a wingbeat if left out), never inside a step; it answers with one
         :class:`wingbeat.Adjustment` for all wings or one for each. Commands act ``latency_looks`` looks later, and the
-        wings go over to them smoothly until the next look. A controller with a method ``reset`` is reset when a
+        wings go over to them smoothly until the next look. Of a case with ``air.mirror`` one half of the air is computed: commands that differ
+        from side to side end its flight. A controller with a method ``reset`` is reset when a
         flight begins. An exception in it stops the flight; ``error.run`` is what was flown. Flights that no wing steers are
         refused when they begin: tethered ones, those without wings or in air by a table of derivatives.
         """
