@@ -29,9 +29,11 @@ impl LoadedCase {
         let mut doubts: Vec<String> = fits.iter().filter_map(FittedTable::doubt).collect();
         for (name, wing) in &self.raw.wing {
             let tables = wing.motion.as_ref().map(tables).unwrap_or_default();
-            doubts.extend(radians(name, &tables));
+            let key = |angle: &str| format!("wing.{name}.motion.{angle}.table");
+            let zero = |angle: &str| self.zero_of(&key(angle));
+            doubts.extend(radians(name, &tables, zero));
             for (angle, rows) in tables {
-                let key = format!("wing.{name}.motion.{angle}.table");
+                let key = key(angle);
                 doubts.extend(turn(&key, rows));
                 doubts.extend(lost(&key, rows, self.zero_of(&key)));
             }
@@ -68,10 +70,19 @@ fn tables(motion: &WingMotionCase) -> Vec<(&'static str, &[[f64; 2]])> {
     angles.into_iter().filter_map(rows).collect()
 }
 
-/// Tables whose angles are all small.
-fn radians(wing: &str, tables: &[(&str, &[[f64; 2]])]) -> Option<String> {
-    let angles = || tables.iter().flat_map(|t| t.1).map(|row| row[1].abs());
-    let most = angles().fold(0.0, f64::max);
+/// Tables whose angles are all small, counted from what their 0 stands for.
+fn radians(
+    wing: &str,
+    tables: &[(&str, &[[f64; 2]])],
+    zero: impl Fn(&str) -> f64,
+) -> Option<String> {
+    let largest = |(angle, rows): &(&str, &[[f64; 2]])| {
+        let from = zero(angle);
+        rows.iter()
+            .map(|row| (row[1] - from).abs())
+            .fold(0.0, f64::max)
+    };
+    let most = tables.iter().map(largest).fold(0.0, f64::max);
     let has_stroke = tables.iter().any(|t| t.0 == "phi");
     (has_stroke && most > 0.0 && most < HALF_A_TURN).then(|| {
         format!("all angles in the tables of wing.{wing}.motion are below {HALF_A_TURN} deg: are they radians? Tables are in degrees, and columns of files in radians where their name says so (phi_rad)")

@@ -59,8 +59,11 @@ fn behaves_lost_frames_and_wrapped_angles_of_tables_are_named() {
 
 #[test]
 fn behaves_tables_in_radians_are_named() {
-    let said = doubts(&samples(|_, q| q.to_radians())).join("\n");
-    assert!(said.contains("are they radians?"), "{said}");
+    for offset in ["", ", offset_deg=-90"] {
+        let rows = samples(|_, q| q.to_radians());
+        let said = fly(&[table("phi", &rows, offset)]).doubtful_measurements();
+        assert!(said.join("\n").contains("are they radians?"), "{said:?}");
+    }
 }
 
 /// A series is that of its samples, in whatever beats they were taken.
