@@ -171,13 +171,7 @@ fn draw(setup: &FlightSetup, chords: &[Vec<Chord>; 2], when: &str, look: &Look) 
         plot::range(all.map(|v| v / scales.length))
     };
     let (mut x, mut y) = (ends(0), ends(1));
-    let left = 5.0 * look.font;
-    let width = look.width - left - 1.6 * look.font;
-    let limits = [0.5 * look.panel, 1.5 * look.panel];
-    let height = one_scale(&mut x, &mut y, width, limits);
-    let above = look.row() + 0.6 * look.font;
-    let below = [0.5 * look.font, 3.1 * look.font];
-    let whole = look.head() + 2.0 * (above + height) + below[0] + below[1];
+    let (areas, whole) = frames(&mut x, &mut y, look);
     let mut drawing = Drawing::new([look.width, whole]);
     let wing = reference_wing(setup).map_or(String::new(), |(w, _)| w.replace('_', " "));
     let title = format!(
@@ -185,37 +179,63 @@ fn draw(setup: &FlightSetup, chords: &[Vec<Chord>; 2], when: &str, look: &Look) 
         setup.name
     );
     plot::title(&mut drawing, &title, look);
-    let mut top = look.head();
     let leans = all().map(|c| c.level.sin().abs()).fold(0.0, f64::max);
     let (names, along) = words(leans);
-    for (half, name) in names.iter().enumerate() {
-        top += above;
+    let are_beside = areas[0].top == areas[1].top;
+    for (half, (name, area)) in names.iter().zip(areas).enumerate() {
         let along = format!("{along} [{}m]", scales.unit);
+        let up = format!("up [{}m]", scales.unit);
+        let [x_label, y_label] = match (are_beside, half) {
+            (true, _) => [along, format!("{name}, {up}")],
+            (false, 1) => [along, up],
+            (false, _) => [String::new(), up],
+        };
         let plot = Plot {
-            x_label: if half == 1 { along } else { String::new() },
-            y_label: format!("up [{}m]", scales.unit),
+            x_label,
+            y_label,
             x,
             y,
             ..Plot::default()
         };
-        let area = Area {
-            left,
-            top,
-            width,
-            height,
-        };
         let axes = plot.draw(&mut drawing, area, look);
-        let middle = [left + 0.5 * width, top - 0.55 * look.font];
-        drawing.text(middle, name, look.font, Anchor::Middle);
+        if !are_beside {
+            let middle = [area.left + 0.5 * area.width, area.top - 0.55 * look.font];
+            drawing.text(middle, name, look.font, Anchor::Middle);
+        }
         for chord in &chords[half] {
             draw_chord(&mut drawing, &axes, chord, &scales, look);
         }
-        if half == 0 {
+        if are_beside == (half == 1) {
             key(&mut drawing, &axes, setup, &scales, look);
         }
-        top += height + below[half];
     }
     drawing
+}
+
+/// Where the two half strokes are drawn in one scale, and the height of the whole: below each other, or beside each other where
+/// they are too tall for that.
+fn frames(x: &mut [f64; 2], y: &mut [f64; 2], look: &Look) -> ([Area; 2], f64) {
+    let left = 5.0 * look.font;
+    let right = 1.6 * look.font;
+    let width = look.width - left - right;
+    let most = 1.5 * look.panel;
+    let are_beside = width * (y[1] - y[0]) > most * (x[1] - x[0]);
+    let columns = if are_beside { 2.0 } else { 1.0 };
+    let width = look.width / columns - left - right;
+    let height = one_scale(x, y, width, [0.5 * look.panel, columns * most]);
+    let above = look.row() + 0.6 * look.font;
+    let step = match are_beside {
+        true => [look.width / columns, 0.0],
+        false => [0.0, height + 0.5 * look.font + above],
+    };
+    let area = |half: f64| Area {
+        left: left + half * step[0],
+        top: look.head() + above + half * step[1],
+        width,
+        height,
+    };
+    let areas = [area(0.0), area(1.0)];
+    (areas, areas[1].top + height + 3.1 * look.font)
 }
 
 /// Names of the half strokes and of the axis along, by how far the normal of the stroke plane leans from the vertical (its
