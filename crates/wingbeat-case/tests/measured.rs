@@ -161,6 +161,18 @@ fn refuses_a_second_column_that_is_named_after_another_angle() {
 }
 
 #[test]
+fn refuses_a_column_whose_name_two_have() {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("measured");
+    std::fs::create_dir_all(&folder).unwrap();
+    let file = folder.join("twice.csv");
+    std::fs::write(&file, "phase,phi_deg,phi_deg\n0,1,9\n0.5,2,8\n1,1,9\n").unwrap();
+    let law = format!("wing.right.motion.phi={{table={{file={file:?},angle_column=\"phi_deg\"}}}}");
+    let said = LoadedCase::find("fruit-fly-tethered", &[law]).unwrap_err();
+    let words = "two of its columns are named `phi_deg`";
+    assert!(said.to_string().contains(words), "{said}");
+}
+
+#[test]
 fn behaves_air_from_behind_and_drag_of_small_insects_are_named() {
     let said = |name: &str, set: &[&str]| {
         let set: Vec<String> = set.iter().map(|s| (*s).to_owned()).collect();

@@ -80,10 +80,15 @@ impl CsvFile {
         let Some(name) = name else {
             return Ok(default);
         };
-        header.iter().position(|h| h == name).ok_or_else(|| {
-            let names = header.iter().collect::<Vec<_>>().join(", ");
-            self.bad(&format!("there is no column `{name}` among {names}"))
-        })
+        let mut found = (0..header.len()).filter(|c| &header[*c] == name);
+        match (found.next(), found.next()) {
+            (Some(column), None) => Ok(column),
+            (Some(_), Some(_)) => Err(self.bad(&format!("two of its columns are named `{name}`"))),
+            (None, _) => {
+                let names = header.iter().collect::<Vec<_>>().join(", ");
+                Err(self.bad(&format!("there is no column `{name}` among {names}")))
+            }
+        }
     }
 
     fn number(&self, record: &StringRecord, column: usize) -> Result<f64, Fault> {

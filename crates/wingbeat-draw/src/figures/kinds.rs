@@ -22,7 +22,7 @@ pub(super) fn measured(setup: &FlightSetup, history: &History, part: &Part) -> V
         list.push(forces(setup, history));
     }
     list.push(trajectory(setup, history, part));
-    if setup.time.period.is_some() {
+    if setup.time.period.is_some() && !setup.animal.wings.is_empty() {
         list.push(angles(setup, history));
     }
     if setup.feedback.is_some() {
@@ -343,6 +343,14 @@ mod tests {
         );
         assert_eq!(forces.shaded.len(), 1);
         assert!((forces.shaded[0][1] - 0.5).abs() < 1e-9);
+    }
+
+    #[test]
+    fn behaves_a_body_without_wings_has_no_angles() {
+        let setup = LoadedCase::find("table1-sun-2007", &[]).unwrap().setup;
+        let history = history(&setup, false, 3, |_, _| {});
+        let all = charts_of(&setup, &history);
+        assert!(all.len() > 2 && all.iter().all(|c| c.0 != "angles"));
     }
 
     #[test]

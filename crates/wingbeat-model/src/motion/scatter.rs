@@ -6,7 +6,8 @@
 
 use crate::motion::Fourier;
 use crate::motion::spline::PeriodicSpline;
-use std::f64::consts::TAU;
+use rustfft::FftPlanner;
+use rustfft::num_complex::Complex;
 
 /// Samples from which on octaves can be told apart.
 const SAMPLES: usize = 32;
@@ -85,24 +86,19 @@ impl Scatter {
 /// Amplitudes of the harmonics 0, 1, 2, ... up to half as many as there are samples \[rad\].
 fn amplitudes(spline: &PeriodicSpline, samples: usize) -> Vec<f64> {
     let points = 4 * samples;
-    let at = |n: usize| spline.at(n as f64 / points as f64)[0];
-    let values: Vec<f64> = (0..points).map(at).collect();
-    let turn = |n: usize| (TAU * n as f64 / points as f64).sin_cos();
-    let turns: Vec<_> = (0..points).map(turn).collect();
-    let amplitude = |k: usize| {
-        let add = |(a, b): (f64, f64), (n, q): (usize, &f64)| {
-            let (s, c) = turns[(k * n) % points];
-            (a + q * c, b + q * s)
-        };
-        let (a, b) = values.iter().enumerate().fold((0.0, 0.0), add);
-        2.0 * a.hypot(b) / points as f64
-    };
-    (0..=(samples / 2).min(HARMONICS)).map(amplitude).collect()
+    let at = |n: usize| Complex::new(spline.at(n as f64 / points as f64)[0], 0.0);
+    let mut values: Vec<_> = (0..points).map(at).collect();
+    FftPlanner::new()
+        .plan_fft_forward(points)
+        .process(&mut values);
+    let looked_at = values.iter().take((samples / 2).min(HARMONICS) + 1);
+    looked_at.map(|v| 2.0 * v.norm() / points as f64).collect()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::f64::consts::TAU;
     use wingbeat_math::SplitMix64;
 
     fn spline(samples: usize, q: impl FnMut(f64) -> f64) -> PeriodicSpline {

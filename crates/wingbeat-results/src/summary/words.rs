@@ -36,8 +36,13 @@ impl Summary {
         };
         let _ = writeln!(
             out,
-            "{} {end}: {} steps, {:.4} s.",
-            self.case, self.steps, self.time_s
+            "{} {end}: {} steps, {}.",
+            self.case,
+            self.steps,
+            match self.time_s {
+                t if t < 0.01 => alone(t, "s"),
+                t => format!("{t:.4} s"),
+            }
         );
         let [x, y, z] = self.displacement_m.map(|d| d * 1e3);
         let _ = writeln!(
