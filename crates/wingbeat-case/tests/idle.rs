@@ -366,6 +366,7 @@ fn refuses_motions_of_wings_that_are_not_there() {
         "motion.adjust={ stroke_amplitude = 0.1 }",
         "motion.difference={ stroke_offset_deg = 1 }",
         "motion.start=impulsive",
+        "motion.start_beats=2",
     ] {
         let Err(refused) = load(&[set.to_owned()]) else {
             panic!("{set} is accepted");

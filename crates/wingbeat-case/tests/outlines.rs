@@ -108,6 +108,10 @@ const WRONG: &[(&str, &[&str])] = &[
         &["file_length_m", "no effect without file_tip"],
     ),
     (
+        "file='mm.csv', file_length_m=1e-3, file_tip=[1, 1]",
+        &["outline.file_length_m", "given twice"],
+    ),
+    (
         "file='pixels.csv', file_unit_m=1e-6, file_length_m=1e-3, file_tip=[1, 1]",
         &["file_length_m", "file_unit_m"],
     ),

@@ -67,6 +67,31 @@ fn steps(records: &[Record]) -> [f64; 2] {
 }
 
 #[test]
+fn refuses_oscillations_of_joints_at_no_frequency() {
+    let kind = "child = \"right\", kind = \"revolute\", axis = [1, 0, 0]";
+    for (key, law) in [
+        ("travel", "travel = { sine_m = [[0, 0, 1e-3]] }"),
+        (
+            "element[0].moment_newton_m",
+            "element = [{ moment_newton_m = { mean = 1e-6, cosine = [1e-6] } }]",
+        ),
+        (
+            "element[0].follow.angle_deg",
+            "element = [{ follow = { angle_deg = { sine = [9], frequency_hz = 0 }, stiffness_newton_m_per_rad = 1, damping_newton_m_s_per_rad = 0 } }]",
+        ),
+    ] {
+        let set = [format!("joint.h={{ {kind}, {law} }}")];
+        let said = LoadedCase::from_text("vane", VANE, Path::new(""), &set).unwrap_err();
+        let said = said.to_string();
+        let words = "its sines and cosines stand still at a frequency of 0";
+        assert!(
+            said.contains(words) && said.contains(&format!("joint.h.{key}")),
+            "{said}"
+        );
+    }
+}
+
+#[test]
 fn exact_angles_of_joints_go_on_past_half_a_turn() {
     let records = flown(&[SPRUNG]).unwrap();
     let [step, end] = steps(&records);

@@ -91,6 +91,9 @@ def test_behaves_scipy_and_matlab_take_the_model(trim, tmp_path):
     model.save(tmp_path / "model.mat")
     read = scipy.io.loadmat(tmp_path / "model.mat", simplify_cells=True)
     np.testing.assert_array_equal(read["A"], model.A)
+    with pytest.raises(wingbeat.ResultError, match="exists already"):
+        model.save(tmp_path / "model.mat")
+    model.save(tmp_path / "model.mat", overwrite=True)
     assert list(read["inputs"]) == list(model.inputs) and list(read["state_units"]) == list(model.state_units)
 
 

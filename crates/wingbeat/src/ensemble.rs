@@ -35,8 +35,8 @@ pub fn ensemble(flight: &Flight, members: usize, threads: usize) -> Result<Ensem
     };
     let flights: Option<Vec<Flight>> = (0..members).map(member).collect();
     let flights = flights.ok_or(Error::Ensemble {
-        problem: "members differ by the stream of the air, and this air has none",
-        remedy: "a vortex lattice, or blade elements",
+        problem: "members differ by a breath of wind in a vortex lattice or blade elements, and this flight has other air",
+        remedy: "air.model = \"vortex_lattice\" or \"blade_element\"",
     })?;
     let beats = fly_all(&flights, threads, |run: Run| run.summary().beats)?;
     let beats: Vec<Vec<BeatMeans>> = beats.into_iter().collect::<Result<_, Error>>()?;

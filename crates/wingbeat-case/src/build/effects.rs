@@ -8,8 +8,8 @@ use wingbeat_model::planform::Spacing;
 use super::Built;
 use crate::error::Fault;
 use crate::raw::{
-    AdjustCase, AirModel, Case, Formulation, JointCase, Mode, StartCase, TetherCase, WingCase,
-    WingMeshCase,
+    AdjustCase, AirModel, Case, Formulation, JointCase, Mode, MotionCase, StartCase, TetherCase,
+    WingCase, WingMeshCase,
 };
 use crate::sides::mirror_name;
 use crate::source::CaseSource;
@@ -30,8 +30,15 @@ pub(crate) fn check(case: &Case, setup: &FlightSetup, source: &CaseSource) -> Bu
             return Err(idle(format!("spring.{name}"), why));
         }
     }
-    if case.flight.held_beats > 0.0 && setup.time.period.is_none() {
-        return Err(idle("flight.held_beats", "where nothing beats"));
+    if case.flight.held_beats > 0.0 {
+        match (setup.time.period, &setup.mode) {
+            (None, _) => return Err(idle("flight.held_beats", "where nothing beats")),
+            (_, MotionMode::Free(start)) if start.held_steps == 0 => {
+                let why = "as it is shorter than half a step of the flight";
+                return Err(idle("flight.held_beats", why));
+            }
+            _ => {}
+        }
     }
     if let Some(tether) = &case.flight.tether {
         still_on_tether(tether)?;
@@ -184,6 +191,10 @@ fn motion_without_wings(case: &Case, source: &CaseSource) -> Built<()> {
         (
             "start",
             motion.start != StartCase::Smooth && case.joint.is_empty(),
+        ),
+        (
+            "start_beats",
+            motion.start_beats != MotionCase::default().start_beats && case.joint.is_empty(),
         ),
     ] {
         if acts {
@@ -374,6 +385,43 @@ fn joints(case: &Case) -> Built<()> {
         let moves = |t: &crate::raw::TravelCase| !t.cosine_m.is_empty() || !t.sine_m.is_empty();
         if travel.as_ref().is_some_and(|t| !moves(t)) {
             return Err(idle(path("travel"), "without cosine_m or sine_m"));
+        }
+        still_joint(name, joint, case.motion.frequency_hz.value())?;
+    }
+    Ok(())
+}
+
+/// Oscillations of a joint, and of what acts along it, at no frequency; `beat` is that of the wings \[Hz\].
+fn still_joint(name: &str, joint: &JointCase, beat: f64) -> Built<()> {
+    let turn = joint.turn.iter().map(|t| {
+        let still = t.cosine_deg.is_empty() && t.sine_deg.is_empty();
+        ("turn".to_owned(), t.frequency_hz, still)
+    });
+    let travel = joint.travel.iter().map(|t| {
+        let still = t.cosine_m.is_empty() && t.sine_m.is_empty();
+        ("travel".to_owned(), t.frequency_hz, still)
+    });
+    let along = joint.element.iter().enumerate().flat_map(|(k, e)| {
+        let follow = e.follow.as_ref().map(|f| &f.angle_deg);
+        let efforts = [
+            ("moment_newton_m", e.moment_newton_m.as_ref()),
+            ("force_newton", e.force_newton.as_ref()),
+            ("follow.angle_deg", follow),
+        ];
+        efforts.into_iter().filter_map(move |(key, series)| {
+            let s = series?;
+            let still = s.cosine.is_empty() && s.sine.is_empty();
+            Some((format!("element[{k}].{key}"), s.frequency_hz, still))
+        })
+    });
+    for (key, frequency, still) in turn.chain(travel).chain(along) {
+        if !still && frequency.unwrap_or(beat) == 0.0 {
+            return Err(Fault::new(
+                format!("joint.{name}.{key}"),
+                "its sines and cosines stand still at a frequency of 0",
+                "harmonics of a frequency above 0",
+                "give frequency_hz here or in [motion], or the mean alone",
+            ));
         }
     }
     Ok(())

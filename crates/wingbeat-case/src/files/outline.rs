@@ -125,6 +125,11 @@ fn landmarks(path: &str, outline: &OutlineCase, named: Option<f64>) -> Result<La
             "the unit",
             "file_unit_m or a unit in the names of the columns",
         )),
+        (_, Some(_), Some(_)) if outline.file_tip.is_some() => Err(twice(
+            format!("{path}.file_length_m"),
+            "the unit",
+            "file_length_m or a unit in the names of the columns",
+        )),
         (_, Some(length), _) => Ok(marks.scaled_to(length)),
         (unit, None, named) => Ok(Landmarks {
             unit: unit.or(named).unwrap_or(1.0),

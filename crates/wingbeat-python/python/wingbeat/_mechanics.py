@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
 from wingbeat import _core
 from wingbeat._own import Adjustment
-from wingbeat.errors import AnalysisError
+from wingbeat.errors import AnalysisError, ResultError
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -86,11 +86,13 @@ class LinearModel:
         names = ("states", "state_units", "inputs", "input_units")
         return {k: getattr(self, k) for k in "ABCD"} | {k: list(getattr(self, k)) for k in names}
 
-    def save(self, path: str | os.PathLike[str]) -> None:
-        """Writes a ``.mat`` file for MATLAB. Needs scipy."""
+    def save(self, path: str | os.PathLike[str], *, overwrite: bool = False) -> None:
+        """Writes a ``.mat`` file for MATLAB, in place of one that exists only with ``overwrite``. Needs scipy."""
         import numpy as np
         from scipy.io import savemat
 
+        if os.path.exists(path) and not overwrite:
+            raise ResultError(f"{os.fspath(path)} exists already", key=os.fspath(path), remedy="overwrite=True, or another file")
         texts = {k: np.array(v, dtype=object) for k, v in self.to_dict().items() if isinstance(v, list)}
         savemat(os.fspath(path), self.to_dict() | texts)
 

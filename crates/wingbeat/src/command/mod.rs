@@ -43,6 +43,7 @@ use terminal::say;
 /// assert_eq!(wingbeat::command::main(["wingbeat", "check", "fruit-fly-blade"].map(Into::into)), 0);
 /// ```
 pub fn main(args: impl IntoIterator<Item = OsString>) -> u8 {
+    signals::bear_limits_of_files();
     let matches = help::command().try_get_matches_from(args);
     let code = match matches.and_then(|found| Cli::from_arg_matches(&found)) {
         Ok(cli) => run(cli.command).map_or_else(|failure| failure.tell(), |()| 0),

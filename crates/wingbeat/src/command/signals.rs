@@ -64,6 +64,12 @@ fn watch(interrupts: Interrupts) -> std::io::Result<()> {
     Ok(())
 }
 
+/// From here on a file that grows beyond what is allowed (`ulimit -f`) is an error of writing, as a full disk is.
+pub(crate) fn bear_limits_of_files() {
+    #[cfg(unix)]
+    let _ = signal_hook::flag::register(signal_hook::consts::signal::SIGXFSZ, Arc::default());
+}
+
 #[cfg(not(unix))]
 fn watch(Interrupts { stop, .. }: Interrupts) -> std::io::Result<()> {
     for signal in [SIGINT, SIGTERM] {
