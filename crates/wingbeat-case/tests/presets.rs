@@ -412,7 +412,31 @@ fn behaves_one_sided_leading_edges_are_told_of_dragonflies_and_not_of_hovering_f
         said.contains("`fore-right`") && said.contains("`hind-left`"),
         "{said}"
     );
-    assert_eq!(with(r#"["trailing", "tip", "leading", "root"]"#), None);
+    // Free roots: the suction of the step before is left.
+    let late = with(r#"["trailing", "tip", "leading", "root"]"#).unwrap();
+    assert!(late.contains("the step before"), "{late}");
+    let revolving = |more: &[&str]| {
+        let set = ["flight.tether.yaw.rate_deg_s=6000", "motion.frequency_hz=0"];
+        let still = ["phi", "theta", "psi"].map(|angle| {
+            let deg = if angle == "psi" { 45 } else { 0 };
+            format!("wing.right.motion.{angle}={{ constant_deg = {deg} }}")
+        });
+        let time = ["time={ step_s = 1e-4, steps = 100 }", "motion.data="];
+        let all = set.iter().chain(&time).chain(more).map(|s| (*s).to_owned());
+        let all: Vec<String> = all.chain(still).collect();
+        let setup = LoadedCase::find("fruit-fly-tethered", &all).unwrap().setup;
+        setup.one_sided_leading_edges()
+    };
+    let said = revolving(&[]).unwrap();
+    assert!(
+        said.contains("wings go on one way") && said.contains("100 %"),
+        "{said}"
+    );
+    let free = r#"air.shed=["trailing", "tip", "leading", "root"]"#;
+    assert_eq!(
+        revolving(&[free, "air.leading_edge=suction_implicit"]),
+        None
+    );
 }
 
 /// Tips along which a wake goes carry a tenth too much at an aspect ratio of 4, and no preset flies so.

@@ -84,6 +84,13 @@ impl FlightSetup {
             feedback: None,
         }
     }
+
+    /// Whether forces move anything: a free body, joints, elastic wings. Else all motion is prescribed.
+    pub fn is_moved_by_forces(&self) -> bool {
+        matches!(self.mode, MotionMode::Free(_))
+            || self.joints.iter().any(|j| j.model.kind.directions() > 0)
+            || self.animal.is_elastic()
+    }
 }
 
 /// Feedback of a flight.

@@ -40,30 +40,45 @@ const ATTACHED: f64 = 0.15;
 const ONE_SIDED: f64 = 0.1;
 
 impl FlightSetup {
-    /// Says which wings whose roots hold shed vorticity of one sign from their leading edges in their prescribed motion
-    /// ([`Self::one_sided_part`]), and what to do about it; wings with joints of their own, whose motion is not known beforehand, and
-    /// wings joined at their roots are left out.
+    /// Says which wings shed vorticity of one sign from their leading edges in their prescribed motion
+    /// ([`Self::one_sided_part`]) where roots hold, or where leading edges shed by the suction of the step before, and what to do about it.
+    /// Wings with joints of their own, whose motion is not known beforehand, are left out; of wings joined at their roots no root holds.
     pub fn one_sided_leading_edges(&self) -> Option<String> {
         let AirModel::VortexLattice(air) = &self.air else {
             return None;
         };
         let shedding = air.lattice.shedding;
-        if !shedding.leading || shedding.root || !air.lattice.leading.sheds() {
+        if !shedding.leading || !air.lattice.leading.sheds() {
             return None;
         }
         let has_joint = |w: usize| self.joints.iter().any(|j| j.child == w + 1);
         let is_joined = |w: usize| air.joined.iter().flatten().any(|j| *j == w);
+        let is_late = matches!(air.lattice.leading, LeadingEdge::Suction { .. });
+        let holds = |w: usize| !shedding.root && !is_joined(w);
         let wings = 0..self.animal.wings.len();
-        let known = wings.filter(|&w| !has_joint(w) && !is_joined(w));
+        let known = wings.filter(|&w| !has_joint(w) && (is_late || holds(w)));
         let parts = known.map(|w| (w, self.one_sided_part(w)));
         let found: Vec<_> = parts.filter(|(_, part)| *part > ONE_SIDED).collect();
         let most = found.iter().map(|(_, part)| *part).reduce(f64::max)?;
         let name = |(w, _): &(usize, f64)| format!("`{}`", self.animal.wings[*w].name);
         let names: Vec<String> = found.iter().map(name).collect();
+        let beats = self.animal.wings[found[0].0].motion.frequency > 0.0;
+        let [what, when] = match beats {
+            true => ["strokes are unlike back and forth", "in every beat"],
+            false => ["wings go on one way", "by the end"],
+        };
+        let [why, remedy] = match found.iter().any(|(w, _)| holds(*w)) {
+            true => [
+                "as roots hold, the lift drifts with it",
+                "let roots shed (air.shed with \"root\", air.leading_edge = \"suction_implicit\")",
+            ],
+            false => [
+                "as edges shed by the suction of the step before, the lift hangs on the step",
+                "take air.leading_edge = \"suction_implicit\"",
+            ],
+        };
         Some(format!(
-            "strokes are unlike back and forth: of the vorticity that leading edges shed (wings {}), up to {:.0} % is left over of \
-             one sign in every beat, and as roots hold, the lift drifts with it: let roots shed (air.shed with \"root\", \
-             air.leading_edge = \"suction_implicit\")",
+            "{what}: of the vorticity that leading edges shed (wings {}), up to {:.0} % is left over of one sign {when}, and {why}: {remedy}",
             names.join(", "),
             100.0 * most
         ))
@@ -145,21 +160,22 @@ impl FlightSetup {
         moving.peek().is_some() && moving.all(|s| s.suction.abs() <= held)
     }
 
-    /// Part of the vorticity that the leading edge of wing `w` sheds in a beat of its prescribed motion that is left over of one sign
-    /// \[1\]: none in strokes that are alike back and forth, 1 if all has one sign; 0 of a wing that does not beat, or of other
+    /// Part of the vorticity that the leading edge of wing `w` sheds in a beat of its prescribed motion, or in all of it where the wing does
+    /// not beat, that is left over of one sign \[1\]: none in strokes that are alike back and forth, 1 if all has one sign; 0 in other
     /// models of the air than lattices. The body goes on with the velocity and the attitude with which it starts.
     pub fn one_sided_part(&self, w: usize) -> f64 {
         let wing = &self.animal.wings[w];
         let AirModel::VortexLattice(air) = &self.air else {
             return 0.0;
         };
-        if wing.motion.frequency <= 0.0 {
-            return 0.0;
-        }
         let motion = wing.motion.impulsive();
+        let duration = match motion.frequency > 0.0 {
+            true => 1.0 / motion.frequency,
+            false => self.time.steps as f64 * self.time.step,
+        };
         let (mut net, mut gross) = (0.0, 0.0);
         for k in 0..INSTANTS {
-            let t = k as f64 / INSTANTS as f64 / motion.frequency;
+            let t = k as f64 / INSTANTS as f64 * duration;
             let past = self.air_past(wing, &motion, t);
             for rate in shed_rates(&air.lattice, wing, past) {
                 net += rate;

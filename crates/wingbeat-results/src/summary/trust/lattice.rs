@@ -26,7 +26,7 @@ pub(super) fn warnings(
     left_out(setup, lattice, list);
     motion(setup, list);
     inputs(setup, air, list);
-    failures(setup, summary, list);
+    failures(setup, &air.lattice, summary, list);
     let still = lattice.images.is_empty() && lattice.wind.is_none();
     if let Some(beat) = summary.beats.last().filter(|_| still) {
         two_ways_to_the_lift(lattice, beat, list);
@@ -90,9 +90,12 @@ fn inputs(setup: &FlightSetup, air: &AirOptions, list: &mut Warnings) {
     }
 }
 
-/// Loads that alternate from step to step.
-fn failures(setup: &FlightSetup, summary: &Summary, list: &mut Warnings) {
-    if summary.alternating_steps >= ALTERNATING {
+/// Loads that alternate from step to step: by the motion they make, or by shedding that is a step late.
+fn failures(setup: &FlightSetup, lattice: &AirSettings, summary: &Summary, list: &mut Warnings) {
+    if summary.alternating_steps < ALTERNATING {
+        return;
+    }
+    if setup.is_moved_by_forces() {
         let remedy = match setup.integrator {
             IntegratorChoice::Bdf => "take smaller steps, or larger ones",
             _ => "set dynamics.integrator = \"bdf\"",
@@ -100,6 +103,15 @@ fn failures(setup: &FlightSetup, summary: &Summary, list: &mut Warnings) {
         list.fault(format!(
             "Forces alternate from step to step (up to {} steps in a row): the air that moves with wings or body weighs too much for the integrator, and the motion means nothing; {remedy}.",
             summary.alternating_steps
+        ));
+    } else {
+        list.note(format!(
+            "Forces alternate from step to step (up to {} steps in a row): read means{}.",
+            summary.alternating_steps,
+            match lattice.leading {
+                LeadingEdge::Suction { .. } if lattice.shedding.leading => ", or take air.leading_edge = \"suction_implicit\", which does not shed by the step before",
+                _ => "",
+            }
         ));
     }
 }
