@@ -128,6 +128,16 @@ const BOUND_CORE: Limit = Limit {
     ],
 };
 
+/// Lift of a rectangle of aspect ratio 0.5 is 3, 6 and 9 % high with 0.24, 0.48 and 0.8 of the column.
+const BOUND_CORE_ACROSS: Limit = Limit {
+    low: 0.0,
+    high: 0.2,
+    hints: [
+        "",
+        "lift and drag come out high, the more so the more columns there are: give air.bound_core a tenth of the columns' width or less",
+    ],
+};
+
 const CLEARANCE: Limit = Limit {
     low: 0.0,
     high: 0.5,
@@ -314,7 +324,7 @@ fn deformation(wing: &Wing) -> [f64; 2] {
     largest
 }
 
-/// Wake core and clearance over the mean chord, bound core over the mean panel length.
+/// Wake core and clearance over the mean chord, bound core over the mean length and width of the panels.
 fn lattice_sizes(air: &AirOptions, wing: &Wing, chord: f64, list: &mut Doubts) {
     let s = &air.lattice;
     let panel = chord / wing.mesh.rows as f64;
@@ -327,6 +337,12 @@ fn lattice_sizes(air: &AirOptions, wing: &Wing, chord: f64, list: &mut Doubts) {
         bound,
         " panel lengths",
     );
+    let mesh = &wing.mesh;
+    let edge = mesh.nodes[mesh.node(0, mesh.cols)] - mesh.nodes[mesh.node(0, 0)];
+    let column = edge.y.abs() / mesh.cols as f64;
+    let across = radius(&s.bound_core).map(|r| r / column);
+    let what = "vortex core of the wing";
+    list.see(&BOUND_CORE_ACROSS, what, across, " columns of panels");
     list.see(&CLEARANCE, "clearance", s.clearance / chord, " mean chords");
 }
 
