@@ -13,6 +13,7 @@ use super::trimming::watched;
 use crate::command::failure::Failure;
 use crate::command::options;
 use crate::command::report::{Report, ReportArgs, line};
+use crate::command::terminal::tell as announce;
 
 /// Arguments of `wingbeat flutter`.
 #[derive(Args)]
@@ -52,6 +53,12 @@ pub(crate) fn run(args: &FlutterArgs) -> Result<(), Failure> {
     args.report.deliver([], |report, []| {
         let case = LoadedCase::find(&args.case, &args.set)?;
         let mut found: Vec<Condition> = vec![];
+        if case.setup.air.keeps_wake() {
+            announce!(
+                "{}: steady states and responses in a wake; a speed takes minutes on fine meshes",
+                case.name
+            );
+        }
         for speed in args.speeds.values() {
             let next = watched("flutter", || condition(&case.setup, speed, &settings))?;
             if found.is_empty() {

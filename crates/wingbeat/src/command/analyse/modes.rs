@@ -14,6 +14,7 @@ use super::trimming::watched;
 use crate::command::failure::Failure;
 use crate::command::options;
 use crate::command::report::{Report, ReportArgs, line};
+use crate::command::terminal::tell as announce;
 
 /// Relative difference of frequencies up to which two wings count as one \[1\]: rounding of mirror images.
 const SAME: f64 = 1e-6;
@@ -50,6 +51,12 @@ pub(crate) fn run(args: &ModesArgs) -> Result<(), Failure> {
     };
     args.report.deliver([&args.shapes], |report, [shapes]| {
         let case = LoadedCase::find(&args.case, &args.set)?;
+        if args.steady && case.setup.air.keeps_wake() {
+            announce!(
+                "{}: looking for the steady state in a wake; this takes minutes",
+                case.name
+            );
+        }
         let found = watched("modes", || wing_modes(&case.setup, about, args.count))?;
         let wings = &case.setup.animal.wings;
         let joints = case.setup.joints.iter();
