@@ -29,6 +29,7 @@ mod structure;
 mod time;
 mod wind;
 mod wing;
+mod wingless;
 
 pub(crate) use effects::check as check_effects;
 pub(crate) use motion::radians;
