@@ -43,7 +43,7 @@ pub(crate) enum Command {
     Resume(run::ResumeArgs),
     /// Write the flight page of a run, one HTML file, and open it in the browser.
     View(view::ViewArgs),
-    /// Draw figures of a run: SVG or PNG for papers and screens, or an animation.
+    /// Draw figures of a run: SVG, PNG or PDF for papers and screens, or an animation.
     Plot(plot::PlotArgs),
     /// Write a run in a format of other programs: hdf5, vtkhdf, parquet or gltf.
     Export(export::ExportArgs),
