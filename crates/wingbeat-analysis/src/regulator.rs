@@ -64,6 +64,29 @@ impl Default for Weights {
     }
 }
 
+impl Weights {
+    /// The weights that are far from those of the default, in words.
+    fn far(&self) -> Vec<String> {
+        let named = |w: &Self| {
+            [
+                ("position", w.position),
+                ("velocity", w.velocity),
+                ("tilt", w.tilt),
+                ("rate", w.rate),
+                ("command", w.command),
+            ]
+        };
+        let pairs = named(self).into_iter().zip(named(&Self::default()));
+        let is_far = |own: f64, usual: f64| !(usual / FAR..=usual * FAR).contains(&own);
+        let words = |((name, own), (_, usual)): ((&str, f64), (&str, f64))| {
+            is_far(own, usual).then(|| format!("{name} = {own:?} (usually {usual})"))
+        };
+        let sum = self.sum.filter(|own| is_far(*own, USUAL_SUM));
+        let sum = sum.map(|own| format!("sum = {own:?} (usually {USUAL_SUM})"));
+        pairs.filter_map(words).chain(sum).collect()
+    }
+}
+
 /// When is looked, and when acted.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Timing {
@@ -129,7 +152,7 @@ impl Regulator {
         let n = STATES + joints + sums + CONTROLS * (timing.latency + 1);
         let (q, r) = cost(trim, weights, timing.parts, n);
         let found = Self {
-            gains: riccati(&steps, &q, &r, n)?,
+            gains: riccati(&steps, &q, &r, n).map_err(|e| unstable(e, weights))?,
             sums: vec![0.0; sums],
             commands: VecDeque::from(vec![[0.0; CONTROLS]; timing.latency + 1]),
             joints: vec![0.0; joints],
@@ -242,6 +265,27 @@ impl Regulator {
             None => (self.joints.iter_mut().zip(saved)).for_each(|(x, saved)| *x = *saved),
         }
     }
+}
+
+/// A weight so many times the default, or so small a part of it, may be why no gains are found; those of one tenth of it fly.
+const FAR: f64 = 100.0;
+
+/// Sums over the beats that weigh as position and tilt usually do.
+const USUAL_SUM: f64 = 2.0;
+
+/// What an iteration without gains means: weights far from those of the default leave nothing to balance within its passes and digits.
+fn unstable(error: AnalysisError, weights: &Weights) -> AnalysisError {
+    let AnalysisError::Numbers(problem) = error else {
+        return error;
+    };
+    let far = weights.far();
+    AnalysisError::Numbers(match far.is_empty() {
+        true => format!("{problem}: the strokes cannot stabilise this flight"),
+        false => format!(
+            "{problem}, with weights so far from the usual ones (control.weights): {}; bring them nearer",
+            far.join(", ")
+        ),
+    })
 }
 
 /// Diagonals of the cost of states and commands.

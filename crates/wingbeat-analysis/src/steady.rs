@@ -261,7 +261,11 @@ impl Residuals {
         let back = r3(turned).transpose();
         let force = (back * after.momentum - before.momentum) / (size.weight * size.period);
         let moment = (back * after.spin - before.spin) / (size.weight * size.length * size.period);
-        let [roll, pitch, heading] = angles(before.rotation.transpose() * back * after.rotation);
+        let rotation = before.rotation.transpose() * back * after.rotation;
+        let [roll, pitch, heading] = match self {
+            Self::Symmetric => angles_about_symmetry(rotation),
+            Self::All => angles(rotation),
+        };
         let way = after.centre - before.centre;
         let drift = (way - wanted_way(problem, size.period)) / size.length;
         let all = [
@@ -304,6 +308,13 @@ fn angles(turned: DMat3) -> [f64; 3] {
         m.z_axis.x.atan2(m.x_axis.x),
         m.x_axis.y.atan2(m.x_axis.x),
     ]
+}
+
+/// The same of rotations by any pitch: roll and heading are the tilt of the axis to the right, 0 in the plane of symmetry \[rad\].
+fn angles_about_symmetry(turned: DMat3) -> [f64; 3] {
+    let right = turned.y_axis;
+    let [_, pitch, _] = angles(turned);
+    [right.z.atan2(right.y), pitch, (-right.x).atan2(right.y)]
 }
 
 /// Where the mass centre is to go in a beat of `period` [s]: along a straight line, or an arc about the vertical.

@@ -40,6 +40,52 @@ fn exact_filter_of_one_state() {
     }
 }
 
+/// Weights that no iteration can balance are named, not the strokes.
+#[test]
+fn refuses_weights_far_from_the_usual_by_name() {
+    let trim = hovering();
+    let usual = Weights::default();
+    for (name, weights) in [
+        (
+            "command = 1e-6",
+            Weights {
+                command: 1e-6,
+                ..usual
+            },
+        ),
+        (
+            "tilt = 1e-9",
+            Weights {
+                tilt: 1e-9,
+                ..usual
+            },
+        ),
+        (
+            "command = 1e300",
+            Weights {
+                command: 1e300,
+                ..usual
+            },
+        ),
+        (
+            "command = 1e-300",
+            Weights {
+                command: 1e-300,
+                ..usual
+            },
+        ),
+    ] {
+        let found = Regulator::new(&trim, &weights, LATENCY);
+        let said = found.map(|_| name).unwrap_err().to_string();
+        assert!(said.contains(name) && !said.contains("stabilise"), "{said}");
+    }
+    let light = Weights {
+        command: 5e-3,
+        ..usual
+    };
+    assert!(Regulator::new(&trim, &light, LATENCY).is_ok());
+}
+
 /// The covariance of the fly's filter fulfils Riccati's equation.
 #[test]
 fn balances_covariance_of_the_fly() {

@@ -38,3 +38,16 @@ fn refuses_wings_that_differ_before_it_searches() {
     let found = trim(&setup, &problem);
     assert!(matches!(found, Err(AnalysisError::Asymmetric { .. })));
 }
+
+/// A beat that pitches past a right angle, in air far too fast, turns in the plane of symmetry all the same.
+#[test]
+fn behaves_a_symmetric_beat_that_turns_over_is_not_taken_for_one_that_differs() {
+    for speed in [10.0, -100.0] {
+        let mut problem = common::hover(40);
+        problem.velocity.x = speed;
+        match trim(&common::fly(), &problem) {
+            Ok(found) => assert!(!found.solution.converged && found.solution.lateral < 1e-12),
+            Err(e) => assert!(!matches!(e, AnalysisError::Asymmetric { .. }), "{e}"),
+        }
+    }
+}

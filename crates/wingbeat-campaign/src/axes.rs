@@ -256,12 +256,13 @@ impl Reader<'_> {
 
     fn table(&self, name: &str) -> Found<Axis> {
         let path = self.folder.join(name);
-        let allowed = "a CSV file with the keys in its first line and a row for each point";
+        let allowed = "a CSV file with the keys in its first line and a row for each point; commas, semicolons or tabs part its columns";
         let bad = |problem: String| self.wrong("table", problem, allowed, "correct the file");
         let text = std::fs::read(&path)
             .map_err(|e| bad(format!("cannot read `{}`: {e}", path.display())))?;
         let reader = csv::ReaderBuilder::new()
             .comment(Some(b'#'))
+            .delimiter(wingbeat_case::delimiter(&text))
             .trim(csv::Trim::All)
             .from_reader(text.as_slice());
         let mut reader = reader;

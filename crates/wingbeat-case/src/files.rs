@@ -6,6 +6,8 @@ mod csv_file;
 mod outline;
 mod read;
 
+pub use csv_file::delimiter;
+
 use std::io::Read as _;
 use std::path::Path;
 use std::sync::{Mutex, PoisonError};

@@ -1,5 +1,6 @@
 //! Measurements in a case that look like slips: of units, turns, lost frames, the order of points.
 
+use wingbeat_math::DVec3;
 use wingbeat_model::motion::Fourier;
 use wingbeat_model::{Planform, Wing};
 
@@ -44,7 +45,8 @@ impl LoadedCase {
             let flown = self.setup.animal.wings.iter().find(|w| w.name == *name);
             if let (Some(surface), Some(wing)) = (surface, flown) {
                 let key = format!("wing.{name}.deformation.surface");
-                doubts.extend(order(&key, surface, wing));
+                let size = extents(&key, surface, wing, self.raw.animal.scale);
+                doubts.extend(size.or_else(|| order(&key, surface, wing)));
                 doubts.extend(stray_phase(&key, surface));
             }
         }
@@ -119,6 +121,69 @@ fn lost(key: &str, rows: &[[f64; 2]], zero: f64) -> Option<String> {
         from += length.max(1);
     }
     None
+}
+
+/// A measured surface may be longer or wider than the wing at rest by this factor, or smaller.
+const APART: f64 = 2.0;
+
+/// What lengths in other units are of the same in metres.
+const UNITS: [(f64, &str); 4] = [
+    (1e3, ": are they in millimetres? Points are in metres"),
+    (1e2, ": are they in centimetres? Points are in metres"),
+    (1e6, ": are they in micrometres? Points are in metres"),
+    (1e-3, ": were they divided by 1000 once too often?"),
+];
+
+/// A surface much larger or smaller than the wing at rest, or far from its hinge: of other units, or from another origin. Its
+/// points are for an animal of this `scale`.
+fn extents(key: &str, surface: &SurfaceCase, wing: &Wing, scale: f64) -> Option<String> {
+    let sizes = surface.nodes_m.iter().map(|rows| size(rows));
+    let sizes: Vec<[f64; 3]> = sizes.collect::<Option<_>>()?;
+    let middle = |k: usize| scale * median(sizes.iter().map(|s| s[k]).collect());
+    let mesh = &wing.mesh;
+    let row = |i| (0..=mesh.cols).map(move |j| mesh.nodes[mesh.node(i, j)].to_array());
+    let at_rest: Vec<Vec<[f64; 3]>> = (0..=mesh.rows).map(|i| row(i).collect()).collect();
+    let [length, chord, _] = size(&at_rest)?;
+    let reach = mesh.nodes.iter().fold(0.0_f64, |m, x| m.max(x.length()));
+    for (k, what, own) in [(0, "from root to tip", length), (1, "in chord", chord)] {
+        let (measured, ratio) = (middle(k), middle(k) / own);
+        if !(1.0 / APART..=APART).contains(&ratio) {
+            let near = |u: &&(f64, &str)| (1.0 / APART..=APART).contains(&(ratio / u.0));
+            let unit = UNITS.iter().find(near);
+            let unit = unit.map_or(": check their unit, which is metres", |u| u.1);
+            return Some(format!(
+                "{key}.nodes_m: the points measure {measured:.3e} m {what}, and the wing at rest {own:.3e} m{unit}"
+            ));
+        }
+    }
+    let away = middle(2);
+    (away > reach).then(|| {
+        format!(
+            "{key}.nodes_m: the root is {away:.3e} m from the hinge, and the wing reaches {reach:.3e} m from it: points are counted from the hinge"
+        )
+    })
+}
+
+/// Length and largest chord of a surface, and the least distance of its root from the hinge \[m\].
+fn size(rows: &[Vec<[f64; 3]>]) -> Option<[f64; 3]> {
+    let at = |x: &[f64; 3]| DVec3::from_array(*x);
+    let (leading, trailing) = (rows.first()?, rows.last()?);
+    let mut of = [0.0, 0.0, f64::INFINITY];
+    for row in rows {
+        let (root, tip) = (at(row.first()?), at(row.last()?));
+        of[0] = f64::max(of[0], (tip - root).length());
+        of[2] = f64::min(of[2], root.length());
+    }
+    for (a, b) in leading.iter().zip(trailing) {
+        of[1] = f64::max(of[1], (at(a) - at(b)).length());
+    }
+    Some(of)
+}
+
+/// The middle one of some numbers.
+fn median(mut numbers: Vec<f64>) -> f64 {
+    numbers.sort_by(f64::total_cmp);
+    numbers.get(numbers.len() / 2).copied().unwrap_or(0.0)
 }
 
 /// A surface whose points run the other way than those of the wing at rest.

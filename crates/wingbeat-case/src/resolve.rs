@@ -53,7 +53,7 @@ fn time(case: &mut TimeCase, beats: bool) {
 }
 
 /// What the scheme says; cores that spread in air and widen where they have a radius; distance of the wake.
-fn air(case: &mut AirCase) {
+pub(crate) fn air(case: &mut AirCase) {
     let scheme = match case.scheme {
         SchemeCase::Benchmark => AirSettings::benchmark,
         SchemeCase::Accurate => AirSettings::accurate,

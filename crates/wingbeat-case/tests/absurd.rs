@@ -42,6 +42,30 @@ fn refuses_absurd_sizes() {
     }
 }
 
+/// Lengths and times of winds near 0 are refused by themselves; steps were to blame for what they did.
+#[test]
+fn refuses_winds_that_no_air_has() {
+    let gust = "air.gust=[{ amplitude_m_s = [0, 0, 1], turbulence = { time_scale_s = 1e-300 } }]";
+    let street =
+        "air.vortex_street={ circulation_m2_s = 1e-3, spacing_m = 1e-300, drift_m_s = [-1, 0, 0] }";
+    for (set, key) in [
+        (gust, "air.gust[0].turbulence.time_scale_s"),
+        (street, "air.vortex_street.spacing_m"),
+    ] {
+        let said = refusal(set);
+        assert!(said.contains(key), "{said}");
+    }
+}
+
+/// A scale at which masses are no numbers is the fault of the scale.
+#[test]
+fn refuses_a_scale_beyond_numbers_by_name() {
+    for scale in ["1e200", "1e-200"] {
+        let said = refusal(&format!("animal.scale={scale}"));
+        assert!(said.contains("animal.scale"), "{said}");
+    }
+}
+
 #[test]
 fn refuses_what_is_no_file() {
     let text = presets::find("fruit-fly-vacuum").unwrap().text;

@@ -125,7 +125,19 @@ fn behaves_surfaces_in_another_order_and_lost_phases_are_named() {
         fly(&[set]).doubtful_measurements().join("\n")
     };
     assert_eq!(surface(&|_, _, _, x| x), "");
-    let cases: [(&str, Change<'_>); 4] = [
+    let cases: [(&str, Change<'_>); 9] = [
+        ("are they in millimetres?", &|_, _, _, x| x.map(|x| 1e3 * x)),
+        ("check their unit", &|_, _, _, x| x.map(|x| 10.0 * x)),
+        ("divided by 1000 once too often", &|_, _, _, x| {
+            x.map(|x| 1e-3 * x)
+        }),
+        ("m in chord, and the wing at rest", &|_, _, _, [x, y, z]| {
+            [5.0 * x, y, z]
+        }),
+        (
+            "points are counted from the hinge",
+            &|_, _, _, [x, y, z]| [x + 1.0, y, z],
+        ),
         ("from the tip to the root", &|_, _, _, [x, y, z]| {
             [x, 2.4e-3 - y, z]
         }),

@@ -98,6 +98,7 @@ BAD: dict[str, Bad] = {
     "controller that is none": lambda blade, _: blade.with_controller(3),
     "controller too often": lambda blade, _: blade.with_controller(lambda _: Adjustment(), every_steps=1),
     "negative latency": lambda blade, _: blade.with_controller(lambda _: Adjustment(), latency_looks=-1),
+    "latency beyond the flight": lambda blade, _: blade.with_controller(lambda _: Adjustment(), latency_looks=10**6),
     "controller beside that of the case": lambda blade, _: blade.set("control.controller", "regulator").with_controller(
         lambda _: Adjustment()
     ),

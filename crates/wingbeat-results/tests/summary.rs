@@ -159,6 +159,25 @@ fn behaves_noise_in_angles_is_named_and_a_fit_takes_it_out() {
 }
 
 /// The verdict and its numbers are of all steps, however thin the history is; read back they are what was written.
+/// Bodies without wings have no sections, strips or measured coefficients to speak of.
+#[test]
+fn behaves_notes_of_the_air_of_bodies_are_about_bodies() {
+    let flown = |air: &str| {
+        let text = format!(
+            "format = 1\n[time]\nstep_s = 1e-3\nsteps = 10\n[flight]\nmode = \"tethered\"\nvelocity_m_s = [1, 0, 0]\n\
+             [output]\nframes_every = 0\n[body.part.b]\nlength_m = 0.1\ndiameter_m = 0.02\nmass_kg = 0.01\n[air]\n{air}"
+        );
+        let base = std::path::Path::new("");
+        flown(&LoadedCase::from_text("body", &text, base, &[]).unwrap())
+    };
+    let lattice = flown("model = \"vortex_lattice\"");
+    assert!(says(&lattice, "bodies leave no wakes") && !says(&lattice, "sections"));
+    let drag = flown(
+        "model = \"blade_element\"\nblade.body_drag = { area_m2 = 3e-4, along = 0.4, across = 1 }",
+    );
+    assert!(says(&drag, "drag of the body alone") && !says(&drag, "coefficients"));
+}
+
 #[test]
 fn invariant_the_verdict_does_not_depend_on_what_the_history_holds() {
     let fly = |every: usize| {

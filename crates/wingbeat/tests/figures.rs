@@ -159,6 +159,8 @@ fn refuses_to_replace_figures_unasked() {
     refused(&scratch.0, &["plot", "run", "animation"], "exists already");
     let on_paper = ["plot", "run", "animation", "--style", "paper"];
     refused(&scratch.0, &on_paper, "drawn for screen or dark");
+    let at_step = ["plot", "run", "trajectory", "--step", "1"];
+    refused(&scratch.0, &at_step, "--step has no effect");
     for (kind, reason) in [
         ("forces", "this flight has no air"),
         ("wake", "no frames were written"),

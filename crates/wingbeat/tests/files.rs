@@ -215,6 +215,11 @@ fn behaves_a_report_is_replaced_only_when_asked() {
         &[&verify[..], &["--resume"]].concat(),
         "is no verification report",
     );
+    // A list writes no report.
+    for option in [&["--out", "w"][..], &["--resume"], &["--overwrite"]] {
+        let list = [&["verify", "--list"], option].concat();
+        refused(dir, &list, "cannot be used with");
+    }
 }
 
 /// Runs where no file may grow beyond `blocks` of 512 bytes, as on a full disk.

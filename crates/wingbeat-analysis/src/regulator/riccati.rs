@@ -40,7 +40,7 @@ pub(super) fn riccati(
         }
     }
     Err(AnalysisError::Numbers(
-        "Riccati's iteration did not converge: the strokes cannot stabilise this flight".into(),
+        "Riccati's iteration did not converge".into(),
     ))
 }
 

@@ -2,14 +2,15 @@
 
 use wingbeat_flight::{FlightSetup, MotionMode};
 use wingbeat_model::Wing;
-use wingbeat_model::motion::Adjustment;
+use wingbeat_model::motion::{Adjustment, AngleLaw, AngleLaws};
 use wingbeat_model::planform::Spacing;
 
-use super::Built;
+use super::fault::{Built, idle};
+use super::wingless;
 use crate::error::Fault;
 use crate::raw::{
     AdjustCase, AirModel, Case, Formulation, JointCase, Mode, MotionCase, StartCase, TetherCase,
-    WingCase, WingMeshCase,
+    TurnCase, WingCase, WingMeshCase,
 };
 use crate::sides::mirror_name;
 use crate::source::CaseSource;
@@ -20,8 +21,10 @@ pub(crate) fn check(case: &Case, setup: &FlightSetup, source: &CaseSource) -> Bu
     meshes(case, source)?;
     motion(case, source)?;
     adjustments(case, setup)?;
+    still_motion(case, setup)?;
     joints(case)?;
     frames(case, source)?;
+    wingless::check(case, source)?;
     senses(case, source)?;
     loads(case, source)?;
     for (name, spring) in &case.spring {
@@ -96,16 +99,6 @@ fn frames(case: &Case, source: &CaseSource) -> Built<()> {
         "0, or air.model = \"vortex_lattice\"",
         "remove it; page and animation draw the flight from its history",
     ))
-}
-
-/// A key without effect, and why.
-fn idle(key: impl Into<String>, why: &str) -> Fault {
-    Fault::new(
-        key,
-        format!("this has no effect {why}"),
-        "no such key here",
-        "remove it",
-    )
 }
 
 /// Masses that a total replaces, masses without inertia, mirror images nobody can name.
@@ -273,6 +266,30 @@ fn adjustments(case: &Case, setup: &FlightSetup) -> Built<()> {
     Ok(())
 }
 
+/// Phase and length of the start of wings whose angles are all constant.
+fn still_motion(case: &Case, setup: &FlightSetup) -> Built<()> {
+    let wings = &setup.animal.wings;
+    let is_constant = |law: &AngleLaw| matches!(law, AngleLaw::Constant(_));
+    let is_still = |w: &Wing| {
+        let AngleLaws { phi, theta, psi } = &w.motion.angles;
+        [phi, theta, psi].into_iter().all(is_constant) && w.deformation.is_none()
+    };
+    if wings.is_empty() || !wings.iter().all(is_still) || !case.joint.is_empty() {
+        return Ok(());
+    }
+    let plain = MotionCase::default();
+    for (key, acts) in [
+        ("phase", case.motion.phase != plain.phase),
+        ("start_beats", case.motion.start_beats != plain.start_beats),
+    ] {
+        if acts {
+            let why = "on wings whose angles are all constant";
+            return Err(idle(format!("motion.{key}"), why));
+        }
+    }
+    Ok(())
+}
+
 /// What sees no otherwise than without, and leads nowhere.
 fn senses(case: &Case, source: &CaseSource) -> Built<()> {
     let Some(control) = &case.control else {
@@ -383,6 +400,14 @@ fn joints(case: &Case) -> Built<()> {
             ));
         }
         let moves = |t: &crate::raw::TravelCase| !t.cosine_m.is_empty() || !t.sine_m.is_empty();
+        let turns =
+            |t: &TurnCase| t.mean_deg != 0.0 || !t.cosine_deg.is_empty() || !t.sine_deg.is_empty();
+        if joint.turn.as_ref().is_some_and(|t| !turns(t)) {
+            return Err(idle(
+                path("turn"),
+                "without mean_deg, cosine_deg or sine_deg",
+            ));
+        }
         if travel.as_ref().is_some_and(|t| !moves(t)) {
             return Err(idle(path("travel"), "without cosine_m or sine_m"));
         }

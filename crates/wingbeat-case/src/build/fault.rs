@@ -29,3 +29,13 @@ pub(super) fn fault_at(path: &str, raw: &impl Serialize, error: &ModelError) -> 
     };
     Fault::new(key, error.to_string(), allowed, "change this value")
 }
+
+/// A key without effect, and why.
+pub(super) fn idle(key: impl Into<String>, why: &str) -> Fault {
+    Fault::new(
+        key,
+        format!("this has no effect {why}"),
+        "no such key here",
+        "remove it",
+    )
+}

@@ -29,6 +29,7 @@ mod structure;
 mod time;
 mod wind;
 mod wing;
+mod wingless;
 
 pub(crate) use effects::check as check_effects;
 pub(crate) use motion::radians;
@@ -85,9 +86,7 @@ fn animal(case: &Case, name: &str) -> Built<Animal> {
     segment::split(case, &mut animal)?;
     animal.check().map_err(|e| fault_of_animal(case, e))?;
     let scale = case.animal.scale;
-    let mut animal = animal
-        .scaled(scale)
-        .map_err(|e| Fault::new("animal.scale", e.to_string(), "a number > 0", ""))?;
+    let mut animal = scaled(&animal, scale)?;
     if case.dynamics.wings == WingInertia::Massless {
         if let Some(wing) = animal.wings.iter().find(|w| w.structure.is_some()) {
             return Err(Fault::new(
@@ -105,6 +104,25 @@ fn animal(case: &Case, name: &str) -> Built<Animal> {
         }
     }
     Ok(animal)
+}
+
+/// The animal, so many times as large; one that was sound before, and is not any more, has numbers that are too large or small.
+fn scaled(animal: &Animal, scale: f64) -> Built<Animal> {
+    let fault = |e: ModelError| Fault::new("animal.scale", e.to_string(), "a number > 0", "");
+    let scaled = animal.scaled(scale).map_err(fault)?;
+    let masses = [animal, &scaled].map(Animal::mass);
+    match scaled.check().is_ok() && scaled.mass().is_normal() == animal.mass().is_normal() {
+        true => Ok(scaled),
+        false => Err(Fault::new(
+            "animal.scale",
+            format!(
+                "an animal of {:.3e} kg has {:.3e} kg at this scale",
+                masses[0], masses[1]
+            ),
+            "a scale with which masses and inertias stay numbers",
+            "lengths are multiplied by it, masses by its cube: 1 leaves the animal as it is",
+        )),
+    }
 }
 
 /// The key of a fault the finished animal shows.

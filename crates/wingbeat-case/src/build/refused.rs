@@ -28,7 +28,10 @@ pub(crate) fn refused(case: &Case, setup: &FlightSetup, error: &FlightError) -> 
                 wing,
                 if *elastic { "structure" } else { "deformation" },
             ),
-            "the message says what to try",
+            match elastic {
+                true => "change the structure, or time.steps_per_beat",
+                false => "give a shape whose panels keep their sides apart, lengths in metres",
+            },
         ),
         FlightError::RootsApart { wings, .. } => (
             format!("wing.{}.joined", wings[1]),

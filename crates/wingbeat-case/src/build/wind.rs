@@ -8,6 +8,12 @@ use super::numbers::vector;
 use crate::error::Fault;
 use crate::raw::{AirCase, GroundCase, GustCase, TurbulenceCase, VortexStreetCase};
 
+/// Shortest time scale of turbulence: that of the smallest eddies of air is a thousand times as long \[s\].
+const SHORTEST: f64 = 1e-6;
+
+/// Circulation over spacing of a vortex street at most, beyond the speed of sound \[m/s\].
+const FASTEST: f64 = 1e3;
+
 /// What is added to the stream.
 pub(super) fn wind(case: &AirCase) -> Built<Wind> {
     let gusts: Built<Vec<Gust>> = case.gust.iter().enumerate().map(gust).collect();
@@ -45,6 +51,16 @@ fn street(case: &VortexStreetCase) -> Built<VortexStreet> {
             "a direction square to drift_m_s",
             "turn one of them",
         );
+    }
+    let speed = (case.circulation_m2_s / case.spacing_m).abs();
+    if speed > FASTEST {
+        let problem = format!("vortices so close would drive the air at {speed:.1e} m/s");
+        return Err(Fault::new(
+            "air.vortex_street.spacing_m",
+            problem,
+            format!("circulation_m2_s over spacing_m at most {FASTEST} m/s"),
+            "check the units: metres, and m2/s",
+        ));
     }
     Ok(VortexStreet {
         circulation: case.circulation_m2_s,
@@ -96,14 +112,16 @@ fn gust((k, case): (usize, &GustCase)) -> Built<Gust> {
 
 fn turbulence(path: &str, case: TurbulenceCase) -> Built<Turbulence> {
     let made = Turbulence::new(case.spectrum, case.time_scale_s, case.seed);
-    made.map_err(|_| {
-        Fault::new(
-            format!("{path}.turbulence.time_scale_s"),
-            format!("{} s is no time scale", case.time_scale_s),
-            "a time above 0",
-            "length scale over speed, e.g. 0.1",
-        )
-    })
+    made.ok()
+        .filter(|t| t.time_scale >= SHORTEST)
+        .ok_or_else(|| {
+            Fault::new(
+                format!("{path}.turbulence.time_scale_s"),
+                format!("{:e} s is no time scale of turbulence", case.time_scale_s),
+                format!("a time of {SHORTEST:e} s or more"),
+                "length scale over speed, e.g. 0.1",
+            )
+        })
 }
 
 /// Checks that the times of a gust's table rise.

@@ -117,8 +117,8 @@ pub(super) fn words_of(column: &str) -> Vec<String> {
     words.map(str::to_lowercase).collect()
 }
 
-/// What parts the columns: a comma, or a semicolon or tab where the header has no comma.
-fn delimiter(text: &[u8]) -> u8 {
+/// What parts the columns of a CSV file: a comma, or a semicolon or tab where the header has no comma.
+pub fn delimiter(text: &[u8]) -> u8 {
     let is_comment = |line: &&[u8]| line.starts_with(b"#") || line.trim_ascii().is_empty();
     let mut lines = text.split(|&b| b == b'\n');
     let header = lines.find(|line| !is_comment(line)).unwrap_or_default();

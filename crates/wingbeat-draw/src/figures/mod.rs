@@ -96,7 +96,9 @@ fn check_step(dir: &ResultDir, order: &Order, steps: usize) -> Result<(), IoErro
     let Some(step) = order.step else {
         return Ok(());
     };
-    let problem = if frames::steps(dir.path())?.is_empty() {
+    let problem = if !order.wanted().contains(&Kind::Wake) {
+        "--step has no effect without the figure `wake`, which is drawn at a step: leave it out, or name `wake`".to_owned()
+    } else if frames::steps(dir.path())?.is_empty() {
         "it has no frames, so there is no wake to draw at a step".to_owned()
     } else if step > steps {
         format!("there is no step {step}: its steps are 0 to {steps}")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import os
 import sys
 from collections.abc import Callable, Mapping, Sequence
@@ -133,16 +134,16 @@ class Flight:
     ) -> Flight:
         """A new flight under ``controller``, called with what is sensed (:class:`wingbeat.Sensed`) at the release and
         every ``every_steps`` steps after it (a wingbeat if left out), never inside a step; it answers with one
-        :class:`wingbeat.Adjustment` for all wings or one for each. Commands act ``latency_looks`` looks later, and the
-        wings go over to them smoothly until the next look. Of a case with ``air.mirror`` one half of the air is computed: commands that differ
-        from side to side end its flight. A controller with a method ``reset`` is reset when a
+        :class:`wingbeat.Adjustment` for all wings or one for each. Commands act ``latency_looks`` looks later, within
+        20 wingbeats and the flight, and the wings go over to them smoothly until the next look. Of a case with
+        ``air.mirror`` one half of the air is computed: commands that differ from side to side end its flight. A controller with a method ``reset`` is reset when a
         flight begins. An exception in it stops the flight; ``error.run`` is what was flown. Flights that no wing steers are
         refused when they begin: tethered ones, those without wings or in air by a table of derivatives.
         """
         if not callable(controller):
             raise CaseError("control: the controller cannot be called", key="control", remedy="a function of Sensed")
         steps = whole("every_steps", self._interval() if every_steps is None else every_steps, 4, 2**31 - 1)
-        latency = whole("latency_looks", latency_looks, 0, 2**31 - 1)
+        latency = whole("latency_looks", latency_looks, 0, self._most_looks(steps))
         steering = Steering(controller, len(self._core.wings))
         return Flight(self._core.with_controller(steering, steps, latency))
 
@@ -159,6 +160,11 @@ class Flight:
             raise CaseError("air: the model of the air cannot be called", key="air", remedy="a function of Motions")
         has_memory = callable(getattr(air, "accept", None))
         return Flight(self._core.with_air(Loads(air, self._core.body_count), has_memory))
+
+    def _most_looks(self, steps: int) -> int:
+        """How many looks later a command may act: 20 wingbeats, and within the flight."""
+        beats = math.inf if self.period_s is None else 20 * self.period_s / self.step_s
+        return int(min(beats, self.steps) + 0.5) // steps
 
     def _interval(self) -> int:
         if self.period_s is None:

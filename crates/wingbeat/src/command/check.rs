@@ -96,11 +96,12 @@ fn feedback(report: &mut Report, setup: &FlightSetup) {
         return;
     };
     let [every, late] = [feedback.interval, feedback.latency];
-    entry!(
-        report,
-        "feedback",
-        "a look every {every} steps, acting {late} looks later"
-    );
+    let acts = match late {
+        0 => "acting at once".to_owned(),
+        1 => "acting a look later".to_owned(),
+        _ => format!("acting {late} looks later"),
+    };
+    entry!(report, "feedback", "a look every {every} steps, {acts}");
     let value = json!({ "every_steps": every, "latency_looks": late });
     report.value("feedback", value);
 }

@@ -36,7 +36,7 @@ pub(crate) struct VerifyArgs {
     #[arg(long)]
     overwrite: bool,
     /// Names and contents of the cases; nothing is run.
-    #[arg(long)]
+    #[arg(long, conflicts_with_all = ["out", "resume", "overwrite"])]
     list: bool,
     /// The result, or the list, as one JSON object.
     #[arg(long)]

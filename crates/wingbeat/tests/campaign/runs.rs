@@ -343,6 +343,16 @@ fn exact_points_of_a_table_are_flown() {
     flown(dir, &["campaign", "run", "c.toml", "--out", "r", "--quiet"]);
     merged(dir, "r");
     assert_eq!(numbers(dir, "r", "summary.steps"), [40.0, 60.0]);
+    // A spreadsheet may part its columns by semicolons: the same points.
+    let planned = |table: &str| {
+        fs::write(dir.join("points.csv"), table).unwrap();
+        let out = wingbeat(dir, &["campaign", "plan", "c.toml"]);
+        (
+            out.status.code(),
+            String::from_utf8_lossy(&out.stdout).into_owned(),
+        )
+    };
+    assert_eq!(planned(&table.replace(',', ";")), planned(table));
     let keys = [
         "time.beats=1",
         "time.steps_per_beat=60",

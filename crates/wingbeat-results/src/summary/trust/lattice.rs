@@ -36,10 +36,11 @@ pub(super) fn warnings(
 
 /// Friction and suction.
 fn left_out(setup: &FlightSetup, lattice: &AirSettings, list: &mut Warnings) {
-    let suction = match setup.animal.wings.is_empty() {
-        true => String::new(),
-        false => suction(lattice),
-    };
+    if setup.animal.wings.is_empty() {
+        list.note("The air is inviscid, and bodies leave no wakes: in a steady stream a moment acts on them, but neither lift nor drag; other forces are those of added mass and of a stream that changes.");
+        return;
+    }
+    let suction = suction(lattice);
     if has_vortex_lift(lattice) && setup.animal.wings.len() > 2 {
         list.limit("Vortex lift was tried on two pairs of wings and failed: 0.65 to 2.4 times the lift of the references (docs/separated-flow.md). Take air.loads = pressure without shedding from leading edges, or leading-edge vorticity.");
     }
