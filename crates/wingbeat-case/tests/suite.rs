@@ -20,4 +20,5 @@ mod table1;
 mod tables;
 mod turns;
 mod wings;
+mod wings_on_bodies;
 mod written;

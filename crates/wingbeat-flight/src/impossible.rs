@@ -1,6 +1,7 @@
-//! Prescribed motions that no animal has, and of which no vortex lattice says what the air does.
+//! Prescribed motions that no animal has, and of which no vortex lattice says what the air does; roots on bodies, of which it says
+//! little.
 
-use wingbeat_model::{BodyPart, Crossing, FlownCrossings, crossings, inside};
+use wingbeat_model::{BodyPart, Crossing, FlownCrossings, crossings, inside, roots_on_parts};
 
 use crate::air::{check_joined, wing_pairs};
 use crate::setup::{AirModel, FlightSetup};
@@ -76,6 +77,40 @@ impl FlightSetup {
                 names.join(" and "),
                 part.name,
                 (100.0 * most).max(1.0),
+                part.name,
+            ))
+        };
+        let parts = self.animal.parts.iter().enumerate();
+        parts.filter_map(of_part).collect()
+    }
+
+    /// Says which wings have their roots on which parts of the body where the lattice has both as surfaces ([`roots_on_parts`]):
+    /// the air goes between, and the lift is low (docs/wings.md, "Wings on a body"). Wings inside parts and those with joints of
+    /// their own are left out.
+    pub fn roots_on_bodies(&self) -> Vec<String> {
+        if !matches!(&self.air, AirModel::VortexLattice(air) if air.body_surfaces) {
+            return vec![];
+        }
+        let mut wings = self.prescribed_wings();
+        let within = inside(&self.animal, &wings);
+        wings.retain(|w| within.iter().all(|i| i.wing != *w));
+        let found = roots_on_parts(&self.animal, &wings);
+        let of_part = |(k, part): (usize, &BodyPart)| {
+            let here = found.iter().filter(|r| r.part == k);
+            let names: Vec<String> = here
+                .map(|r| format!("`{}`", self.animal.wings[r.wing].name))
+                .collect();
+            let (roots, lie) = match names.len() {
+                0 => return None,
+                1 => ("root of wing", "lies"),
+                _ => ("roots of wings", "lie"),
+            };
+            Some(format!(
+                "the {roots} {} {lie} on the body part `{}`: in the lattice air passes between them, so that in a stream the lift \
+                 comes out a quarter to a third low, and the drag is not to be trusted; carry the wings on to the middle of the body \
+                 and join them there (joined = true), without the body in the air (air.body = false) (docs/wings.md, \"Wings on a \
+                 body\")",
+                names.join(" and "),
                 part.name,
             ))
         };

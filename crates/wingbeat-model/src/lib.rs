@@ -40,6 +40,7 @@ pub mod planform;
 pub mod revolution;
 pub mod species;
 pub mod structure;
+mod touching;
 
 pub use animal::{Animal, BodyPart, Segment, Wing};
 pub use build::{BodyMass, fit_body_length};
@@ -58,3 +59,4 @@ pub use structure::{
     BeamMass, Coupling, ElasticBody, Members, Region, Vein, VeinStiffness, WingBeam, WingShell,
     WingStructure,
 };
+pub use touching::{RootOnPart, roots_on_parts};

@@ -324,6 +324,24 @@ fn behaves_summaries_tell_of_wings_inside_parts_of_the_body() {
     }
 }
 
+/// Wings whose roots lie on a part of the body, with and without it in the air.
+#[test]
+fn behaves_summaries_tell_of_wings_on_bodies() {
+    for (body, told) in [("true", true), ("false", false)] {
+        let body = format!("air.body={body}");
+        let on_the_side = "wing.right.hinge_m=[0, 0.04, 0]";
+        let set = [
+            "time.beats=0.05",
+            "wing.right.joined=false",
+            on_the_side,
+            &body,
+        ];
+        let summary = flown(&preset("bird-cruise", &set));
+        let says = says(&summary, "lie on the body part `trunk`");
+        assert_eq!(says, told, "{:?}", summary.warnings);
+    }
+}
+
 /// Wings that pass through each other: their forces mean nothing in a lattice.
 #[test]
 fn behaves_wings_that_cross_make_a_lattice_red() {

@@ -54,7 +54,8 @@ pub(crate) fn rings(
     rings
 }
 
-/// Side edges that do not shed: rings stay inside.
+/// Side edges that do not shed: rings stay inside. So do those of roots on bodies, which are no free edges (docs/wings.md, "Wings on a
+/// body").
 fn inset(topology: &Topology, surfaces: &[Surface], settings: &AirSettings, rings: &mut Rings) {
     let kinds = edge_kinds(topology, surfaces);
     let mut found = BTreeSet::new();

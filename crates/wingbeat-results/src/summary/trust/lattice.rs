@@ -57,6 +57,11 @@ fn motion(setup: &FlightSetup, list: &mut Warnings) {
             "A wing and a body cannot both be surfaces of the lattice in one place: {inside}. {NO_MEANING}"
         ));
     }
+    for text in setup.roots_on_bodies() {
+        list.limit(format!(
+            "A wing on a body is a limit of the lattice: {text}."
+        ));
+    }
     if let Some(text) = setup.vortex_lift_of_swept_edges() {
         list.limit(format!("Outside of what it was made for: {text}."));
     }

@@ -1,0 +1,193 @@
+//! Wings whose roots lie on parts of the body: where they meet no air passes and circulation goes on, which a vortex lattice of
+//! both does not know.
+
+use crate::animal::{Animal, Wing};
+use crate::inside::Solid;
+use crate::mesh::{GridMesh, QuadMesh};
+use crate::motion::{Start, WingMotion};
+use wingbeat_math::{DVec3, RotationLaw};
+
+/// How near a node of the root is to a part that it lies on, over the chord of the root: panels of a part lie within its surface, by
+/// 0.04 chords of a bird's or an aeroplane's wing on eight panels around. A little more than a round number: roots that stand off by
+/// just that are told on both sides of the body.
+const NEAR: f64 = 0.1 + 1e-9;
+/// Part of the chord of the root along which it lies on a part: petioles and hinges touch theirs in a place.
+const ALONG: f64 = 0.75;
+/// Instants of a beat that are looked at.
+const INSTANTS: usize = 20;
+
+/// A wing whose root lies on a part of the central body throughout its prescribed motion.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct RootOnPart {
+    /// The wing, among those of the animal.
+    pub wing: usize,
+    /// The part, among those of the central body.
+    pub part: usize,
+}
+
+/// Which of `wings` of the animal have their roots on parts of the central body: along three quarters of the chord of the root
+/// within a tenth of it from panels of the part, or inside, at each of 20 instants of a beat, shapes at rest.
+pub fn roots_on_parts(animal: &Animal, wings: &[usize]) -> Vec<RootOnPart> {
+    let skins: Vec<Skin> = animal.parts.iter().map(|p| Skin::new(&p.mesh)).collect();
+    let of_wing = |&wing: &usize| {
+        let places = places(&animal.wings[wing]);
+        let holds = |skin: &Skin| places.iter().all(|root| skin.holds(root));
+        let found: Vec<usize> = (0..skins.len()).filter(|&p| holds(&skins[p])).collect();
+        found.into_iter().map(move |part| RootOnPart { wing, part })
+    };
+    wings.iter().flat_map(of_wing).collect()
+}
+
+/// The nodes of the root of a wing [m], body components, at the instants of a beat.
+fn places(wing: &Wing) -> Vec<Vec<DVec3>> {
+    let motion = WingMotion {
+        start: Start::Impulsive,
+        ..wing.motion.clone()
+    };
+    let (instants, beat) = match motion.frequency > 0.0 {
+        true => (INSTANTS, 1.0 / motion.frequency),
+        false => (1, 0.0),
+    };
+    let root = root(&wing.mesh);
+    let at = |k: usize| {
+        let turn = motion.at(beat * k as f64 / INSTANTS as f64).c;
+        root.iter().map(|x| wing.hinge_b + turn * *x).collect()
+    };
+    (0..instants).map(at).collect()
+}
+
+/// Nodes of the root from leading to trailing edge [m], wing components.
+fn root(mesh: &GridMesh) -> Vec<DVec3> {
+    (0..=mesh.rows)
+        .map(|i| mesh.nodes[mesh.node(i, 0)])
+        .collect()
+}
+
+/// The surface of a part and what it encloses.
+struct Skin {
+    triangles: Vec<[DVec3; 3]>,
+    solid: Solid,
+}
+
+impl Skin {
+    fn new(mesh: &QuadMesh) -> Self {
+        let halves = |q: usize| {
+            let [a, b, c, d] = mesh.corners(q);
+            [[a, b, c], [a, c, d]]
+        };
+        Self {
+            triangles: (0..mesh.quads.len()).flat_map(halves).collect(),
+            solid: Solid::new(mesh),
+        }
+    }
+
+    /// Whether a root with these nodes lies on it.
+    fn holds(&self, root: &[DVec3]) -> bool {
+        let lengths = root.windows(2).map(|w| w[0].distance(w[1]));
+        let chord: f64 = lengths.clone().sum();
+        let on: Vec<bool> = root
+            .iter()
+            .map(|x| self.is_near(*x, NEAR * chord))
+            .collect();
+        let both = on.windows(2).map(|w| w[0] && w[1]);
+        let along: f64 = lengths
+            .zip(both)
+            .filter(|(_, on)| *on)
+            .map(|(l, _)| l)
+            .sum();
+        chord > 0.0 && along >= ALONG * chord
+    }
+
+    /// Whether a place is within `reach` [m] of the surface, or inside.
+    fn is_near(&self, x: DVec3, reach: f64) -> bool {
+        self.triangles.iter().any(|t| distance(x, t) <= reach) || self.solid.contains(x)
+    }
+}
+
+/// Distance of a place from a triangle [m].
+fn distance(x: DVec3, t: &[DVec3; 3]) -> f64 {
+    let sides = [[t[0], t[1]], [t[1], t[2]], [t[2], t[0]]];
+    let normal = (t[1] - t[0]).cross(t[2] - t[0]).normalize_or_zero();
+    let is_over = |[a, b]: [DVec3; 2]| (b - a).cross(x - a).dot(normal) >= 0.0;
+    if normal != DVec3::ZERO && sides.into_iter().all(is_over) {
+        return (x - t[0]).dot(normal).abs();
+    }
+    let from_side = |[a, b]: [DVec3; 2]| {
+        let way = b - a;
+        let along = (x - a).dot(way) / way.length_squared().max(f64::MIN_POSITIVE);
+        x.distance(a + along.clamp(0.0, 1.0) * way)
+    };
+    sides
+        .map(from_side)
+        .into_iter()
+        .fold(f64::INFINITY, f64::min)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::animal::BodyPart;
+    use crate::motion::{AngleLaw, Fourier};
+    use crate::{MassInput, Planform, Revolution, Side, WingShape};
+    use wingbeat_math::MassProperties;
+
+    /// A trunk of length 1.6 and diameter 0.2 and wings of chord 0.2 at its middle whose roots are this far from its axis \[m\], that
+    /// flap and feather by these angles \[rad\].
+    fn animal(aside: f64, [flap, feather]: [f64; 2]) -> Animal {
+        let planform = Planform::Outline {
+            leading: vec![(0.0, 0.1), (0.4, 0.1)],
+            trailing: vec![(0.0, -0.1), (0.4, -0.1)],
+            least_chord: 0.1,
+        };
+        let sine = |angle: f64| {
+            let (mean, cos, sin) = (0.0, vec![], vec![angle]);
+            AngleLaw::Fourier(Fourier { mean, cos, sin })
+        };
+        let mut motion = WingMotion::fixed(0.0, [0.0; 3]);
+        (motion.angles.phi, motion.angles.psi) = (sine(flap), sine(feather));
+        motion.frequency = 3.0;
+        let shape = WingShape::uniform(planform, 6, 12);
+        let hinge = DVec3::new(0.0, aside, 0.0);
+        let mass = MassInput::Total(0.1);
+        let right = Wing::new("right", Side::Right, hinge, &shape, &mass, motion).unwrap();
+        let trunk = Revolution::ellipsoid(DVec3::ZERO, 1.6, 0.1, [6, 8]);
+        let part = BodyPart {
+            name: "trunk".into(),
+            mesh: trunk.mesh("trunk").unwrap(),
+            mass: MassProperties::point(0.1, DVec3::ZERO),
+        };
+        Animal {
+            name: "touching".into(),
+            body: right.mass,
+            parts: vec![part],
+            wings: vec![right.mirrored("left"), right],
+            segments: vec![],
+        }
+    }
+
+    #[test]
+    fn exact_distances_from_a_triangle() {
+        let t = [DVec3::ZERO, DVec3::X, DVec3::Y];
+        let over = |x: f64, y: f64, z: f64| distance(DVec3::new(x, y, z), &t);
+        assert_eq!(over(0.25, 0.25, -2.0), 2.0);
+        assert_eq!(over(0.5, -3.0, 4.0), 5.0);
+        assert_eq!(over(4.0, 0.0, 0.0), 3.0);
+        assert!((over(1.0, 1.0, 0.0) - 0.5f64.sqrt()).abs() < 1e-15);
+        let line = [DVec3::ZERO, DVec3::X, DVec3::X];
+        assert_eq!(distance(DVec3::new(0.5, 2.0, 0.0), &line), 2.0);
+    }
+
+    /// The trunk reaches 0.1 from its axis.
+    #[test]
+    fn behaves_roots_lie_on_a_part_that_they_stay_near() {
+        let found = |aside: f64, angles: [f64; 2]| roots_on_parts(&animal(aside, angles), &[0, 1]);
+        let both = [0, 1].map(|wing| RootOnPart { wing, part: 0 });
+        for aside in [0.08, 0.1, 0.11] {
+            assert_eq!(found(aside, [0.7, 0.0]), both, "{aside}");
+        }
+        assert_eq!(found(0.13, [0.0, 0.0]), [], "beside the trunk");
+        // Its ends are 0.1 sin(40 deg) above and below the middle of the trunk, where that is half as wide.
+        assert_eq!(found(0.1, [0.7, 0.7]), [], "feathers");
+        assert_eq!(roots_on_parts(&animal(0.1, [0.0; 2]), &[]), []);
+    }
+}
