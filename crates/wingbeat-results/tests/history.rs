@@ -12,6 +12,8 @@ use wingbeat_results::poses::Poses;
 use wingbeat_results::quantity::Fold;
 use wingbeat_results::{Outcome, Records, ResultDir, RunWriter, Summary, rows::Rows};
 
+use crate::flights::flown_into;
+
 /// A folder of its own, removed at the end.
 struct Scratch(PathBuf);
 
@@ -332,20 +334,6 @@ fn refuses_histories_with_columns_missing_or_of_another_flight() {
     }
 }
 
-/// Flies a case into a directory; its summary.
-fn flown(case: &LoadedCase, dir: &Path) -> Summary {
-    let mut writer = RunWriter::new(ResultDir::create(dir).unwrap(), case, 1).unwrap();
-    let mut flight = Simulation::new(case.setup.clone()).unwrap();
-    loop {
-        writer.write(flight.record(), || flight.snapshot()).unwrap();
-        if flight.finished() {
-            break;
-        }
-        flight.step().unwrap();
-    }
-    writer.finish(Outcome::Finished, |_, _, _| Ok(())).unwrap()
-}
-
 #[test]
 fn agrees_thinned_histories_with_whole_ones() {
     let scratch = Scratch::new("thinned");
@@ -363,6 +351,7 @@ fn agrees_thinned_histories_with_whole_ones() {
         case("fruit-fly-hover", &set)
     };
     let (all, few) = (scratch.0.join("all"), scratch.0.join("few"));
+    let flown = |case: &LoadedCase, dir: &Path| flown_into(case, ResultDir::create(dir).unwrap());
     let (whole, case) = (flown(&set("1"), &all), set("7"));
     let thinned = flown(&case, &few);
     let [all, few] = [all, few].map(|d| d.join("history.csv"));

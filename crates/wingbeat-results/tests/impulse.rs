@@ -1,8 +1,6 @@
 //! Two ways to one force, and the budget of the impulse, as summaries have them.
 
-mod flights;
-
-use flights::{flown, preset, says};
+use crate::flights::{flown, preset, says};
 use wingbeat_results::Summary;
 use wingbeat_results::summary::{BeatMeans, Verdict};
 

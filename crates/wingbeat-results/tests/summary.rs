@@ -1,8 +1,6 @@
 //! The summary's judgement: alarms where something is wrong, none where nothing is.
 
-mod flights;
-
-use flights::{flown, preset, says};
+use crate::flights::{flown, preset, says};
 use std::path::Path;
 use wingbeat_case::LoadedCase;
 use wingbeat_case::raw::{AirCase, AirModel, BodyCase, Case, FlightCase, OutputCase, TimeCase};

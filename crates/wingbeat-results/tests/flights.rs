@@ -12,6 +12,13 @@ pub fn flown(case: &LoadedCase) -> Summary {
     let folder = format!("wingbeat-summary-{}-{number}", std::process::id());
     let dir = ResultDir::overwrite(&std::env::temp_dir().join(folder)).unwrap();
     let path = dir.path().to_owned();
+    let summary = flown_into(case, dir);
+    std::fs::remove_dir_all(path).unwrap();
+    summary
+}
+
+/// The same, written into a directory that stays.
+pub fn flown_into(case: &LoadedCase, dir: ResultDir) -> Summary {
     let mut writer = RunWriter::new(dir, case, 1).unwrap();
     let mut flight = Simulation::new(case.setup.clone()).unwrap();
     loop {
@@ -21,9 +28,7 @@ pub fn flown(case: &LoadedCase) -> Summary {
         }
         flight.step().unwrap();
     }
-    let summary = writer.finish(Outcome::Finished, |_, _, _| Ok(())).unwrap();
-    std::fs::remove_dir_all(path).unwrap();
-    summary
+    writer.finish(Outcome::Finished, |_, _, _| Ok(())).unwrap()
 }
 
 pub fn preset(name: &str, set: &[&str]) -> LoadedCase {

@@ -1,0 +1,9 @@
+//! All tests of the crate in one program: it is linked once.
+
+mod columns;
+mod flights;
+mod history;
+mod impulse;
+mod mutations;
+mod passive_joints;
+mod summary;
