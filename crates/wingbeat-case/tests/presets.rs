@@ -2,7 +2,6 @@
 
 use std::path::Path;
 
-use wingbeat_air::LeadingEdge;
 use wingbeat_case::{LoadedCase, presets::PRESETS};
 use wingbeat_flight::{AirModel, FlightSetup, Record, Simulation};
 use wingbeat_math::{DMat3, DVec3, RotationLaw};
@@ -385,112 +384,6 @@ fn invariant_every_preset_flies_to_its_end_symmetric_ones_symmetrically() {
         }
     }
     assert!(symmetric > 20, "{symmetric}");
-}
-
-/// Hovering strokes are alike back and forth, or nearly so; those of the tethered dragonfly, slowed and turned, are not.
-#[test]
-fn behaves_one_sided_leading_edges_are_told_of_dragonflies_and_not_of_hovering_flight() {
-    for preset in PRESETS {
-        let setup = LoadedCase::find(preset.name, &[]).unwrap().setup;
-        let said = setup.one_sided_leading_edges();
-        assert!(said.is_none(), "{}: {said:?}", preset.name);
-    }
-    let part = |name: &str| {
-        let setup = LoadedCase::find(name, &[]).unwrap().setup;
-        setup.one_sided_part(0)
-    };
-    let alike = part("robofly-symmetrical");
-    println!("{alike:e} {}", part("fruit-fly-tethered"));
-    assert!(alike < 1e-3 && part("fruit-fly-tethered") < 0.03); // measured 2e-4 and 0.015
-    let with = |shed: &str| {
-        let set = [format!("air.shed={shed}")];
-        let setup = LoadedCase::find("dragonfly", &set).unwrap().setup;
-        setup.one_sided_leading_edges()
-    };
-    let said = with(r#"["trailing", "tip", "leading"]"#).unwrap();
-    assert!(
-        said.contains("`fore-right`") && said.contains("`hind-left`"),
-        "{said}"
-    );
-    // Free roots: the suction of the step before is left.
-    let late = with(r#"["trailing", "tip", "leading", "root"]"#).unwrap();
-    assert!(late.contains("the step before"), "{late}");
-    let revolving = |more: &[&str]| {
-        let set = ["flight.tether.yaw.rate_deg_s=6000", "motion.frequency_hz=0"];
-        let still = ["phi", "theta", "psi"].map(|angle| {
-            let deg = if angle == "psi" { 45 } else { 0 };
-            format!("wing.right.motion.{angle}={{ constant_deg = {deg} }}")
-        });
-        let time = ["time={ step_s = 1e-4, steps = 100 }", "motion.data="];
-        let all = set.iter().chain(&time).chain(more).map(|s| (*s).to_owned());
-        let all: Vec<String> = all.chain(still).collect();
-        let setup = LoadedCase::find("fruit-fly-tethered", &all).unwrap().setup;
-        setup.one_sided_leading_edges()
-    };
-    let said = revolving(&[]).unwrap();
-    assert!(
-        said.contains("wings go on one way") && said.contains("100 %"),
-        "{said}"
-    );
-    let free = r#"air.shed=["trailing", "tip", "leading", "root"]"#;
-    assert_eq!(
-        revolving(&[free, "air.leading_edge=suction_implicit"]),
-        None
-    );
-}
-
-/// Tips along which a wake goes carry a tenth too much at an aspect ratio of 4, and no preset flies so.
-#[test]
-fn agrees_tips_of_attached_wings_shed_what_is_told_of_them() {
-    for preset in PRESETS {
-        let setup = LoadedCase::find(preset.name, &[]).unwrap().setup;
-        let said = setup.tips_of_attached_wings();
-        assert!(said.is_none(), "{}: {said:?}", preset.name);
-    }
-    let glider = |incidence: f64, shed: &str| {
-        let text = format!(
-            "format = 1\n[time]\nstep_s = 0.025\nsteps = 50\n[flight]\nmode = \"tethered\"\npitch_deg = {incidence}\n\
-             [air]\nstream_m_s = [-10, 0, 0]\nshed = {shed}\n\
-             [body]\nmass_kg = 1\ninertia_about_centre_kg_m2 = [1, 1, 1, 0, 0, 0]\n\
-             [wing.right]\nhinge_m = [0, 0, 0]\nmass_kg = 0\njoined = true\n\
-             planform.rectangle = {{ chord_m = 1, span_m = 2 }}\nmesh = {{ chordwise = 4, spanwise = 8 }}\n"
-        );
-        LoadedCase::from_text("glider", &text, Path::new(""), &[])
-            .unwrap()
-            .setup
-    };
-    let default = r#"["trailing", "tip", "leading"]"#;
-    let lift = |shed: &str| {
-        let mut flight = Simulation::new(glider(2.0, shed)).unwrap();
-        while !flight.finished() {
-            flight.step().unwrap();
-        }
-        let force: DVec3 = flight.record().air.iter().map(|a| a.force).sum();
-        -force.z
-    };
-    let more = lift(default) / lift(r#"["trailing"]"#);
-    println!("{more}");
-    assert!((1.08..1.13).contains(&more), "{more}");
-    let said = |incidence, shed| glider(incidence, shed).tips_of_attached_wings();
-    assert!(said(2.0, default).unwrap().contains("(`left`, `right`)"));
-    assert_eq!(said(2.0, r#"["trailing"]"#), None);
-    assert_eq!(said(10.0, default), None);
-    let with = |choice: &str| {
-        let mut setup = glider(2.0, default);
-        let AirModel::VortexLattice(air) = &mut setup.air else {
-            panic!("a lattice");
-        };
-        air.lattice.leading = match choice {
-            "always" => LeadingEdge::Always,
-            _ => LeadingEdge::Suction {
-                threshold: 0.02,
-                efficiency: 0.0,
-            },
-        };
-        setup.tips_of_attached_wings()
-    };
-    assert_eq!(with("always"), None);
-    assert_eq!(with("0.02"), None);
 }
 
 /// A delta's edges are swept by more than 45 deg; insects' wings are not, nor is anything said where leading edges shed.

@@ -32,6 +32,16 @@ pub struct PrescribedRoot {
 }
 
 impl PrescribedMotion {
+    /// Period of the slowest of its oscillations [s]; none where nothing oscillates.
+    pub fn period(&self) -> Option<f64> {
+        let all = self.position.iter().chain(&self.angles);
+        let oscillating = all.filter(|q| !q.cosine.is_empty() || !q.sine.is_empty());
+        let periods = oscillating
+            .filter(|q| q.frequency > 0.0)
+            .map(|q| 1.0 / q.frequency);
+        periods.reduce(f64::max)
+    }
+
     /// At rest at `position` [m] with 2-3-1 `angles` [rad].
     pub fn at_rest(position: DVec3, angles: DVec3) -> Self {
         let fixed = |v: DVec3| v.to_array().map(DriftingFourier::constant);

@@ -65,7 +65,7 @@ impl FlightSetup {
         let beats = self.animal.wings[found[0].0].motion.frequency > 0.0;
         let [what, when] = match beats {
             true => ["strokes are unlike back and forth", "in every beat"],
-            false => ["wings go on one way", "by the end"],
+            false => ["the motion goes more one way than the other", "in all"],
         };
         let [why, remedy] = match found.iter().any(|(w, _)| holds(*w)) {
             true => [
@@ -160,8 +160,8 @@ impl FlightSetup {
         moving.peek().is_some() && moving.all(|s| s.suction.abs() <= held)
     }
 
-    /// Part of the vorticity that the leading edge of wing `w` sheds in a beat of its prescribed motion, or in all of it where the wing does
-    /// not beat, that is left over of one sign \[1\]: none in strokes that are alike back and forth, 1 if all has one sign; 0 in other
+    /// Part of the vorticity that the leading edge of wing `w` sheds in a beat of its prescribed motion, or in a period of its tether or all of
+    /// the flight where the wing does not beat, that is left over of one sign \[1\]: none in strokes that are alike back and forth, 1 if all has one sign; 0 in other
     /// models of the air than lattices. The body goes on with the velocity and the attitude with which it starts.
     pub fn one_sided_part(&self, w: usize) -> f64 {
         let wing = &self.animal.wings[w];
@@ -169,10 +169,7 @@ impl FlightSetup {
             return 0.0;
         };
         let motion = wing.motion.impulsive();
-        let duration = match motion.frequency > 0.0 {
-            true => 1.0 / motion.frequency,
-            false => self.time.steps as f64 * self.time.step,
-        };
+        let duration = self.round(motion.frequency);
         let (mut net, mut gross) = (0.0, 0.0);
         for k in 0..INSTANTS {
             let t = k as f64 / INSTANTS as f64 * duration;
@@ -186,6 +183,21 @@ impl FlightSetup {
             f64::abs(net) / gross
         } else {
             0.0
+        }
+    }
+}
+
+impl FlightSetup {
+    /// What a wing of this beat [Hz] goes through again and again, or all of the flight [s].
+    fn round(&self, beat: f64) -> f64 {
+        let whole = self.time.steps as f64 * self.time.step;
+        let of_root = match &self.mode {
+            MotionMode::Tethered(motion) => motion.period(),
+            MotionMode::Free(_) => None,
+        };
+        match beat > 0.0 {
+            true => 1.0 / beat,
+            false => of_root.unwrap_or(whole),
         }
     }
 }
