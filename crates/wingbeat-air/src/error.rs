@@ -263,6 +263,17 @@ pub enum AirError {
         /// What does not fit.
         problem: &'static str,
     },
+    /// A strip through a body that leads nowhere.
+    #[error(
+        "surface {surface}, panel {panel}: it is said to carry circulation through a body but lies between no two roots; join its outer \
+         side to a wing and its inner side to the strip of the other wing, as many panels along the chord on all four"
+    )]
+    CarryThrough {
+        /// Name of the surface.
+        surface: String,
+        /// Panel, counted in its surface.
+        panel: usize,
+    },
     /// Joined surfaces that come apart.
     #[error(
         "air step {step}: node {} of surface {} and node {} of surface {} are joined but {distance:e} m apart; move joined surfaces so that their shared edge is one",

@@ -1,9 +1,11 @@
 //! The lattice: surfaces, topology and settings, checked once and constant after that.
 
+use crate::edges::EdgeKind;
 use crate::error::{AirError, require};
 use crate::geometry::{
-    JoinedEdge, MirrorPairs, Rings, ShedAround, Sheet, Strip, SuctionStrips, Surface, Symmetry,
-    Topology, joined_groups, rings, shed_around, strips,
+    Carried, JoinedEdge, MirrorPairs, Rings, ShedAround, Sheet, Strip, SuctionStrips, Surface,
+    Symmetry, Topology, WakeColumn, carried, joined_groups, middle_columns, rings, shed_around,
+    strips,
 };
 use crate::images::{Mirror, mirrors};
 use crate::settings::AirSettings;
@@ -27,6 +29,9 @@ pub struct Lattice {
     suction: SuctionStrips,
     joined: Vec<usize>,
     shed_around: Vec<ShedAround>,
+    /// Panels within bodies, and the column of nodes in the middle of those wake sheets that leave them.
+    carried: Vec<Carried>,
+    middle_columns: Vec<Option<usize>>,
     /// The strip that a panel leads.
     led: Vec<Option<usize>>,
     identity: Identity,
@@ -78,14 +83,19 @@ impl Lattice {
             settings.plane_wakes,
             "true only for wings of one panel along the span (mesh.spanwise = 1), whose flow is that of a section",
         )?;
-        let strips = strips(&topology, &surfaces);
+        let mut strips = strips(&topology, &surfaces);
+        let rings = rings(&topology, &surfaces, &strips, &settings);
+        // What goes on through a body has no leading edge of its own.
+        strips.retain(|s| !surfaces[topology.panel_surface[s.panels[0]]].carry_through);
         let joined = joined_groups(&topology, surfaces.len());
         let mut led = vec![None; topology.panels.len()];
         for (s, strip) in strips.iter().enumerate() {
             led[strip.panels[0]] = Some(s);
         }
         Ok(Self {
-            rings: rings(&topology, &surfaces, &strips, &settings),
+            rings,
+            carried: carried(&topology, &surfaces, &strips)?,
+            middle_columns: middle_columns(&topology, &surfaces),
             strips,
             shed_around: shed_around(&topology, &surfaces, &joined),
             joined,
@@ -178,6 +188,26 @@ impl Lattice {
         self.led[p]
     }
 
+    /// Panels within bodies, which carry circulation from root to root.
+    pub(crate) fn carried(&self) -> &[Carried] {
+        &self.carried
+    }
+
+    /// What leaves the leading edges beside the front edge of a panel within a body, if wake sheet `k` leaves that.
+    pub(crate) fn leading_beside(&self, k: usize, column: usize) -> Option<[WakeColumn; 2]> {
+        let root = &self.sheets()[k];
+        if self.middle_column(k).is_none() || root.kinds[column] != EdgeKind::Leading {
+            return None;
+        }
+        let here = |c: &&Carried| c.panel == root.panels[column];
+        self.carried.iter().find(here)?.leading
+    }
+
+    /// The column of nodes of wake sheet `k` that left the middle of a body, if one did.
+    pub(crate) fn middle_column(&self, k: usize) -> Option<usize> {
+        self.middle_columns[k]
+    }
+
     /// Wings that shed from all their edges.
     pub(crate) fn shed_around(&self) -> &[ShedAround] {
         &self.shed_around
@@ -185,8 +215,9 @@ impl Lattice {
 
     fn with_suction_strips(mut self) -> Self {
         let symmetry = self.symmetry.as_ref();
+        let is_within = |s: &Sheet| self.surfaces[s.surface].carry_through;
         self.suction = match self.settings.solves_suction() {
-            true => SuctionStrips::new(&self.topology, &self.strips, symmetry),
+            true => SuctionStrips::new(&self.topology, &self.strips, symmetry, is_within),
             false => SuctionStrips::none(self.strips.len()),
         };
         self

@@ -42,7 +42,8 @@ const ONE_SIDED: f64 = 0.1;
 impl FlightSetup {
     /// Says which wings shed vorticity of one sign from their leading edges in their prescribed motion
     /// ([`Self::one_sided_part`]) where roots hold, or where leading edges shed by the suction of the step before, and what to do about it.
-    /// Wings with joints of their own, whose motion is not known beforehand, are left out; of wings joined at their roots no root holds.
+    /// Wings with joints of their own, whose motion is not known beforehand, are left out; of wings joined at their roots, or whose circulation goes
+    /// on through a body, no root holds.
     pub fn one_sided_leading_edges(&self) -> Option<String> {
         let AirModel::VortexLattice(air) = &self.air else {
             return None;
@@ -52,7 +53,10 @@ impl FlightSetup {
             return None;
         }
         let has_joint = |w: usize| self.joints.iter().any(|j| j.child == w + 1);
-        let is_joined = |w: usize| air.joined.iter().flatten().any(|j| *j == w);
+        let carried = self.carried_pairs(air);
+        let through = carried.iter().map(|p| &p.wings);
+        let pairs: Vec<&[usize; 2]> = air.joined.iter().chain(through).collect();
+        let is_joined = |w: usize| pairs.iter().any(|pair| pair.contains(&w));
         let is_late = matches!(air.lattice.leading, LeadingEdge::Suction { .. });
         let holds = |w: usize| !shedding.root && !is_joined(w);
         let wings = 0..self.animal.wings.len();

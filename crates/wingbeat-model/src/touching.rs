@@ -38,6 +38,77 @@ pub fn roots_on_parts(animal: &Animal, wings: &[usize]) -> Vec<RootOnPart> {
     wings.iter().flat_map(of_wing).collect()
 }
 
+/// Two wings whose roots lie on one part of the central body, and the way from root to root through it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PairOnPart {
+    /// The wings, among those of the animal.
+    pub wings: [usize; 2],
+    /// The part, among those of the central body.
+    pub part: usize,
+    /// From the middle between the two roots towards that of the part, normal to the mean chord of the roots [m], body components: so far
+    /// the way leads off the straight one to stay clear of the surface. Zero where that would lead out of the part.
+    pub aside: DVec3,
+    /// Length along the chord of the longest panel of the part beside either root, over the chord of the root \[1\].
+    pub panel_chords: f64,
+}
+
+/// Which of these `pairs` of wings, with as many panels along both chords, have both roots on one part ([`roots_on_parts`]).
+pub fn pairs_on_parts(animal: &Animal, pairs: &[[usize; 2]]) -> Vec<PairOnPart> {
+    let wings: Vec<usize> = pairs.iter().flatten().copied().collect();
+    let found = roots_on_parts(animal, &wings);
+    let lies = |wing: usize, part: usize| found.contains(&RootOnPart { wing, part });
+    let of = |&wings: &[usize; 2]| {
+        let [a, b] = wings;
+        let part = (0..animal.parts.len()).find(|&part| lies(a, part) && lies(b, part))?;
+        let mesh = &animal.parts[part].mesh;
+        let roots = wings.map(|w| places(&animal.wings[w]).swap_remove(0));
+        Some(PairOnPart {
+            wings,
+            part,
+            aside: aside(&roots, mesh),
+            panel_chords: (roots.iter().map(|root| panel_chords(root, mesh))).fold(0.0, f64::max),
+        })
+    };
+    pairs.iter().filter_map(of).collect()
+}
+
+/// See [`PairOnPart::aside`].
+fn aside([a, b]: &[Vec<DVec3>; 2], part: &QuadMesh) -> DVec3 {
+    let middles: Vec<DVec3> = a.iter().zip(b).map(|(a, b)| a.midpoint(*b)).collect();
+    let [low, high] = part.bounds();
+    let to_middle = low.midpoint(high) - middles.iter().sum::<DVec3>() / middles.len() as f64;
+    let chord = middles[middles.len() - 1] - middles[0];
+    let aside = to_middle - to_middle.project_onto(chord);
+    let solid = Solid::new(part);
+    let is_within = |x: &DVec3| solid.contains(*x + aside);
+    match aside.is_finite() && middles.iter().all(is_within) {
+        true => aside,
+        false => DVec3::ZERO,
+    }
+}
+
+/// See [`PairOnPart::panel_chords`], of one root.
+fn panel_chords(root: &[DVec3], part: &QuadMesh) -> f64 {
+    let chord = root[root.len() - 1] - root[0];
+    let near = |q: usize, x: DVec3| {
+        let [a, b, c, d] = part.corners(q);
+        distance(x, &[a, b, c]).min(distance(x, &[a, c, d]))
+    };
+    let beside =
+        |x: &DVec3| (0..part.quads.len()).min_by(|p, q| near(*p, *x).total_cmp(&near(*q, *x)));
+    let length = |q: usize| {
+        let along = part
+            .corners(q)
+            .map(|x| x.dot(chord) / chord.length_squared());
+        along.iter().fold(f64::MIN, |m, x| m.max(*x))
+            - along.iter().fold(f64::MAX, |m, x| m.min(*x))
+    };
+    root.iter()
+        .filter_map(beside)
+        .map(length)
+        .fold(0.0, f64::max)
+}
+
 /// The nodes of the root of a wing [m], body components, at the instants of a beat.
 fn places(wing: &Wing) -> Vec<Vec<DVec3>> {
     let motion = WingMotion {
@@ -189,5 +260,28 @@ mod tests {
         // Its ends are 0.1 sin(40 deg) above and below the middle of the trunk, where that is half as wide.
         assert_eq!(found(0.1, [0.7, 0.7]), [], "feathers");
         assert_eq!(roots_on_parts(&animal(0.1, [0.0; 2]), &[]), []);
+    }
+
+    /// Roots 0.05 above the axis of the trunk: the way leads down to it. At its ends, which reach beyond the roots, it would lead out.
+    #[test]
+    fn behaves_the_way_through_a_part_keeps_to_its_middle() {
+        let on = |x: f64, z: f64| {
+            let mut animal = animal(0.085, [0.0; 2]);
+            animal.wings.iter_mut().for_each(|w| {
+                w.hinge_b.x = x;
+                w.hinge_b.z = z;
+            });
+            pairs_on_parts(&animal, &[[0, 1]])
+        };
+        let [middle] = on(0.0, 0.0)[..] else { panic!() };
+        assert_eq!((middle.wings, middle.part), ([0, 1], 0));
+        assert!(middle.aside.length() < 1e-15);
+        // Six stations along 1.6, cosine-spaced: 0.4 in the middle, twice the chord.
+        assert!((middle.panel_chords - 2.0).abs() < 1e-12, "{middle:?}");
+        let [above] = on(0.0, -0.05)[..] else {
+            panic!()
+        };
+        assert!((above.aside - DVec3::new(0.0, 0.0, 0.05)).length() < 1e-15);
+        assert_eq!(pairs_on_parts(&animal(0.2, [0.0; 2]), &[[0, 1]]), []);
     }
 }

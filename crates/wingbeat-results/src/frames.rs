@@ -265,10 +265,14 @@ impl Mesh {
     }
 
     /// Edges along which the wake sheets of joined wings are one: of every pair, number and column of nodes in both
-    /// sheets. Empty for wings that are not joined.
+    /// sheets. Empty for wings that are neither joined nor carried through a body.
     pub fn joined_edges(&self, setup: &FlightSetup) -> Vec<JoinedEdges> {
         match &setup.air {
-            AirModel::VortexLattice(air) if !air.joined.is_empty() => self.coincident_edges(),
+            AirModel::VortexLattice(air)
+                if !(air.joined.is_empty() && setup.carried_pairs(air).is_empty()) =>
+            {
+                self.coincident_edges()
+            }
             _ => vec![],
         }
     }

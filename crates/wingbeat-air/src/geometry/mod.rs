@@ -2,6 +2,7 @@
 
 mod aft;
 mod assembly;
+mod carry_through;
 mod joined_edge;
 mod node_motion;
 mod panels;
@@ -14,6 +15,7 @@ mod symmetry;
 mod topology;
 mod wash;
 
+pub(crate) use carry_through::{Carried, carried, middle_columns};
 pub use joined_edge::JoinedEdge;
 pub use node_motion::NodeMotion;
 pub use panels::Panels;

@@ -1,8 +1,9 @@
 //! Strips whose leading edges hold suction and shed what is beyond it.
 
+use crate::edges::EdgeKind;
 use crate::geometry::strips::Strip;
 use crate::geometry::symmetry::Symmetry;
-use crate::geometry::topology::Topology;
+use crate::geometry::topology::{Sheet, Topology};
 
 /// Strips behind leading edges that shed, each with an unknown circulation that leaves within a step: one for both of a pair of
 /// mirror images.
@@ -27,7 +28,13 @@ impl SuctionStrips {
         }
     }
 
-    pub fn new(topology: &Topology, strips: &[Strip], symmetry: Option<&Symmetry>) -> Self {
+    /// Of all strips but those within bodies, from which the wake sheets come for which `is_within`.
+    pub fn new(
+        topology: &Topology,
+        strips: &[Strip],
+        symmetry: Option<&Symmetry>,
+        is_within: impl Fn(&Sheet) -> bool,
+    ) -> Self {
         let columns = topology.sheets.iter().map(|s| vec![None; s.panels.len()]);
         let mut found = Self {
             of_column: columns.collect(),
@@ -45,6 +52,11 @@ impl SuctionStrips {
                 found.unknown[s] = Some(found.computed.len());
                 found.computed.push(s);
             }
+        }
+        // Front edges within bodies go on from those of the wings.
+        let fronts = topology.sheets.iter().filter(|s| is_within(s));
+        for sheet in fronts.filter(|s| s.kinds[0] == EdgeKind::Leading) {
+            sheet.nodes.iter().for_each(|&n| found.is_front[n] = true);
         }
         found.join_images(strips, symmetry);
         found

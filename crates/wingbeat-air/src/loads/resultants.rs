@@ -21,6 +21,9 @@ pub(crate) fn resultants(lattice: &Lattice, net_flux_residual: &[f64], out: &mut
             let (x, normal) = (out.panels.point[p], out.panels.normal[p]);
             sum.force += out.force[p];
             sum.moment += x.cross(out.force[p]) + out.couple[p];
+            if lattice.surfaces()[s].carry_through {
+                continue;
+            }
             let through =
                 (out.velocity[p] - out.panels.velocity[p]).dot(normal) + sum.net_flux_residual;
             out.normal_velocity_residual = out.normal_velocity_residual.max(through.abs());

@@ -50,6 +50,7 @@ impl BoundaryCondition {
         self.wake_velocity(now, filaments, sums);
         self.right_side(now, gamma);
         self.influence.assemble(now, filaments);
+        self.influence.carry(lattice, gamma);
         let found = &mut gamma[..self.points.len()];
         self.influence.solve(lattice, now.state, found)?;
         let near = NEAR * now.panels.size();

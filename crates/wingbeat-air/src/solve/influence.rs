@@ -8,7 +8,7 @@ use crate::settings::NewestRow;
 use crate::solve::circulation::Circulation;
 use crate::solve::row_blocks::RowBlocks;
 use crate::solve::self_influence::{KnownShapes, SelfInfluence, augment};
-use crate::solve::unknowns::{add_part, columns, panel, unknown, unknowns};
+use crate::solve::unknowns::{add_part, columns, is_computed, panel, unknown, unknowns};
 use crate::state::AirState;
 use crate::wake::{Filaments, Row, Share, at_edge};
 use rayon::prelude::*;
@@ -79,6 +79,24 @@ impl Influence {
             sources.fill((now, known), &filaments.shares, rows, block, rates);
         });
         self.augment(now.lattice);
+    }
+
+    /// Puts in place of the equations of panels within bodies that their circulations are the mean of those beside the two roots;
+    /// `right` is the right-hand side.
+    pub(crate) fn carry(&mut self, lattice: &Lattice, right: &mut [f64]) {
+        let computed = lattice.carried().iter();
+        for carried in computed.filter(|c| is_computed(lattice, c.panel)) {
+            let own = unknown(lattice, carried.panel);
+            let unit = self.matrix.at(own, own); // equations of one size
+            for column in 0..self.matrix.order() {
+                *self.matrix.entry(own, column) = 0.0;
+            }
+            *self.matrix.entry(own, own) = unit;
+            right[own] = 0.0;
+            for panel in carried.beside {
+                *self.matrix.entry(own, unknown(lattice, panel)) -= 0.5 * unit;
+            }
+        }
     }
 
     /// Number of unknowns.

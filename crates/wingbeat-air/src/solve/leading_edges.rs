@@ -4,7 +4,7 @@ use crate::error::AirError;
 use crate::solve::influence::{Influence, Instant};
 use crate::solve::leaving::{Leaving, Part};
 use crate::solve::suction::{LeadingStrip, PLACES, Release, threshold};
-use crate::solve::unknowns::panel;
+use crate::solve::unknowns::{is_computed, panel, unknown};
 use crate::wake::{Filaments, Sums, WakeVelocityCache};
 use wingbeat_math::DVec3;
 use wingbeat_vortex::Points;
@@ -170,6 +170,9 @@ impl LeadingEdges {
         let see = |i: usize, k: usize, rate: f64| answer[k * n + i] -= rate;
         (self.leaving).leading_edges(lattice, &self.at_points, see);
         for (k, column) in answer.chunks_mut(n).enumerate() {
+            let carried = lattice.carried().iter().map(|c| c.panel);
+            (carried.filter(|&p| is_computed(lattice, p)))
+                .for_each(|p| column[unknown(lattice, p)] = 0.0);
             influence.solve_another(now.state, column)?;
             for (u, &s) in computed.iter().enumerate() {
                 let own = if u == k { -1.0 } else { 0.0 };

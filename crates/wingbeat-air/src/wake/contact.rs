@@ -35,7 +35,7 @@ struct Panel {
     corners: [[DVec3; 4]; 2],
     centre: [DVec3; 2],
     normal: [DVec3; 2],
-    /// Which of its sides, from a corner to the next one, no other panel shares.
+    /// Which of its sides, from a corner to the next one, no other panel shares that is in the way.
     is_border: [bool; 4],
     /// Largest distance of a corner from the centre.
     radius: f64,
@@ -75,7 +75,7 @@ impl Obstacles {
         };
         self.surfaces.resize_with(count, Obstacle::default);
         self.surfaces.iter_mut().for_each(Obstacle::clear);
-        for s in 0..count {
+        for s in (0..count).filter(|&s| !lattice.surfaces()[s].carry_through) {
             self.surfaces[lattice.joined_groups()[s]].add(lattice, s, ends);
         }
         self.surfaces.iter_mut().for_each(Obstacle::enclose);
@@ -134,6 +134,8 @@ impl Obstacle {
     /// Adds the panels of surface `s`, whose nodes are at `ends` when the step starts and ends.
     fn add(&mut self, lattice: &Lattice, s: usize, ends: impl Fn(usize) -> [DVec3; 2]) {
         let topology = lattice.topology();
+        // What leads through bodies is in nobody's way.
+        let is_within = |p: usize| lattice.surfaces()[topology.panel_surface[p]].carry_through;
         self.closed = lattice.surfaces()[s].closed;
         for p in lattice.panels_of(s) {
             let nodes = topology.panels[p];
@@ -142,7 +144,9 @@ impl Obstacle {
                 topology.panel_edges[p].iter().any(|e| {
                     let edge = &topology.edges[e.edge];
                     let ends = [edge.from, edge.to];
-                    edge.minus.is_none() && (ends == side || ends == [side[1], side[0]])
+                    let others = [Some(edge.plus), edge.minus].into_iter().flatten();
+                    others.filter(|&q| q != p).all(is_within)
+                        && (ends == side || ends == [side[1], side[0]])
                 })
             });
             let panel = Panel::new(nodes.map(&ends), is_border);

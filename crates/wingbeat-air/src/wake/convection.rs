@@ -118,7 +118,7 @@ impl WakeMotion {
         self.accounts.iter().for_each(|account| sum += *account);
         if moved.is_ok() && !lattice.topology().joined_columns.is_empty() {
             let before = impulses(lattice, state, &sheets);
-            merge_joined_nodes(lattice.topology(), &mut sheets);
+            merge_joined_nodes(lattice, &mut sheets);
             let after = impulses(lattice, state, &sheets);
             sum.moved += after[0] - before[0];
             sum.free += after[1] - before[1];
@@ -185,19 +185,19 @@ fn move_each(
 ) -> Result<(), AirError> {
     let lattice = mover.lattice;
     for (k, lengths) in lengths.iter().enumerate() {
-        let (before, rest) = sheets.split_at_mut(k);
+        let (others, rest) = sheets.split_at_mut(k);
         let sheet = &mut rest[0];
         let Some((source, mirror)) = lattice.reflected_sheet(k) else {
             let before = [free_rings(sheet), sheet.particles.impulse()];
             move_sheet(mover, (k, state.step), sheet)?;
-            lattice.shed(k, sheet, state, lengths);
+            lattice.shed(k, (others, sheet), state, lengths);
             let mut account = SheetAccount::of_move(mover, (k, state), sheet, before);
             mover.events += lattice.truncate(k, sheet, (state, mover.dt), &mut account);
             accounts.push(account);
             continue;
         };
-        lattice.shed(k, sheet, state, lengths);
-        let rows = sheet.reflect(&before[source], mirror);
+        lattice.shed(k, (others, sheet), state, lengths);
+        let rows = sheet.reflect(&others[source], mirror);
         if lattice.settings().particles.is_none() {
             mover.events.dropped_rows += rows;
         }
@@ -213,7 +213,7 @@ fn move_sheet(
     sheet: &mut WakeSheet,
 ) -> Result<(), AirError> {
     mover
-        .move_nodes(sheet)
+        .move_nodes(sheet, mover.lattice.middle_column(k))
         .map_err(|(row, column, velocity)| AirError::WakeNotFinite {
             step,
             sheet: k,

@@ -39,6 +39,10 @@ const HANDED_ON: usize = 32;
 /// What a node has less of than this part of the most is a rounding, whose direction says nothing.
 const ROUNDING: f64 = 1e-12;
 
+/// Size of a node that left the root of a wing on a body, over those of the nodes around it, below which it yields little: there the sheet
+/// goes on through the body, and by as much as left and right are alike the node has no vorticity that could say where to.
+const FAINT: f64 = 0.03;
+
 /// A filament seen from one of its ends.
 #[derive(Clone, Copy, Debug)]
 struct End {
@@ -75,8 +79,10 @@ pub(crate) struct ForceFree {
     wake: Vec<Option<usize>>,
     /// The node that each one is: another one where columns are joined.
     same: Vec<usize>,
-    /// Whether others are one with it.
-    is_joined: Vec<bool>,
+    /// The joined columns in which others are one with it, by their number.
+    joined: Vec<Option<usize>>,
+    /// Whether it left the root of a wing whose circulation goes on through a body.
+    at_body: Vec<bool>,
     /// Whether it lies where the sheet meets its own mirror image.
     on_plane: Vec<bool>,
     near: Vec<[(Option<usize>, f64); 2]>,
@@ -149,10 +155,12 @@ impl ForceFree {
         }
         self.same.clear();
         self.same.extend(0..next);
-        self.is_joined.clear();
-        self.is_joined.resize(next, false);
-        self.on_plane.clear();
-        self.on_plane.resize(next, false);
+        self.joined.clear();
+        self.joined.resize(next, None);
+        for list in [&mut self.at_body, &mut self.on_plane] {
+            list.clear();
+            list.resize(next, false);
+        }
         self.join(lattice, state);
     }
 
@@ -163,16 +171,23 @@ impl ForceFree {
             Some(_) => 0,
             None => state.sheets[s].nodes.len() + state.sheets[s].columns + 1,
         };
-        for JoinedColumns([(s, c), (t, d)]) in &lattice.topology().joined_columns {
+        let pairs = lattice.topology().joined_columns.iter().enumerate();
+        for (k, JoinedColumns([(s, c), (t, d)])) in pairs {
             let first = |k: usize| (0..k).map(nodes).sum::<usize>();
             let place = |k: usize, column: usize, back: usize| {
                 let width = state.sheets[k].columns + 1;
                 (nodes(k) >= (back + 1) * width)
                     .then(|| first(k) + nodes(k) - (back + 1) * width + column)
             };
+            let [one, other] = [*s, *t].map(|k| lattice.middle_column(k).is_some());
+            let at_body = one != other;
             for back in 0.. {
                 match (place(*s, *c, back), place(*t, *d, back)) {
-                    (Some(one), Some(other)) => self.same[other] = self.same[one],
+                    (Some(one), Some(other)) => {
+                        self.same[other] = self.same[one];
+                        self.joined[self.same[one]] = Some(k);
+                        self.at_body[self.same[one]] = at_body;
+                    }
                     (Some(one), None) if nodes(*t) == 0 => self.on_plane[one] = true,
                     (None, Some(other)) if nodes(*s) == 0 => self.on_plane[other] = true,
                     _ => break,
@@ -181,7 +196,6 @@ impl ForceFree {
         }
         for i in (0..self.same.len()).filter(|&i| self.same[i] != i) {
             self.on_plane[self.same[i]] |= self.on_plane[i];
-            self.is_joined[self.same[i]] = true;
         }
         let same = |node: &mut Option<usize>| *node = node.map(|n| self.same[n]);
         self.wake.iter_mut().for_each(same);
@@ -231,8 +245,9 @@ impl ForceFree {
         ends: impl Iterator<Item = (usize, [f64; 2])> + Clone,
         (between, part): ([Option<usize>; 2], f64),
     ) {
-        let all = |is: &[bool]| between.iter().all(|n| n.is_some_and(|n| is[n]));
-        let (in_plane, is_joined) = (all(&self.on_plane), all(&self.is_joined));
+        let in_plane = between.iter().all(|n| n.is_some_and(|n| self.on_plane[n]));
+        let [a, b] = between.map(|n| n.and_then(|n| self.joined[n]));
+        let is_joined = a.is_some() && a == b;
         // The other half of the joint is on the other side.
         let joint = if in_plane || is_joined { 0.5 } else { 1.0 };
         for (k, (a, _)) in ends.clone().enumerate() {
@@ -353,7 +368,11 @@ impl ForceFree {
         let nodes = self.sums.iter().zip(&self.sizes).zip(&mut self.left);
         for (i, (([_, vorticity], size), left)) in nodes.enumerate() {
             if *size > 0.0 {
-                let more = vorticity.cross(*left) / (size * size);
+                let mut more = vorticity.cross(*left) / (size * size);
+                if self.at_body[i] {
+                    let ratio = size / (FAINT * self.around[i]).max(f64::MIN_POSITIVE);
+                    more *= ratio * ratio / (1.0 + ratio * ratio);
+                }
                 velocity.set(i, velocity.get(i) + more);
                 *left -= more.cross(*vorticity);
             }

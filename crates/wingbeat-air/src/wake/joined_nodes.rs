@@ -1,20 +1,38 @@
 //! Wake nodes that left joined edges: two columns in one place.
 
-use crate::geometry::{JoinedColumns, Topology};
+use crate::geometry::JoinedColumns;
+use crate::lattice::Lattice;
 use crate::state::WakeSheet;
 use wingbeat_math::DVec3;
 
-/// Puts joined wake nodes midway between them: roundings and what a tree leaves out would part them.
-pub(crate) fn merge_joined_nodes(topology: &Topology, sheets: &mut [WakeSheet]) {
-    for JoinedColumns(ends) in &topology.joined_columns {
+/// Puts joined wake nodes midway between them: roundings and what a tree leaves out would part them. Those that left the middle of a
+/// body lie between the nodes that left the roots: within the body nothing says how they move.
+pub(crate) fn merge_joined_nodes(lattice: &Lattice, sheets: &mut [WakeSheet]) {
+    let joined = &lattice.topology().joined_columns;
+    let is_middle = |j: &&JoinedColumns| {
+        let mut ends = j.0.iter();
+        ends.all(|&(s, column)| lattice.middle_column(s) == Some(column))
+    };
+    let others = joined.iter().filter(|j| !is_middle(j));
+    // The middle after the roots, which are its ends.
+    for JoinedColumns(ends) in others.chain(joined.iter().filter(is_middle)) {
+        let from = ends.map(
+            |(s, column)| match lattice.middle_column(s) == Some(column) {
+                true => 1 - column,
+                false => column,
+            },
+        );
         let rows = ends.map(|(s, _)| sheets[s].rows());
         for back in 1..=rows[0].min(rows[1]) {
-            let at = [0, 1].map(|k| {
-                let (s, column) = ends[k];
-                (s, (rows[k] - back) * (sheets[s].columns + 1) + column)
-            });
+            let nodes = |columns: [usize; 2]| {
+                [0, 1].map(|k| {
+                    let s = ends[k].0;
+                    (s, (rows[k] - back) * (sheets[s].columns + 1) + columns[k])
+                })
+            };
+            let at = nodes(ends.map(|(_, column)| column));
             let middle = |of: fn(&WakeSheet, usize) -> DVec3| {
-                let [x, y] = at.map(|(s, n)| of(&sheets[s], n));
+                let [x, y] = nodes(from).map(|(s, n)| of(&sheets[s], n));
                 0.5 * (x + y)
             };
             let position = middle(|sheet, n| sheet.nodes.get(n));

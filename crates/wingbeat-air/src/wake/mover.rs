@@ -39,10 +39,12 @@ pub(crate) struct Mover<'a> {
 
 impl Mover<'_> {
     /// Fills `sheet` with its moved nodes, those that were on the shedding edge being the new last
-    /// row. The error is (row from the newest, column, velocity).
+    /// row. The error is (row from the newest, column, velocity). Nodes that left the `middle` of a body, a column of the sheet, move as
+    /// those that left the root do, until [`super::joined_nodes`] puts them between both roots'.
     pub(crate) fn move_nodes(
         &mut self,
         sheet: &mut WakeSheet,
+        middle: Option<usize>,
     ) -> Result<(), (usize, usize, DVec3)> {
         let (mut from, mut to) = (std::mem::take(&mut self.from), std::mem::take(&mut self.to));
         let (rows, width) = (sheet.rows() + 1, sheet.columns + 1);
@@ -51,10 +53,12 @@ impl Mover<'_> {
         from.clear();
         from.extend(nodes.clone().map(|k| self.nodes.get(k)));
         to.clear();
-        for (i, k) in nodes.clone().enumerate() {
-            let (x, v) = (from[i], self.velocity.get(k));
+        // A sheet with a middle has two columns of nodes.
+        let leads = |i: usize| i ^ usize::from(middle == Some(i % width));
+        for (i, &x) in from.iter().enumerate() {
+            let v = self.velocity.get(nodes.start + leads(i));
             let stream = self.lattice.stream(x, self.time);
-            let past = (i < sheet.velocity.len()).then(|| sheet.velocity.get(i));
+            let past = (i < sheet.velocity.len()).then(|| sheet.velocity.get(leads(i)));
             let change = past.map_or(DVec3::ZERO, |past| self.change * (v + stream - past));
             let end = x + (self.dt * stream + self.displacement(v + change));
             if !end.is_finite() {
@@ -72,7 +76,13 @@ impl Mover<'_> {
         let held_back = self.events.near_surface;
         self.unhindered.clear();
         self.unhindered.extend_from_slice(&to);
-        self.keep_clear(&from, &mut to);
+        match middle {
+            None => self.keep_clear(&from, &mut to),
+            // The middle is within the body.
+            Some(middle) => (1 - middle..to.len())
+                .step_by(width)
+                .for_each(|i| self.keep_clear(&from[i..=i], &mut to[i..=i])),
+        }
         if self.events.near_surface == held_back {
             self.unhindered.clear();
         }

@@ -13,9 +13,12 @@ use crate::state::{AirState, WakeSheet};
 use crate::wake::near_wake::released;
 
 impl Lattice {
-    /// Circulation [m2/s] that the edge of a column of a wake sheet holds: none but at leading edges with a criterion.
+    /// Circulation [m2/s] that the edge of a column of a wake sheet holds: none but at leading edges with a criterion, and within bodies.
     pub(crate) fn hold(&self, state: &AirState, sheet: usize, column: usize) -> f64 {
         let root = &self.sheets()[sheet];
+        if self.leading_beside(sheet, column).is_some() {
+            return f64::MAX; // nothing leaves but what leaves the wings beside it
+        }
         if root.kinds[column] != EdgeKind::Leading || self.settings().leading == LeadingEdge::Always
         {
             return 0.0;
@@ -41,9 +44,12 @@ impl Lattice {
         past + (net - net.clamp(-hold, hold))
     }
 
-    /// Whether the flow leaves the edge of a column of wake sheet `k`, which is `sheet`: the newest ring differs from the
+    /// Whether the flow leaves the edge of a column of wake sheet `k`, which is `sheet`, by itself: the newest ring differs from the
     /// one before.
     pub(crate) fn feeds(&self, k: usize, sheet: &WakeSheet, column: usize) -> bool {
+        if self.leading_beside(k, column).is_some() {
+            return false;
+        }
         if self.sheets()[k].kinds[column] != EdgeKind::Leading
             || self.settings().leading == LeadingEdge::Always
         {

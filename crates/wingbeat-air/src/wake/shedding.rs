@@ -1,5 +1,6 @@
 //! The row that leaves an edge: unsteady Kutta condition.
 
+use crate::geometry::WakeColumn;
 use crate::lattice::Lattice;
 use crate::settings::NewestRow;
 use crate::state::{AirState, WakeSheet};
@@ -7,21 +8,32 @@ use crate::wake::near_wake::{NEW_VORTEX, kept, released};
 
 impl Lattice {
     /// Unsteady Kutta condition: the row that leaves carries the circulation of its panels, at leading edges less what
-    /// these hold.
-    pub(crate) fn shed(&self, k: usize, sheet: &mut WakeSheet, state: &AirState, lengths: &[f64]) {
+    /// these hold. What leaves the front edges within bodies is the mean of what leaves the wings there, whose sheets are
+    /// among those `before`.
+    pub(crate) fn shed(
+        &self,
+        k: usize,
+        (before, sheet): (&[WakeSheet], &mut WakeSheet),
+        state: &AirState,
+        lengths: &[f64],
+    ) {
         let root = &self.sheets()[k];
         self.finalise_newest(k, sheet, state, lengths);
         let delays = self.settings().newest_row == NewestRow::Matched && sheet.rows() > 0;
         for (c, (&panel, &sign)) in root.panels.iter().zip(&root.signs).enumerate() {
-            let before = sheet.newest(c);
+            if let Some(beside) = self.leading_beside(k, c) {
+                carry(sheet, (c, sign), beside, before);
+                continue;
+            }
+            let past = sheet.newest(c);
             if let Some(s) = self.suction().of_column(k, c) {
                 leave_edge(sheet, c, sign * state.leaving[s]);
                 continue;
             }
-            let wanted = self.to_shed(state, (k, c), sign * state.gamma[panel], before);
+            let wanted = self.to_shed(state, (k, c), sign * state.gamma[panel], past);
             let gamma = match delays {
                 false => wanted,
-                true => before + released(lengths[c]) * (wanted - before),
+                true => past + released(lengths[c]) * (wanted - past),
             };
             sheet.gamma.push(gamma);
         }
@@ -46,6 +58,28 @@ impl Lattice {
             }
         }
     }
+}
+
+/// Sheds the mean of what just left the wings beside a panel within a body, whose ring is counted by this sign; what they have
+/// changed of their rows before goes for its row before, too.
+fn carry(
+    sheet: &mut WakeSheet,
+    (column, sign): (usize, f64),
+    beside: [WakeColumn; 2],
+    wings: &[WakeSheet],
+) {
+    let mean = |back: usize| {
+        let of = |w: WakeColumn| {
+            let wing = &wings[w.sheet];
+            let row = wing.rows().checked_sub(back)?;
+            Some(0.5 * sign * w.sign * wing.gamma[row * wing.columns + w.column])
+        };
+        Some(of(beside[0])? + of(beside[1])?)
+    };
+    if let (Some(newest), Some(gamma)) = (sheet.rows().checked_sub(1), mean(2)) {
+        sheet.gamma[newest * sheet.columns + column] = gamma;
+    }
+    sheet.gamma.push(mean(1).unwrap_or(0.0));
 }
 
 /// Sheds the ring of a column that differs by `leaving` from the newest one. The vortex that is the difference lay part of the

@@ -31,7 +31,9 @@ impl LatticeAir {
     /// Surfaces or settings that the lattice refuses; a mirror for an animal that is not its own
     /// mirror image.
     pub fn new(setup: &FlightSetup, options: &AirOptions) -> Result<Self, FlightError> {
-        let map = SurfaceMap::new(&setup.animal, options.body_surfaces, &options.joined);
+        let carried = setup.carried_pairs(options);
+        let pairs = (&options.joined[..], &carried[..]);
+        let map = SurfaceMap::new(&setup.animal, options.body_surfaces, pairs);
         let (surfaces, settings) = (map.surfaces.clone(), options.lattice.clone());
         let lattice = Lattice::joined(surfaces, &map.joined_edges(), settings)?;
         if !options.mirror {
@@ -48,7 +50,7 @@ impl LatticeAir {
             let problem = "gravity pulls across the plane of symmetry of the body";
             return Err(refused(problem));
         }
-        let pairs = mirror_pairs(&setup.animal, options.body_surfaces, &root)
+        let pairs = mirror_pairs(&setup.animal, (options.body_surfaces, &carried), &root)
             .ok_or_else(|| refused("the animal is not its own mirror image"))?;
         let lattice = lattice.with_mirror_symmetry(pairs)?;
         Ok(Self { lattice, map })
@@ -298,7 +300,8 @@ impl Air for LatticeAir {
         let Some(air) = wakes_of(memory) else {
             return Snapshot::default();
         };
-        let surfaces = 0..self.lattice.surfaces().len();
+        let all = self.lattice.surfaces().iter().enumerate();
+        let surfaces = all.filter(|(_, s)| !s.carry_through).map(|(k, _)| k);
         let wakes = 0..air.sheets.len();
         Snapshot {
             surfaces: surfaces.map(|k| self.surface_snapshot(s, k)).collect(),

@@ -4,14 +4,15 @@ use wingbeat_air::{MirrorPairs, Plane};
 use wingbeat_dynamics::BodyMotion;
 use wingbeat_math::DVec3;
 use wingbeat_model::mesh::{QuadMesh, mirror};
-use wingbeat_model::{Animal, Wing};
+use wingbeat_model::{Animal, PairOnPart, Wing};
 
 /// The pairs of an animal that is its own mirror image in the plane of axes 1 and 3 of the body, at
-/// rest at `root`, in the order of the lattice's surfaces: wings, parts of the body, parts of segments.
+/// rest at `root`, in the order of the lattice's surfaces: wings, parts of the body, parts of segments, strips through bodies between the
+/// wings `carried`.
 /// None if a wing or a node has no counterpart.
 pub fn mirror_pairs(
     animal: &Animal,
-    body_surfaces: bool,
+    (body_surfaces, carried): (bool, &[PairOnPart]),
     root: &BodyMotion,
 ) -> Option<MirrorPairs> {
     let mut pairs = MirrorPairs {
@@ -35,6 +36,12 @@ pub fn mirror_pairs(
     }
     if body_surfaces {
         closed_pairs(&closed(animal), &mut pairs)?;
+    }
+    for pair in carried {
+        let rows = animal.wings[pair.wings[0]].mesh.rows;
+        let swapped = |first: usize, n: usize| (first + n..first + 2 * n).chain(first..first + n);
+        pairs.node.extend(swapped(pairs.node.len(), 2 * (rows + 1)));
+        pairs.panel.extend(swapped(pairs.panel.len(), rows));
     }
     Some(pairs)
 }

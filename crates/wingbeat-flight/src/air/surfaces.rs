@@ -6,7 +6,9 @@ use wingbeat_air::{
 };
 use wingbeat_dynamics::{BodyMotion, Wrench};
 use wingbeat_math::{DVec3, RotationLaw};
-use wingbeat_model::{Animal, BodyPart, DeformingMesh, GridMesh, Side, Wing, WingMotion, root_gap};
+use wingbeat_model::{
+    Animal, BodyPart, DeformingMesh, GridMesh, PairOnPart, Side, Wing, WingMotion, root_gap,
+};
 
 use crate::error::FlightError;
 use crate::interface::Instant;
@@ -24,6 +26,8 @@ pub struct SurfaceMap {
     deforming: Vec<Option<Deforming>>,
     /// Roots of wings that are joined.
     roots: Vec<Roots>,
+    /// Strips through bodies.
+    carried: Vec<CarryThrough>,
     /// Per surface: range of its nodes in `local`.
     nodes: Vec<std::ops::Range<usize>>,
     /// Per surface: range of its panels among all panels.
@@ -49,16 +53,34 @@ struct Roots {
     limit: f64,
 }
 
+/// The strip from the root of a wing to the middle of the body it stands on, where that of the other wing begins.
+#[derive(Clone, Debug)]
+struct CarryThrough {
+    /// Its surface.
+    surface: usize,
+    /// The wing, and the other one.
+    wings: [usize; 2],
+    /// Nodes of their roots among all nodes, from leading to trailing edge.
+    roots: Vec<[usize; 2]>,
+    /// From the middles between them to the nodes there \[m\], body components.
+    aside: DVec3,
+}
+
 impl SurfaceMap {
     /// Wings first, in the animal's order (body `i + 1`), then the closed parts of the root body
-    /// and those of the segments when `body_surfaces` says so. The pairs of wings in `joined` share
-    /// the edge at their roots.
-    pub fn new(animal: &Animal, body_surfaces: bool, joined: &[[usize; 2]]) -> Self {
+    /// and those of the segments when `body_surfaces` says so; strips through bodies last. The pairs of wings in `joined` share
+    /// the edge at their roots, the circulation of those in `carried` goes on through a body.
+    pub fn new(
+        animal: &Animal,
+        body_surfaces: bool,
+        (joined, carried): (&[[usize; 2]], &[PairOnPart]),
+    ) -> Self {
         let mut map = Self {
             surfaces: vec![],
             body: vec![],
             deforming: vec![],
             roots: vec![],
+            carried: vec![],
             local: vec![],
             nodes: vec![],
             panels: vec![],
@@ -89,7 +111,39 @@ impl SurfaceMap {
                 map.push(part_surface(part), &part.mesh.nodes, first + i);
             }
         }
+        for pair in carried {
+            let [a, b] = pair.wings;
+            map.carry([a, b], pair.aside, animal);
+            map.carry([b, a], pair.aside, animal);
+        }
         map
+    }
+
+    /// Adds the strip from the root of the first of these wings to the middle between both roots, which lies `aside` by so much.
+    fn carry(&mut self, wings: [usize; 2], aside: DVec3, animal: &Animal) {
+        let nodes = wings.map(|k| self.nodes[k].clone());
+        let roots = roots(animal, wings, nodes).nodes;
+        let wing = &animal.wings[wings[0]];
+        let strip = GridMesh {
+            rows: wing.mesh.rows,
+            cols: 1,
+            nodes: vec![DVec3::ZERO; 2 * (wing.mesh.rows + 1)],
+        };
+        let name = format!("{}-carry-through", wing.name);
+        let surface = Surface {
+            carry_through: true,
+            ..wing_surface(&name, &strip, wing.side)
+        };
+        let surface_number = self.surfaces.len();
+        self.push(surface, &strip.nodes, 0);
+        self.surfaces[surface_number].rest = None;
+        self.surfaces[wings[0]].rest = None;
+        self.carried.push(CarryThrough {
+            surface: surface_number,
+            wings,
+            roots,
+            aside,
+        });
     }
 
     fn push(&mut self, surface: Surface, nodes: &[DVec3], body: usize) {
@@ -114,7 +168,28 @@ impl SurfaceMap {
                 nodes: r.nodes.iter().map(local).collect(),
             }
         };
-        self.roots.iter().map(edge).collect()
+        let of_roots = self.roots.iter().map(edge);
+        of_roots.chain(self.carried_edges()).collect()
+    }
+
+    /// Both sides of the strips through bodies: at the root, and in the middle.
+    fn carried_edges(&self) -> impl Iterator<Item = JoinedEdge> + '_ {
+        let rows = |c: &CarryThrough| 0..c.roots.len();
+        let at_root = move |c: &CarryThrough| {
+            let first = self.nodes[c.wings[0]].start;
+            JoinedEdge {
+                surfaces: [c.wings[0], c.surface],
+                nodes: rows(c)
+                    .map(|i| [c.roots[i][0] - first, 2 * i + 1])
+                    .collect(),
+            }
+        };
+        let in_middle = move |pair: &[CarryThrough]| JoinedEdge {
+            surfaces: [pair[0].surface, pair[1].surface],
+            nodes: rows(&pair[0]).map(|i| [2 * i, 2 * i]).collect(),
+        };
+        let middles = self.carried.chunks_exact(2).map(in_middle);
+        self.carried.iter().map(at_root).chain(middles)
     }
 
     /// Positions and velocities of all lattice nodes in N, from the motions of the bodies (seed eq. 3 and 14) and the
@@ -145,9 +220,9 @@ impl SurfaceMap {
                 }),
             }
         }
-        self.roots
-            .iter()
-            .try_for_each(|r| r.join(at.time, self, out))
+        (self.roots.iter()).try_for_each(|r| r.join(at.time, self, out))?;
+        (self.carried.iter()).for_each(|strip| strip.place(&at.motions[0], self, out));
+        Ok(())
     }
 
     /// The error of the lattice at this instant: a panel that is none belongs to a sheet that folded over, if its wing changes its
@@ -261,7 +336,7 @@ pub fn check_joined(animal: &Animal, pair: [usize; 2]) -> Result<(), FlightError
         accelerations: &[],
         shapes: &[],
     };
-    SurfaceMap::new(animal, false, &[pair]).node_motion(&at, &mut NodeMotion::default())
+    SurfaceMap::new(animal, false, (&[pair], &[])).node_motion(&at, &mut NodeMotion::default())
 }
 
 impl Roots {
@@ -283,6 +358,21 @@ impl Roots {
             }
         }
         Ok(())
+    }
+}
+
+impl CarryThrough {
+    /// Puts its nodes on the root and between both roots.
+    fn place(&self, body: &BodyMotion, map: &SurfaceMap, out: &mut NodeMotion) {
+        let first = map.nodes[self.surface].start;
+        let aside = body.r * self.aside;
+        let turned = (body.r * body.w).cross(aside);
+        for (i, &[own, other]) in self.roots.iter().enumerate() {
+            for (x, aside) in [(&mut out.position, aside), (&mut out.velocity, turned)] {
+                let middle = 0.5 * (x[own] + x[other]) + aside;
+                (x[first + 2 * i], x[first + 2 * i + 1]) = (middle, x[own]);
+            }
+        }
     }
 }
 
@@ -322,6 +412,7 @@ fn part_surface(part: &BodyPart) -> Surface {
         panels: part.mesh.quads.clone(),
         shedding: vec![],
         closed: true,
+        carry_through: false,
         rest: None,
     }
 }
@@ -377,6 +468,7 @@ fn wing_surface(name: &str, mesh: &GridMesh, side: Side) -> Surface {
         panels: mesh.panels(side),
         shedding: vec![chain],
         closed: false,
+        carry_through: false,
         rest: None,
     }
 }
