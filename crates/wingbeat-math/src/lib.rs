@@ -31,7 +31,7 @@ mod smoothstep;
 mod split_mix;
 
 pub use euler::{EulerMatrices, EulerSequence};
-pub use extremes::larger;
+pub use extremes::{larger, smaller};
 pub use glam::{DMat3, DQuat, DVec2, DVec3};
 pub use iterative::{BiCgStab, Product};
 pub use lu::{DenseLu, LuError};
