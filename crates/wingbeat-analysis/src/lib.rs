@@ -82,13 +82,15 @@ pub use modes::{Mode, ModeSet, Plane, Scales};
 pub use monodromy::monodromy;
 pub use plausibility::{Estimate, WingEstimate, estimate, stroke_amplitude};
 pub use power::{Power, power, power_of_trim, power_with_wake};
-pub use request::{SPEED_OF_SOUND, TRIM_STEPS, TrimRequest};
+pub use request::TrimRequest;
 pub use solution::TrimSolution;
 pub use stability::{
     LOADS, LinearModel, floquet, floquet_of_trim, input_matrix, linear_model, orbit_monodromy,
     trimmed_controls,
 };
-pub use steady::{Residuals, TrimProblem, TrimSettings, turned_inside_out};
+pub use steady::{
+    Residuals, SPEED_OF_SOUND, TRIM_STEPS, TrimProblem, TrimSettings, turned_inside_out,
+};
 pub use sweep::{Lost, Sweep, Swept, sweep};
 pub use table::{rigid_animal, table_model};
 pub use trim::{Trim, trim, trim_from};
