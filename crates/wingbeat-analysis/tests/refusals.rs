@@ -1,8 +1,12 @@
 //! What an analysis refuses, and in which words.
 
+use std::sync::Arc;
+
 use crate::common;
 
 use wingbeat_analysis::{AnalysisError, Beat, TrimProblem, TrimSettings, trim};
+use wingbeat_dynamics::Wrench;
+use wingbeat_flight::{Air, AirMemory, AirModel, AirScratch, FlightError, Instant};
 use wingbeat_math::DVec3;
 
 #[test]
@@ -60,6 +64,37 @@ fn refuses_trims_out_of_range_before_they_search() {
         let said = trim(&common::fly(), &problem).unwrap_err().to_string();
         assert!(said.contains(words), "{said}");
     }
+}
+
+/// Air that says that time or place changes its loads.
+#[derive(Debug)]
+struct Gusty;
+
+impl Air for Gusty {
+    fn loads(
+        &self,
+        _at: &Instant<'_>,
+        _memory: Option<&AirMemory>,
+        _scratch: &mut AirScratch,
+        _out: &mut [Wrench],
+    ) -> Result<(), FlightError> {
+        Ok(())
+    }
+
+    fn is_steady_and_uniform(&self) -> bool {
+        false
+    }
+}
+
+#[test]
+fn refuses_trims_in_own_air_that_changes_in_words_of_its_own() {
+    let mut setup = common::fly();
+    setup.air = AirModel::Own(Arc::new(Gusty));
+    let said = trim(&setup, &common::hover(20)).unwrap_err().to_string();
+    assert!(
+        said.contains("is_steady_and_uniform") && !said.contains("gust"),
+        "{said}"
+    );
 }
 
 /// A beat that pitches past a right angle, in air far too fast, turns in the plane of symmetry all the same.

@@ -182,17 +182,29 @@ fn adjustment(x: [f64; 8]) -> Adjustment {
 
 /// Air that Python computes.
 #[derive(Clone, Debug)]
-struct PythonAir(Function);
+struct PythonAir {
+    function: Function,
+    is_steady_and_uniform: bool,
+}
 
 /// The air of `function`, called with time [s] and the motions of all bodies, shape (bodies, 18): origin,
 /// rotation to N by rows, velocity, angular velocity in body components; it answers forces and moments about
 /// the origins, N components, shape (bodies, 6). An air with a memory hears which steps are accepted
-/// (`function.accept(step)`), and is called with the number of the step as well.
-pub fn air(function: Py<PyAny>, pending: &PendingException, has_memory: bool) -> AirModel {
-    let air = PythonAir(Function {
-        function: Arc::new(function),
-        pending: pending.clone(),
-    });
+/// (`function.accept(step)`), and is called with the number of the step as well. Loads that
+/// `is_steady_and_uniform` depend on the motions alone, not on time or place.
+pub fn air(
+    function: Py<PyAny>,
+    pending: &PendingException,
+    has_memory: bool,
+    is_steady_and_uniform: bool,
+) -> AirModel {
+    let air = PythonAir {
+        function: Function {
+            function: Arc::new(function),
+            pending: pending.clone(),
+        },
+        is_steady_and_uniform,
+    };
     match has_memory {
         true => AirModel::External(Arc::new(air)),
         false => AirModel::Own(Arc::new(air)),
@@ -210,7 +222,7 @@ impl PythonAir {
         let answer = Python::attach(|py| {
             let numbers = motions.iter().flat_map(numbers).collect();
             let motions = array(py, numbers, &[motions.len(), 18])?;
-            let answer = self.0.function.call1(py, (step, time, motions))?;
+            let answer = self.function.function.call1(py, (step, time, motions))?;
             let loads = answer.bind(py).cast::<PyArray2<f64>>()?.readonly();
             for (load, row) in out.iter_mut().zip(loads.as_slice()?.as_chunks::<6>().0) {
                 load.force = DVec3::from_slice(row);
@@ -218,7 +230,7 @@ impl PythonAir {
             }
             Ok(())
         });
-        self.0.pending.keep(answer)
+        self.function.pending.keep(answer)
     }
 }
 
@@ -239,19 +251,21 @@ impl Air for PythonAir {
         self.call(None, at.time, at.motions, out)
             .map_err(FlightError::External)
     }
+
+    fn is_steady_and_uniform(&self) -> bool {
+        self.is_steady_and_uniform
+    }
 }
 
 impl ExternalAir for PythonAir {
     fn open(&self, flyer: &Announcement) -> Result<Box<dyn ExternalSession>, String> {
         let opened = Python::attach(|py| {
             let bodies = flyer.bodies.clone();
-            let open = self
-                .0
-                .function
-                .call_method1(py, "open", (bodies, flyer.step));
+            let open = &self.function.function;
+            let open = open.call_method1(py, "open", (bodies, flyer.step));
             open.map(drop)
         });
-        self.0.pending.keep(opened)?;
+        self.function.pending.keep(opened)?;
         Ok(Box::new(self.clone()))
     }
 }
@@ -269,9 +283,10 @@ impl ExternalSession for PythonAir {
 
     fn accept(&mut self, step: usize) -> Result<(), String> {
         let accepted = Python::attach(|py| {
-            let accept = self.0.function.call_method1(py, "accept", (step,));
+            let accept = &self.function.function;
+            let accept = accept.call_method1(py, "accept", (step,));
             accept.map(drop)
         });
-        self.0.pending.keep(accepted)
+        self.function.pending.keep(accepted)
     }
 }
