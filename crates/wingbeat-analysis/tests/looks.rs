@@ -44,7 +44,7 @@ fn memory(trim: &Trim, commands: &[f64]) -> Vec<f64> {
 fn predicted(regulator: &Regulator, z: &[f64]) -> Vec<f64> {
     let mut regulator = regulator.clone();
     let (x, commands) = z.split_at(STATES);
-    regulator.restore(commands);
+    regulator.restore(commands).expect("its memory");
     let mut x: [f64; STATES] = x.try_into().expect("all states");
     for look in 0..regulator.plants().len() {
         let d = Departure {
@@ -86,7 +86,8 @@ fn flown(trim: &Trim, regulator: &Regulator, timing: &Timing, z: &[f64]) -> Vec<
         let place = DVec3::from_slice(&trim.state) + level.to_n * DVec3::from_slice(x);
         place.write_to_slice(&mut state);
         let mut controller = steering(trim, regulator, timing);
-        controller.restore(&memory(trim, commands));
+        let restored = controller.restore(&memory(trim, commands));
+        restored.expect("its memory");
         let flight = SteeredBeats::new(trim, state, Some(controller), timing.latency);
         let flight = flight.expect("a flight").commanded(under_way);
         let mut flight = flight.expect("commands").lagged(timing.share());

@@ -144,7 +144,7 @@ fn departure(x: &[f64]) -> Departure {
 fn closed(regulator: &Regulator, z: &[f64]) -> Vec<f64> {
     let mut regulator = regulator.clone();
     let (x, memory) = z.split_at(STATES);
-    regulator.restore(memory);
+    regulator.restore(memory).expect("its memory");
     let d = regulator.estimated(&departure(x));
     let u = regulator.controls(&d);
     let now: Controls = memory[..CONTROLS].try_into().expect("the command in force");

@@ -12,7 +12,7 @@ use wingbeat_math::{DVec3, MovingRotation, RotationLaw, smoothstep7};
 use wingbeat_model::motion::{Adjustment, wing_rotation};
 use wingbeat_model::{Side, Wing, WingMotion};
 
-pub use crate::controller::{Aim, Controller, Sensed, check_heeded, for_all};
+pub use crate::controller::{Aim, Controller, Sensed, check_heeded, fits, for_all};
 use crate::error::FlightError;
 use crate::setup::{AirModel, FlightSetup, MotionMode};
 pub use crate::setup::{ControlModel, Feedback};
@@ -200,10 +200,32 @@ impl Loop {
     }
 
     /// Goes on from what was remembered.
-    pub fn restore(&mut self, state: &ControlState) {
-        self.controller.restore(&state.memory);
+    ///
+    /// # Errors
+    /// What is not the memory of this feedback.
+    pub fn restore(&mut self, state: &ControlState) -> Result<(), FlightError> {
+        let misfit = |value: String, problem: String| FlightError::Setup {
+            key: "state",
+            value,
+            problem,
+        };
+        let own = &self.state;
+        let commands = [&state.from, &state.to].into_iter().chain(&state.queue);
+        let wings = self.wings.len();
+        if state.queue.len() != own.queue.len() || commands.into_iter().any(|c| c.len() != wings) {
+            return Err(misfit(
+                format!("{} commands under way", state.queue.len()),
+                format!(
+                    "the case has {}, of {wings} wings; resume with the case that was saved with it",
+                    own.queue.len()
+                ),
+            ));
+        }
+        let restored = self.controller.restore(&state.memory);
+        restored.map_err(|problem| misfit("what the controller remembers".into(), problem))?;
         self.state = state.clone();
         self.apply();
+        Ok(())
     }
 
     /// The wings.

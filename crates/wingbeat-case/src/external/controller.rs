@@ -341,10 +341,11 @@ impl Controller for Conversation {
         [&command[..], &origin, &[begun], &self.memory].concat()
     }
 
-    fn restore(&mut self, memory: &[f64]) {
+    fn restore(&mut self, memory: &[f64]) -> Result<(), String> {
         let split = memory.split_at_checked(NUMBERS * self.command.len());
         let Some((command, [x, y, z, begun, memory @ ..])) = split else {
-            return;
+            let problem = "it has no commands; resume with the case that was saved with it";
+            return Err(problem.to_owned());
         };
         self.origin = (*begun != 0.0).then(|| DVec3::new(*x, *y, *z));
         self.is_limited = *begun == 2.0;
@@ -361,5 +362,6 @@ impl Controller for Conversation {
             };
         }
         self.memory = memory.to_vec();
+        Ok(())
     }
 }
