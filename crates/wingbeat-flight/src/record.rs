@@ -207,8 +207,8 @@ impl Record {
     }
 }
 
-/// The impulse of a force, counted step by step with the trapezoidal rule: exact to the last digit
-/// over the beats of a periodic force.
+/// The impulse of a force since time 0, counted step by step with the trapezoidal rule: over whole beats of a periodic force
+/// it errs by no more than harmonics beyond half the steps in a beat.
 #[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct AirImpulse {
     time: f64,
@@ -218,7 +218,7 @@ pub struct AirImpulse {
 
 impl AirImpulse {
     /// Counts on to `time` [s], where the force is `force` [N]; returns the impulse up to there
-    /// [N s]. The first call sets the start.
+    /// [N s]. The first call, at time 0, sets the force of the start.
     pub fn count(&mut self, time: f64, force: DVec3) -> DVec3 {
         self.sum += 0.5 * (time - self.time) * (self.force + force);
         (self.time, self.force) = (time, force);
