@@ -7,6 +7,7 @@
 use std::collections::VecDeque;
 use std::sync::Arc;
 
+use wingbeat_flight::control::due;
 use wingbeat_flight::{Aim, Controller, Feedback, FlightSetup, Sensed};
 use wingbeat_math::DVec3;
 use wingbeat_model::motion::Adjustment;
@@ -324,17 +325,14 @@ impl<'a> SteeredBeats<'a> {
 
     /// The part of the wingbeat from one look to the next.
     fn look(&mut self, part: Part) -> Result<(), AnalysisError> {
-        if let Some(controller) = &mut self.controller {
-            let command = controller.command(&self.sensed);
-            self.queue
-                .push_back(command.map_err(AnalysisError::Numbers)?);
-        }
-        let due = self.controller.as_ref().and(self.queue.pop_front());
-        let mut next = due.unwrap_or_else(|| self.acting.clone());
-        if self.share < 1.0 {
-            let pairs = next.iter_mut().zip(&self.acting);
-            pairs.for_each(|(due, now)| *due = now.toward(due, self.share));
-        }
+        let next = match &mut self.controller {
+            Some(controller) => {
+                let command = controller.command(&self.sensed);
+                let command = command.map_err(AnalysisError::Numbers)?;
+                due(&mut self.queue, command, &self.acting, self.share)
+            }
+            None => self.acting.clone(),
+        };
         let (trim, look) = (self.trim, self.sensed.look + 1);
         let beat = part.passing(trim, [&self.acting, &next])?;
         let number = self.sensed.look / part.of + 1;

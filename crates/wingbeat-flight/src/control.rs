@@ -138,6 +138,23 @@ pub struct ControlState {
     pub memory: Vec<f64>,
 }
 
+/// What wings go over to from the commands `now`: the `command` joins those under way, the oldest of these is due, and actuators
+/// that lag go this `share` of the way to it.
+pub fn due(
+    queue: &mut VecDeque<Vec<Adjustment>>,
+    command: Vec<Adjustment>,
+    now: &[Adjustment],
+    share: f64,
+) -> Vec<Adjustment> {
+    queue.push_back(command);
+    let mut due = queue.pop_front().expect("one was just pushed");
+    if share < 1.0 {
+        let pairs = due.iter_mut().zip(now);
+        pairs.for_each(|(due, now)| *due = now.toward(due, share));
+    }
+    due
+}
+
 /// Feedback in a flight: controller, latency, and the wings it moves.
 pub struct Loop {
     controller: Box<dyn Controller>,
@@ -274,14 +291,7 @@ impl Loop {
         let command = self.controller.command(sensed).map_err(refused)?;
         self.check(&command, t)?;
         self.state.limited_looks += usize::from(self.controller.is_limited());
-        self.state.queue.push_back(command);
-        let mut due = self.state.queue.pop_front().expect("one was just pushed");
-        if self.share < 1.0 {
-            let lagged = |(due, now): (&mut Adjustment, &Adjustment)| {
-                *due = now.toward(due, self.share);
-            };
-            due.iter_mut().zip(&self.state.to).for_each(lagged);
-        }
+        let due = due(&mut self.state.queue, command, &self.state.to, self.share);
         self.state.from = std::mem::replace(&mut self.state.to, due);
         self.state.since = t;
         self.state.looks += 1;
