@@ -243,7 +243,7 @@ fn exact_joined_wings_of_a_case_share_their_root() {
     };
     assert_eq!(air.joined, [[0, 1]]);
     let [one, two] = [fly(setup), fly(good(GOOD, &[]))].map(|r| r.last().unwrap().air.clone());
-    let lift = |air: &[wingbeat_flight::LoadRecord]| air.iter().map(|l| l.force.z).sum::<f64>();
+    let lift = |air: &[wingbeat_dynamics::Wrench]| air.iter().map(|l| l.force.z).sum::<f64>();
     println!(
         "lift joined {:.4} N, apart {:.4} N",
         -lift(&one),
