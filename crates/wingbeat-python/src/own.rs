@@ -157,26 +157,12 @@ impl Controller for Steered {
             self.function.function.call1(py, (seen,))?.extract(py)
         });
         let numbers = self.function.pending.keep(answer)?;
-        let command: Vec<Adjustment> = numbers.into_iter().map(adjustment).collect();
+        let command: Vec<Adjustment> = numbers.into_iter().map(Adjustment::of_numbers).collect();
         if let [one] = &command[..] {
             return for_all(&self.wings, one);
         }
         check_heeded(&self.wings, &command)?;
         Ok(command)
-    }
-}
-
-/// From the numbers of `wingbeat.Adjustment`, in its order.
-fn adjustment(x: [f64; 8]) -> Adjustment {
-    Adjustment {
-        stroke_amplitude: x[0],
-        stroke_offset: x[1],
-        feathering_offset: x[2],
-        feathering_amplitude: x[3],
-        feathering_lead: x[4],
-        deviation_offset: x[5],
-        stroke_plane: x[6],
-        frequency: x[7],
     }
 }
 
