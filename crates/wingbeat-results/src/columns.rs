@@ -295,6 +295,11 @@ impl Columns {
         }
     }
 
+    /// The number of column `k` of a record of its flight, which stays as it is.
+    pub fn value(&self, k: usize, record: &mut Record) -> f64 {
+        self.list[k].entry(record).get()
+    }
+
     /// Puts the number of column `k` into a record of [`Self::blank`]'s shape.
     pub(crate) fn put(&self, k: usize, value: f64, record: &mut Record) {
         self.list[k].entry(record).set(value);
