@@ -6,13 +6,9 @@ use wingbeat_analysis::control::{
     CONTROLS, Controls, Departure, Held, Law, Limits, Orbit, Reference, Regulator, STATES,
     SteeredBeats, Steering, Timing, Weights, adjustments, disturbed, states,
 };
-use wingbeat_analysis::{Beat, Level, Perturbation, Trim, eigen, trim};
+use wingbeat_analysis::{Beat, Level, Perturbation, Trim, eigen};
 use wingbeat_flight::Controller;
 use wingbeat_math::DVec3;
-
-fn hovering() -> Trim {
-    trim(&common::fly(), &common::hover(40)).expect("the fruit fly")
-}
 
 fn sizes(trim: &Trim) -> [f64; STATES] {
     let (length, period) = (trim.beat.wing_length(), trim.beat.period());
@@ -119,7 +115,7 @@ fn matrix(sizes: &[f64], map: impl Fn(&[f64]) -> Vec<f64>) -> Vec<f64> {
 /// that lag.
 #[test]
 fn agrees_closed_loop_flown_with_that_of_the_layout() {
-    let trim = hovering();
+    let trim = common::hovering(40);
     for (parts, latency, lag) in [
         (1, 0, 0.0),
         (1, 1, 0.0),
@@ -159,7 +155,7 @@ fn agrees_closed_loop_flown_with_that_of_the_layout() {
 /// Looks within the beat hold a flyer with a shorter latency: it comes back nearer after 40 wingbeats from a tumble.
 #[test]
 fn balances_a_tilted_flight_under_looks_within_the_beat() {
-    let trim = hovering();
+    let trim = common::hovering(40);
     let left = [(1, 1), (4, 1)].map(|(parts, latency)| {
         let timing = Timing {
             parts,

@@ -1,9 +1,7 @@
 //! Deforming and joined wings, section drag and side edges from case files; what does not fit is
 //! refused at its line.
 
-use std::path::Path;
-
-use wingbeat_case::LoadedCase;
+use crate::defaults::load;
 use wingbeat_flight::{AirModel, FlightSetup, Record, Simulation};
 use wingbeat_model::WingMotion;
 
@@ -40,11 +38,6 @@ const TWIST: &str = "
 table_deg = [[0, 0], [0.5, 2], [1, 10]]
 fourier = { mean = 0.5, cosine = [1] }
 ";
-
-fn load(text: &str, set: &[&str]) -> Result<LoadedCase, String> {
-    let set: Vec<String> = set.iter().map(|s| (*s).to_owned()).collect();
-    LoadedCase::from_text("case.toml", text, Path::new(""), &set).map_err(|e| e.to_string())
-}
 
 fn good(text: &str, set: &[&str]) -> FlightSetup {
     load(text, set).unwrap_or_else(|e| panic!("{e}")).setup
