@@ -43,6 +43,6 @@ pub use rotation::{
 };
 pub use secants::{Secants, Shown};
 pub use series::{DriftingFourier, interpolate, with_harmonics};
-pub use small_lu::{SingularMatrix, solve_small};
+pub use small_lu::{SingularMatrix, SmallLu, solve_small};
 pub use smoothstep::{smoothstep, smoothstep7};
 pub use split_mix::SplitMix64;
