@@ -311,26 +311,8 @@ impl Beat {
         for step in steps {
             integration.step(self, step, &mut y)?;
         }
-        self.normalise(&mut y);
+        self.flight.form().to_unit_length(&mut y);
         Ok(y)
-    }
-
-    /// Quaternions to unit length.
-    pub(crate) fn normalise(&self, y: &mut [f64]) {
-        let form = self.flight.form();
-        let unit = |q: &mut [f64]| {
-            let turned = DQuat::from_slice(q).normalize();
-            turned.write_to_slice(q);
-        };
-        unit(&mut y[3..7]);
-        for offsets in form
-            .system()
-            .offsets()
-            .iter()
-            .filter(|s| s.coordinates == 4)
-        {
-            unit(&mut y[JOINTS + offsets.q..JOINTS + offsets.q + 4]);
-        }
     }
 
     /// Rates of the state at half step number `half` of the beat.
