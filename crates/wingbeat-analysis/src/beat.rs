@@ -14,7 +14,9 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use wingbeat_dynamics::{BodyMotion, Composite, Configuration, Formulation, Joint, JointOffsets};
-use wingbeat_flight::{FlightSetup, FreeFlight, FreeFlightScratch, MotionMode, Passage, is_driven};
+use wingbeat_flight::{
+    AirModel, FlightSetup, FreeFlight, FreeFlightScratch, MotionMode, Passage, is_driven,
+};
 use wingbeat_math::ode::Rk4;
 use wingbeat_math::{DMat3, DQuat, DVec3, RotationLaw, rotation_vector};
 use wingbeat_model::motion::Adjustment;
@@ -105,7 +107,7 @@ impl Beat {
         let setup = &steadied(setup); // deformations of wings follow their phase too
         let flight = FreeFlight::new(setup, &law, half, 2 * steps)?;
         if !flight.air().is_steady_and_uniform() {
-            return Err(changing_air());
+            return Err(changing_air(setup));
         }
         Ok(Self {
             mass: flight.system().total_mass(),
@@ -309,26 +311,8 @@ impl Beat {
         for step in steps {
             integration.step(self, step, &mut y)?;
         }
-        self.normalise(&mut y);
+        self.flight.form().to_unit_length(&mut y);
         Ok(y)
-    }
-
-    /// Quaternions to unit length.
-    pub(crate) fn normalise(&self, y: &mut [f64]) {
-        let form = self.flight.form();
-        let unit = |q: &mut [f64]| {
-            let turned = DQuat::from_slice(q).normalize();
-            turned.write_to_slice(q);
-        };
-        unit(&mut y[3..7]);
-        for offsets in form
-            .system()
-            .offsets()
-            .iter()
-            .filter(|s| s.coordinates == 4)
-        {
-            unit(&mut y[JOINTS + offsets.q..JOINTS + offsets.q + 4]);
-        }
     }
 
     /// Rates of the state at half step number `half` of the beat.
@@ -388,7 +372,13 @@ pub(crate) fn check_steady(setup: &FlightSetup) -> Result<(), AnalysisError> {
 }
 
 /// That no wingbeat is like the next because of the air.
-pub(crate) fn changing_air() -> AnalysisError {
+pub(crate) fn changing_air(setup: &FlightSetup) -> AnalysisError {
+    if matches!(setup.air, AirModel::Own(_)) {
+        return AnalysisError::not_covered(
+            "the air is a model of your own that may change with time or place: no wingbeat need be like the next",
+            "if its loads depend on the motion of the bodies alone, say so by its `is_steady_and_uniform`; or fly it",
+        );
+    }
     AnalysisError::not_covered(
         "the air changes with time or place (gust, shear, vortex street, ground): no wingbeat is like the next",
         "leave air.gust, air.shear_1_s, air.vortex_street and air.ground out, or fly it with `run`",

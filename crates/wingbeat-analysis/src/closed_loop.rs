@@ -91,7 +91,7 @@ impl ClosedLoop<'_> {
         let mut regulator = self.regulator.clone();
         let (x, rest) = z.split_at(self.regulator.plants()[0].states());
         let (memory, commands) = rest.split_at(regulator.memory().len());
-        regulator.restore(memory);
+        regulator.restore(memory).expect("its own memory");
         let mut x = x.to_vec();
         let mut queue: VecDeque<Controls> = commands.as_chunks().0.iter().copied().collect();
         let share = self.timing.share();

@@ -4,7 +4,7 @@
 //! finds steady flight as a periodic orbit of that map (Newton's method, shooting over one beat), [`sweep()`] over a range of
 //! speeds; [`MeanLoad`] averages loads over a beat of steadily moving body; [`linear_model`] linearises: the
 //! cycle-averaged rigid-body model with its derivatives; [`floquet`] has Floquet's multipliers of the
-//! periodic orbit from the [`monodromy()`] matrix; [`ModeSet`] names what comes out; [`control_derivatives`]
+//! periodic orbit from the monodromy matrix ([`orbit_monodromy`]); [`ModeSet`] names what comes out; [`control_derivatives`]
 //! are the controls; [`power()`] is what it takes; [`control`] holds a flyer on its orbit by feedback; an [`episode`] is
 //! steered from outside, for who learns; [`wing_modes()`] are the vibrations of elastic wings, [`flutter`] asks when they grow;
 //! [`estimate`] says before a flight what it will be like, [`cost`] how long it takes; an [`ensemble`] is the same flight many
@@ -19,7 +19,7 @@
 //! | p, q, r | `rate` | angular velocity about F turned with the body | rad/s |
 //! | (phi, theta, psi) | `tilt` | small rotation vector roll, pitch, heading | rad |
 //! | A | [`LinearModel::matrix`] | rates of (u, v, w, p, q, r, phi, theta, psi) | - |
-//! | M | [`monodromy()`] | derivative of the state one beat later by the state now | - |
+//! | M | [`orbit_monodromy`] | derivative of the state one beat later by the state now | - |
 //!
 //! **Wake memory.** Most of this linearises air without memory (blade elements). In a vortex
 //! lattice a perturbed flight carries a perturbed wake; [`wake`] trims there and offers both
@@ -41,11 +41,11 @@ pub mod ensemble;
 pub mod episode;
 mod error;
 pub mod flutter;
+mod jacobian;
 mod least_power;
 mod level;
 mod mean;
 mod modes;
-mod monodromy;
 mod moving;
 mod part;
 mod plausibility;
@@ -75,20 +75,22 @@ pub use derivatives::{CONTROL_NAMES, Control, ControlDerivative, control_derivat
 pub use eigen::{Eigenpair, eigen};
 pub use error::AnalysisError;
 pub use flutter::{Condition, FlutterSettings};
+pub use jacobian::jacobian;
 pub use least_power::trim_within;
 pub use level::{Level, Perturbation, STATE};
 pub use mean::MeanLoad;
 pub use modes::{Mode, ModeSet, Plane, Scales};
-pub use monodromy::monodromy;
 pub use plausibility::{Estimate, WingEstimate, estimate, stroke_amplitude};
 pub use power::{Power, power, power_of_trim, power_with_wake};
-pub use request::{SPEED_OF_SOUND, TRIM_STEPS, TrimRequest};
+pub use request::TrimRequest;
 pub use solution::TrimSolution;
 pub use stability::{
     LOADS, LinearModel, floquet, floquet_of_trim, input_matrix, linear_model, orbit_monodromy,
     trimmed_controls,
 };
-pub use steady::{Residuals, TrimProblem, TrimSettings, turned_inside_out};
+pub use steady::{
+    Residuals, SPEED_OF_SOUND, TRIM_STEPS, TrimProblem, TrimSettings, turned_inside_out,
+};
 pub use sweep::{Lost, Sweep, Swept, sweep};
 pub use table::{rigid_animal, table_model};
 pub use trim::{Trim, trim, trim_from};

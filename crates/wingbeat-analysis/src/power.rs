@@ -1,7 +1,7 @@
 //! Mechanical power of flapping: aerodynamic, inertial, and what the muscles pay.
 
-use wingbeat_dynamics::{Body, BodyMotion, Mechanism};
-use wingbeat_flight::{FlightSetup, LoadRecord, Past, Record, Simulation, system_of};
+use wingbeat_dynamics::{Body, BodyMotion, Mechanism, Wrench};
+use wingbeat_flight::{FlightSetup, Past, Record, Simulation, system_of};
 use wingbeat_math::DVec3;
 
 use crate::AnalysisError;
@@ -243,10 +243,10 @@ fn motions(mechanism: &Mechanism, record: &Record) -> Vec<BodyMotion> {
 }
 
 /// Power of loads on all bodies in their motions relative to the root [W].
-fn relative_powers(motions: &[BodyMotion], loads: &[LoadRecord]) -> Vec<f64> {
+fn relative_powers(motions: &[BodyMotion], loads: &[Wrench]) -> Vec<f64> {
     let root = &motions[0];
     let spin = root.r * root.w;
-    let power = |(m, load): (&BodyMotion, &LoadRecord)| {
+    let power = |(m, load): (&BodyMotion, &Wrench)| {
         let v = m.v - root.v - spin.cross(m.p - root.p);
         load.force.dot(v) + load.moment.dot(m.r * m.w - spin)
     };

@@ -21,6 +21,7 @@ mod riccati;
 
 use std::collections::VecDeque;
 
+use wingbeat_flight::control::fits;
 use wingbeat_math::DVec3;
 
 use crate::AnalysisError;
@@ -255,15 +256,24 @@ impl Regulator {
     }
 
     /// Goes on from what it remembered.
-    pub fn restore(&mut self, memory: &[f64]) {
+    ///
+    /// # Errors
+    /// A memory of another regulator.
+    pub fn restore(&mut self, memory: &[f64]) -> Result<(), String> {
+        let known = self.sums.len() + self.commands.len() * CONTROLS;
+        let (seen, unseen) = memory.split_at(known.min(memory.len()));
+        fits(seen, known)?;
+        match &mut self.observer {
+            Some(observer) => observer.restore(unseen)?,
+            None => {
+                fits(unseen, self.joints.len())?;
+                self.joints.copy_from_slice(unseen);
+            }
+        }
         let commands = self.commands.iter_mut().flatten();
         let numbers = self.sums.iter_mut().chain(commands);
-        let mut saved = memory.iter();
-        numbers.zip(&mut saved).for_each(|(x, saved)| *x = *saved);
-        match &mut self.observer {
-            Some(observer) => observer.restore(saved.as_slice()),
-            None => (self.joints.iter_mut().zip(saved)).for_each(|(x, saved)| *x = *saved),
-        }
+        numbers.zip(seen).for_each(|(x, seen)| *x = *seen);
+        Ok(())
     }
 }
 

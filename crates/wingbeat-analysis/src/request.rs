@@ -6,13 +6,6 @@ use wingbeat_math::DVec3;
 use crate::steady::{Residuals, TrimProblem, TrimSettings};
 use crate::unknown::{Bound, Unknown};
 
-/// Steps per wingbeat at least and at most: in fewer the loads of a beat are off by more than a trim is, and with the
-/// most a method of order four is at the last bits.
-pub const TRIM_STEPS: [usize; 2] = [20, 2_000];
-
-/// The air is incompressible: speeds are below that of sound [m/s].
-pub const SPEED_OF_SOUND: f64 = 340.0;
-
 /// The unknowns of flight that turns or slips sideways, beside those of straight flight.
 const LATERAL: [Unknown; 3] = [
     Unknown::BodyRoll,
@@ -32,7 +25,7 @@ pub struct TrimRequest {
     pub unknowns: Option<Vec<Unknown>>,
     /// Between what unknowns must lie.
     pub bounds: Vec<Bound>,
-    /// Steps per wingbeat, within [`TRIM_STEPS`]; none: those of [`TrimSettings`].
+    /// Steps per wingbeat, within [`TRIM_STEPS`](crate::TRIM_STEPS); none: those of [`TrimSettings`].
     pub steps: Option<usize>,
 }
 

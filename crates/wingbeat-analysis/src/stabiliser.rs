@@ -13,6 +13,7 @@
 //! Drift is braked by leaning against it: the pitch and roll held are `-+ omega_v u / g`. The
 //! place is not held; the regulator ([`crate::regulator`]) holds it, and bears longer latencies.
 
+use wingbeat_flight::control::fits;
 use wingbeat_math::DVec3;
 use wingbeat_model::Wing;
 
@@ -173,7 +174,12 @@ impl ProportionalDerivative {
     }
 
     /// Goes on from what it remembered.
-    pub fn restore(&mut self, memory: &[f64]) {
-        self.sums = memory.try_into().unwrap_or_default();
+    ///
+    /// # Errors
+    /// A memory of other loops.
+    pub fn restore(&mut self, memory: &[f64]) -> Result<(), String> {
+        fits(memory, self.memory().len())?;
+        self.sums = memory.try_into().unwrap_or_default(); // without integral action
+        Ok(())
     }
 }

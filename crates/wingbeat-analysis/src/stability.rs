@@ -6,9 +6,9 @@ use crate::AnalysisError;
 use crate::beat::{Beat, JOINTS, State};
 use crate::derivatives::{ControlDerivative, control_derivatives};
 use crate::eigen::eigen;
+use crate::jacobian::jacobian;
 use crate::level::{Level, Perturbation};
 use crate::modes::{ModeSet, Scales};
-use crate::monodromy::monodromy;
 use crate::rigid_body::RigidBody;
 use crate::trim::Trim;
 
@@ -76,7 +76,7 @@ pub fn linear_model(beat: &Beat, state: &State) -> Result<LinearModel, AnalysisE
     };
     // Mean loads are smooth: steps of 1e-3 of the natural sizes, error of the formula 1e-12.
     let steps = size.array().map(|s| 1e-3 * s);
-    let matrix = monodromy(f, &reference.to_array(), &steps)?;
+    let matrix = jacobian(f, &reference.to_array(), &steps)?;
     let modes = ModeSet::of_exponents(eigen(&matrix, 9)?, &size);
     let load = beat.changing_load(&level, &reference, [DVec3::ZERO; 2])?;
     let weight = body.mass * body.gravity;
@@ -147,7 +147,7 @@ fn load_derivatives(
         let (f, m) = (load.force, load.moment);
         Ok(vec![f.x, f.y, f.z, m.x, m.y, m.z])
     };
-    let d = monodromy(f, &reference.to_array()[..6], &steps[..6])?;
+    let d = jacobian(f, &reference.to_array()[..6], &steps[..6])?;
     Ok(std::array::from_fn(|i| {
         std::array::from_fn(|j| d[6 * i + j])
     }))
@@ -183,7 +183,7 @@ fn turning_monodromy(beat: &Beat, state: &State, turned: f64) -> Result<Vec<f64>
     };
     let x = seen(&level, state);
     let steps: Vec<f64> = orbit_scales(beat).iter().map(|s| 1e-4 * s).collect();
-    monodromy(map, &x, &steps)
+    jacobian(map, &x, &steps)
 }
 
 /// Natural sizes of the components of the orbit's perturbations.

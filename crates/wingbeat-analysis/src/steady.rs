@@ -17,6 +17,13 @@ use wingbeat_math::{DMat3, DVec3, EulerSequence, r3};
 use crate::AnalysisError;
 use crate::unknown::{Bound, Unknown, check_unknowns};
 
+/// Steps per wingbeat at least and at most: in fewer the loads of a beat are off by more than a trim is, and with the
+/// most a method of order four is at the last bits.
+pub const TRIM_STEPS: [usize; 2] = [20, 2_000];
+
+/// The air is incompressible: speeds are below that of sound [m/s].
+pub const SPEED_OF_SOUND: f64 = 340.0;
+
 /// What to trim.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TrimProblem {
@@ -346,6 +353,7 @@ pub(crate) fn check(setup: &FlightSetup, problem: &TrimProblem) -> Result<(), An
             "leave gravity_m_s2 out, or give the animal a weight to carry",
         ));
     }
+    check_numbers(problem)?;
     let all = problem.with_given(&[]).0;
     check_unknowns(setup, &all)?;
     let (residuals, named) = (Residuals::of(problem), problem.unknowns.len());
@@ -369,6 +377,34 @@ pub(crate) fn check(setup: &FlightSetup, problem: &TrimProblem) -> Result<(), An
     match problem.turn_rate {
         0.0 => Ok(()),
         _ => check_turn(setup),
+    }
+}
+
+/// An error if speeds, turn or steps are out of range.
+fn check_numbers(problem: &TrimProblem) -> Result<(), AnalysisError> {
+    let speeds = problem.velocity.to_array();
+    if let Some(speed) = speeds
+        .iter()
+        .find(|v| v.is_nan() || v.abs() >= SPEED_OF_SOUND)
+    {
+        return Err(AnalysisError::not_covered(
+            format!("{speed} m/s is no speed below that of sound ({SPEED_OF_SOUND} m/s)"),
+            "the air is incompressible: choose a lower speed",
+        ));
+    }
+    if !problem.turn_rate.is_finite() {
+        return Err(AnalysisError::not_covered(
+            format!("a turn by {} rad/s", problem.turn_rate),
+            "give a finite number",
+        ));
+    }
+    let ([least, most], steps) = (TRIM_STEPS, problem.settings.steps);
+    match (least..=most).contains(&steps) {
+        true => Ok(()),
+        false => Err(AnalysisError::not_covered(
+            format!("a trim in {steps} steps per wingbeat"),
+            "take 20 to 2000; 100 is the default",
+        )),
     }
 }
 

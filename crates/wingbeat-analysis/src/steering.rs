@@ -7,6 +7,7 @@
 use std::collections::VecDeque;
 use std::sync::Arc;
 
+use wingbeat_flight::control::due;
 use wingbeat_flight::{Aim, Controller, Feedback, FlightSetup, Sensed};
 use wingbeat_math::DVec3;
 use wingbeat_model::motion::Adjustment;
@@ -64,7 +65,10 @@ impl Law {
     }
 
     /// Goes on from what it remembered.
-    pub fn restore(&mut self, memory: &[f64]) {
+    ///
+    /// # Errors
+    /// A memory of another law.
+    pub fn restore(&mut self, memory: &[f64]) -> Result<(), String> {
         match self {
             Self::Stabiliser(loops) => loops.restore(memory),
             Self::Regulator(regulator) => regulator.restore(memory),
@@ -194,25 +198,35 @@ impl Controller for Steering {
         [vec![first.len() as f64], first, self.command.to_vec(), law].concat()
     }
 
-    fn restore(&mut self, memory: &[f64]) {
+    fn restore(&mut self, memory: &[f64]) -> Result<(), String> {
         let numbers = memory.first().map_or(0, |n| *n as usize);
         let parts = memory.get(1..).and_then(|m| m.split_at_checked(numbers));
         let Some((first, (command, law))) =
             parts.and_then(|(first, rest)| Some((first, rest.split_at_checked(CONTROLS)?)))
         else {
-            return;
+            let problem = "it has no command; resume with the case that was saved with it";
+            return Err(problem.to_owned());
         };
-        self.first = first
-            .split_last_chunk::<3>()
-            .and_then(|(reference, origin)| {
-                Some((
-                    Reference::from_slice(reference)?,
-                    DVec3::from_array(*origin),
-                ))
-            });
+        self.law.restore(law)?;
+        self.first = begun(first)?;
         self.command.copy_from_slice(command);
-        self.law.restore(law);
+        Ok(())
     }
+}
+
+/// Reference flight and place where it began, as they are remembered; none before the first look.
+fn begun(memory: &[f64]) -> Result<Option<(Reference, DVec3)>, String> {
+    if memory.is_empty() {
+        return Ok(None);
+    }
+    let known = memory.split_last_chunk::<3>();
+    let known = known.and_then(|(reference, origin)| {
+        let reference = Reference::from_slice(reference)?;
+        Some((reference, DVec3::from_array(*origin)))
+    });
+    known.map(Some).ok_or_else(|| {
+        "its reference flight is none; resume with the case that was saved with it".to_owned()
+    })
 }
 
 /// A flight under feedback on the map of wingbeats: as a flight of the trimmed setup with the looks of its
@@ -311,17 +325,14 @@ impl<'a> SteeredBeats<'a> {
 
     /// The part of the wingbeat from one look to the next.
     fn look(&mut self, part: Part) -> Result<(), AnalysisError> {
-        if let Some(controller) = &mut self.controller {
-            let command = controller.command(&self.sensed);
-            self.queue
-                .push_back(command.map_err(AnalysisError::Numbers)?);
-        }
-        let due = self.controller.as_ref().and(self.queue.pop_front());
-        let mut next = due.unwrap_or_else(|| self.acting.clone());
-        if self.share < 1.0 {
-            let pairs = next.iter_mut().zip(&self.acting);
-            pairs.for_each(|(due, now)| *due = now.toward(due, self.share));
-        }
+        let next = match &mut self.controller {
+            Some(controller) => {
+                let command = controller.command(&self.sensed);
+                let command = command.map_err(AnalysisError::Numbers)?;
+                due(&mut self.queue, command, &self.acting, self.share)
+            }
+            None => self.acting.clone(),
+        };
         let (trim, look) = (self.trim, self.sensed.look + 1);
         let beat = part.passing(trim, [&self.acting, &next])?;
         let number = self.sensed.look / part.of + 1;

@@ -8,9 +8,9 @@ use wingbeat_math::{DMat3, DVec3, tilde};
 
 use crate::AnalysisError;
 use crate::eigen::eigen;
+use crate::jacobian::jacobian;
 use crate::mean::MeanLoad;
 use crate::modes::{ModeSet, Scales};
-use crate::monodromy::monodromy;
 use crate::rigid_body::RigidBody;
 use crate::stability::{LinearModel, reference};
 use crate::trim::Trim;
@@ -60,7 +60,7 @@ pub fn table_model(setup: &FlightSetup) -> Result<LinearModel, AnalysisError> {
         period,
     };
     let steps = scales.array().map(|s| 1e-3 * s);
-    let matrix = monodromy(rates, &reference, &steps)?;
+    let matrix = jacobian(rates, &reference, &steps)?;
     let modes = ModeSet::of_exponents(eigen(&matrix, 9)?, &scales);
     Ok(LinearModel {
         matrix,

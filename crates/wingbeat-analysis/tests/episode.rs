@@ -11,7 +11,7 @@ use wingbeat_analysis::episode::{
     CALM_BEATS, CALM_SPEED, CALM_TILT, Course, Draw, Episode, Flyer, Model, OBSERVED, SharedModel,
     Start, SteadyStroke, SteeredStroke, Task, Transition, Tumbles,
 };
-use wingbeat_analysis::{Beat, Perturbation, Trim, trim};
+use wingbeat_analysis::{Beat, Perturbation, Trim};
 use wingbeat_dynamics::Formulation;
 use wingbeat_flight::Passage;
 use wingbeat_math::{DVec3, RotationLaw};
@@ -24,15 +24,11 @@ fn model(trim: &Trim) -> SharedModel {
     Arc::new(Mutex::new(Model::new(trim).expect("a model")))
 }
 
-fn hovering() -> Trim {
-    trim(&common::fly(), &common::hover(STEPS)).expect("the fruit fly")
-}
-
 /// The map of a beat has the wings' motions themselves blended and tabulated; the flyer blends commands. The same method
 /// in the same steps, so they differ by rounding, which grows over unstable beats.
 #[test]
 fn agrees_a_steered_flyer_with_the_map_of_a_beat() {
-    let trim = hovering();
+    let trim = common::hovering(STEPS);
     let start = Start {
         by: Perturbation {
             tilt: DVec3::new(0.1, -0.05, 0.2),
@@ -123,7 +119,7 @@ fn look(episode: &mut Episode, k: usize) -> Vec<f64> {
 #[test]
 fn behaves_an_episode_follows_from_its_seed_alone() {
     for (_, task) in Task::ALL {
-        let mut course = Course::new(task, hovering()).expect("a course");
+        let mut course = Course::new(task, common::hovering(STEPS)).expect("a course");
         course.sensors.noise.tilt = 0.01;
         course.delay = 1;
         let (mut one, mut other) = (episode(&course, 7), episode(&course, 8));
@@ -145,7 +141,7 @@ fn behaves_an_episode_follows_from_its_seed_alone() {
 fn exact_episodes_that_take_turns_fly_as_if_alone() {
     for (_, task) in Task::ALL {
         for interval in [STEPS / 2, 1] {
-            let mut course = Course::new(task, hovering()).expect("a course");
+            let mut course = Course::new(task, common::hovering(STEPS)).expect("a course");
             course.interval = interval;
             let seeds = [3, 4, 5];
             let alone = seeds.map(|seed| course_of(&mut episode(&course, seed), 12));
@@ -166,7 +162,7 @@ fn exact_episodes_that_take_turns_fly_as_if_alone() {
 /// The regulator holds a disturbed hover; without it the flyer is lost.
 #[test]
 fn behaves_the_regulator_masters_hover_and_nothing_does_not() {
-    let course = Course::new(Task::Hover, hovering()).expect("a course");
+    let course = Course::new(Task::Hover, common::hovering(STEPS)).expect("a course");
     let limits = course.limits;
     let sizes = [
         limits.amplitude,
@@ -197,7 +193,7 @@ fn behaves_the_regulator_masters_hover_and_nothing_does_not() {
 /// The map of a beat lays out every wingbeat by itself and keeps its own queue of commands.
 #[test]
 fn agrees_recoveries_with_the_map_of_a_beat() {
-    let trim = hovering();
+    let trim = common::hovering(STEPS);
     let (latency, beats) = (1, 30);
     let law = Law::Regulator(Regulator::new(&trim, &Weights::default(), latency).expect("gains"));
     let tumbles = Tumbles::new(&trim, Some(law.clone()), latency, beats).expect("tumbles");
@@ -241,7 +237,7 @@ fn calm_from(trim: &Trim, mut flight: SteeredBeats<'_>, beats: usize) -> Option<
 
 #[test]
 fn behaves_no_tumble_ends_by_itself() {
-    let trim = hovering();
+    let trim = common::hovering(STEPS);
     let open = Tumbles::new(&trim, None, 0, 60).expect("tumbles");
     assert!((1..=8).all(|seed| open.recovery(seed).expect("a flight").beats.is_none()));
 }
@@ -249,7 +245,7 @@ fn behaves_no_tumble_ends_by_itself() {
 /// Noise of the sensors is that of the seed and of the episode, from the first look on; the flight knows nothing of it.
 #[test]
 fn exact_episodes_have_noise_of_their_own() {
-    let mut course = Course::new(Task::ALL[0].1, hovering()).expect("a course");
+    let mut course = Course::new(Task::ALL[0].1, common::hovering(STEPS)).expect("a course");
     course.sensors.noise.position = 1e-4;
     let course = Arc::new(course);
     let model = course.model().expect("a model");

@@ -6,13 +6,9 @@ use wingbeat_analysis::control::{
     CONTROLS, Controls, Departure, Held, Law, Limits, Orbit, Reference, Regulator, STATES,
     SteeredBeats, Steering, Timing, Weights, adjustments, disturbed, states,
 };
-use wingbeat_analysis::{Beat, Level, Perturbation, Trim, eigen, trim};
+use wingbeat_analysis::{Beat, Level, Perturbation, Trim, eigen};
 use wingbeat_flight::Controller;
 use wingbeat_math::DVec3;
-
-fn hovering() -> Trim {
-    trim(&common::fly(), &common::hover(40)).expect("the fruit fly")
-}
 
 fn sizes(trim: &Trim) -> [f64; STATES] {
     let (length, period) = (trim.beat.wing_length(), trim.beat.period());
@@ -44,7 +40,7 @@ fn memory(trim: &Trim, commands: &[f64]) -> Vec<f64> {
 fn predicted(regulator: &Regulator, z: &[f64]) -> Vec<f64> {
     let mut regulator = regulator.clone();
     let (x, commands) = z.split_at(STATES);
-    regulator.restore(commands);
+    regulator.restore(commands).expect("its memory");
     let mut x: [f64; STATES] = x.try_into().expect("all states");
     for look in 0..regulator.plants().len() {
         let d = Departure {
@@ -86,7 +82,8 @@ fn flown(trim: &Trim, regulator: &Regulator, timing: &Timing, z: &[f64]) -> Vec<
         let place = DVec3::from_slice(&trim.state) + level.to_n * DVec3::from_slice(x);
         place.write_to_slice(&mut state);
         let mut controller = steering(trim, regulator, timing);
-        controller.restore(&memory(trim, commands));
+        let restored = controller.restore(&memory(trim, commands));
+        restored.expect("its memory");
         let flight = SteeredBeats::new(trim, state, Some(controller), timing.latency);
         let flight = flight.expect("a flight").commanded(under_way);
         let mut flight = flight.expect("commands").lagged(timing.share());
@@ -118,7 +115,7 @@ fn matrix(sizes: &[f64], map: impl Fn(&[f64]) -> Vec<f64>) -> Vec<f64> {
 /// that lag.
 #[test]
 fn agrees_closed_loop_flown_with_that_of_the_layout() {
-    let trim = hovering();
+    let trim = common::hovering(40);
     for (parts, latency, lag) in [
         (1, 0, 0.0),
         (1, 1, 0.0),
@@ -158,7 +155,7 @@ fn agrees_closed_loop_flown_with_that_of_the_layout() {
 /// Looks within the beat hold a flyer with a shorter latency: it comes back nearer after 40 wingbeats from a tumble.
 #[test]
 fn balances_a_tilted_flight_under_looks_within_the_beat() {
-    let trim = hovering();
+    let trim = common::hovering(40);
     let left = [(1, 1), (4, 1)].map(|(parts, latency)| {
         let timing = Timing {
             parts,

@@ -2,20 +2,16 @@
 
 use crate::common;
 
+use wingbeat_analysis::Perturbation;
 use wingbeat_analysis::control::{
     CONTROLS, Channels, Controls, Departure, Held, Kalman, Law, Observer, ProcessNoise, Reference,
     Regulator, STATES, Sensors, SteeredBeats, Steering, Weights, kalman, states,
 };
-use wingbeat_analysis::{Perturbation, Trim, trim};
 use wingbeat_math::DVec3;
 
 const LATENCY: usize = 1;
 /// Commands in force and under way.
 const COMMANDED: usize = CONTROLS * (LATENCY + 1);
-
-fn hovering() -> Trim {
-    trim(&common::fly(), &common::hover(40)).expect("the fruit fly")
-}
 
 /// Noise of the sensors of a small camera and gyroscope.
 fn noise() -> Channels<f64> {
@@ -43,7 +39,7 @@ fn exact_filter_of_one_state() {
 /// Weights that no iteration can balance are named, not the strokes.
 #[test]
 fn refuses_weights_far_from_the_usual_by_name() {
-    let trim = hovering();
+    let trim = common::hovering(40);
     let usual = Weights::default();
     for (name, weights) in [
         (
@@ -89,7 +85,7 @@ fn refuses_weights_far_from_the_usual_by_name() {
 /// The covariance of the fly's filter fulfils Riccati's equation.
 #[test]
 fn balances_covariance_of_the_fly() {
-    let trim = hovering();
+    let trim = common::hovering(40);
     let regulator = Regulator::new(&trim, &Weights::default(), LATENCY).expect("gains");
     let m = &regulator.plants()[0].m;
     let beat = &trim.beat;
@@ -144,7 +140,7 @@ fn departure(x: &[f64]) -> Departure {
 fn closed(regulator: &Regulator, z: &[f64]) -> Vec<f64> {
     let mut regulator = regulator.clone();
     let (x, memory) = z.split_at(STATES);
-    regulator.restore(memory);
+    regulator.restore(memory).expect("its memory");
     let d = regulator.estimated(&departure(x));
     let u = regulator.controls(&d);
     let now: Controls = memory[..CONTROLS].try_into().expect("the command in force");
@@ -172,7 +168,7 @@ fn matrix(n: usize, sizes: &[f64], map: impl Fn(&[f64]) -> Vec<f64>) -> Vec<f64>
 /// polynomial is the product of theirs.
 #[test]
 fn exact_eigenvalues_of_the_loop_are_those_of_regulator_and_filter() {
-    let trim = hovering();
+    let trim = common::hovering(40);
     let plain = Regulator::new(&trim, &Weights::default(), LATENCY).expect("gains");
     let observed = plain.clone();
     let observed = observed.observed(&trim, &ProcessNoise::default(), &noise());
@@ -225,7 +221,7 @@ fn exact_eigenvalues_of_the_loop_are_those_of_regulator_and_filter() {
 /// Seen through noise, the flyer with an observer strays less: a root mean square over the second half of 300 beats.
 #[test]
 fn balances_a_noisy_flight_holds_its_place_better_with_an_observer() {
-    let trim = hovering();
+    let trim = common::hovering(40);
     let plain = Regulator::new(&trim, &Weights::default(), LATENCY).expect("gains");
     let observed = plain.clone();
     let observed = observed.observed(&trim, &ProcessNoise::default(), &noise());

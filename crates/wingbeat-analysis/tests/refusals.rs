@@ -1,8 +1,12 @@
 //! What an analysis refuses, and in which words.
 
+use std::sync::Arc;
+
 use crate::common;
 
-use wingbeat_analysis::{AnalysisError, Beat, TrimSettings, trim};
+use wingbeat_analysis::{AnalysisError, Beat, TrimProblem, TrimSettings, trim};
+use wingbeat_dynamics::Wrench;
+use wingbeat_flight::{Air, AirMemory, AirModel, AirScratch, FlightError, Instant};
 use wingbeat_math::DVec3;
 
 #[test]
@@ -37,6 +41,60 @@ fn refuses_wings_that_differ_before_it_searches() {
     setup.animal.wings[0].hinge_b.y *= 1.1;
     let found = trim(&setup, &problem);
     assert!(matches!(found, Err(AnalysisError::Asymmetric { .. })));
+}
+
+/// Programs that take no notice of the ranges are refused by the analysis itself: nothing cancels, nothing is left to Newton's steps.
+#[test]
+fn refuses_trims_out_of_range_before_they_search() {
+    type Change = fn(&mut TrimProblem);
+    let cases: [(Change, &str); 6] = [
+        (|p| p.velocity.x = 340.0, "below that of sound"),
+        (
+            |p| p.velocity = DVec3::new(500.0, 0.0, -500.0),
+            "below that of sound",
+        ),
+        (|p| p.velocity.z = f64::NAN, "below that of sound"),
+        (|p| p.turn_rate = f64::INFINITY, "a turn by inf rad/s"),
+        (|p| p.settings.steps = 19, "in 19 steps per wingbeat"),
+        (|p| p.settings.steps = 2_001, "in 2001 steps per wingbeat"),
+    ];
+    for (change, words) in cases {
+        let mut problem = common::hover(40);
+        change(&mut problem);
+        let said = trim(&common::fly(), &problem).unwrap_err().to_string();
+        assert!(said.contains(words), "{said}");
+    }
+}
+
+/// Air that says that time or place changes its loads.
+#[derive(Debug)]
+struct Gusty;
+
+impl Air for Gusty {
+    fn loads(
+        &self,
+        _at: &Instant<'_>,
+        _memory: Option<&AirMemory>,
+        _scratch: &mut AirScratch,
+        _out: &mut [Wrench],
+    ) -> Result<(), FlightError> {
+        Ok(())
+    }
+
+    fn is_steady_and_uniform(&self) -> bool {
+        false
+    }
+}
+
+#[test]
+fn refuses_trims_in_own_air_that_changes_in_words_of_its_own() {
+    let mut setup = common::fly();
+    setup.air = AirModel::Own(Arc::new(Gusty));
+    let said = trim(&setup, &common::hover(20)).unwrap_err().to_string();
+    assert!(
+        said.contains("is_steady_and_uniform") && !said.contains("gust"),
+        "{said}"
+    );
 }
 
 /// A beat that pitches past a right angle, in air far too fast, turns in the plane of symmetry all the same.

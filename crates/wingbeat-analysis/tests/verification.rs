@@ -23,7 +23,7 @@ fn mathieu(a: f64, q: f64) -> Vec<[f64; 2]> {
         }
         Ok(y)
     };
-    let m = monodromy(map, &[0.0, 0.0], &[1e-3, 1e-3]).unwrap();
+    let m = jacobian(map, &[0.0, 0.0], &[1e-3, 1e-3]).unwrap();
     assert!((determinant(&m, 2) - 1.0).abs() < 1e-10); // no damping: Liouville
     eigen(&m, 2).unwrap().iter().map(|p| p.value).collect()
 }
@@ -154,7 +154,7 @@ fn agrees_monodromy_with_long_flights_and_its_determinant_with_the_trace() {
     // In all thirteen numbers of the state.
     let map = |x: &[f64]| -> Result<Vec<f64>, AnalysisError> { beat.advance(x) };
     let steps: Vec<f64> = (0..13).map(|i| 1e-4 * scale(i)).collect();
-    let m = monodromy(map, &y, &steps).unwrap();
+    let m = jacobian(map, &y, &steps).unwrap();
     // Ten beats of a slightly disturbed flight against the tenth power on the disturbance.
     let (mut z, mut far) = (vec![0.0; 13], y.clone());
     for (i, d) in [(2, 0.3), (7, 1.0), (10, -0.5), (12, 0.4)] {
@@ -187,13 +187,13 @@ fn agrees_monodromy_with_long_flights_and_its_determinant_with_the_trace() {
             .map(|k| m[k] * scale(k % 13) / scale(k / 13))
             .collect()
     };
-    let det = determinant(&scaled(&monodromy(raw, &y, &steps).unwrap()), 13);
+    let det = determinant(&scaled(&jacobian(raw, &y, &steps).unwrap()), 13);
     let (mut s, mut sum) = (y, 0.0);
     let mut integration = Integration::new(beat);
     let n = beat.steps();
     for k in 0..n {
         let f = |x: &[f64]| -> Result<Vec<f64>, AnalysisError> { beat.rates(2 * k, x) };
-        let a = monodromy(f, &s, &steps).unwrap();
+        let a = jacobian(f, &s, &steps).unwrap();
         sum += (0..13).map(|i| a[14 * i]).sum::<f64>() * beat.period() / n as f64;
         integration.step(beat, k, &mut s).unwrap();
     }

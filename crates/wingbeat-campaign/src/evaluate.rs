@@ -1,9 +1,13 @@
 //! From what was flown or found to the numbers that are kept.
 
+use std::collections::HashMap;
+use std::ops::RangeInclusive;
+
 use wingbeat_analysis::{
     AnalysisError, LinearModel, ModeSet, Power, Trim, floquet_of_trim, linear_model,
 };
 use wingbeat_flight::{FlightSetup, Record};
+use wingbeat_math::{larger, smaller};
 use wingbeat_results::Summary;
 use wingbeat_results::columns::Columns;
 use wingbeat_results::summary::{BeatMeans, Estimate};
@@ -43,6 +47,7 @@ impl Flown {
     pub fn fill(&self, numbers: &[Number], beats: usize, values: &mut [f64]) -> Result<(), String> {
         let means = &self.summary.beats;
         let last = &means[means.len().saturating_sub(beats)..];
+        let columns = self.columns(numbers)?;
         for (number, value) in numbers.iter().zip(values) {
             let mean = |of: fn(&BeatMeans) -> f64| {
                 last.iter().map(of).sum::<f64>() / last.len().max(1) as f64
@@ -57,7 +62,12 @@ impl Flown {
                     let useful = mean(|b| b.thrust_newton) * self.airspeed(last);
                     *value = efficiency(useful, mean(|b| b.power_watt));
                 }
-                Source::Column(of, name) => *value = self.column(*of, name, last)?,
+                Source::Column(of, name) => {
+                    *value = match columns.get(&name[..]) {
+                        Some(column) => self.taken(*of, column, last)?,
+                        None => f64::NAN,
+                    };
+                }
                 Source::Summary(of) => *value = of(&self.summary),
                 _ => {}
             }
@@ -65,13 +75,18 @@ impl Flown {
         Ok(())
     }
 
-    /// The rows of the last wingbeats.
-    fn rows(&self, beats: &[BeatMeans]) -> &[Record] {
+    /// Numbers of the rows of the last wingbeats.
+    fn span(&self, beats: &[BeatMeans]) -> RangeInclusive<usize> {
         let each = self.setup.time.steps_per_beat().unwrap_or(0);
         let end = beats.last().map_or(0, |b| b.beat * each);
         let start = end - beats.len() * each;
         let at = |step: usize| self.records.partition_point(|r| r.step < step);
-        self.records.get(at(start)..=at(end)).unwrap_or(&[])
+        at(start)..=at(end)
+    }
+
+    /// The rows of the last wingbeats.
+    fn rows(&self, beats: &[BeatMeans]) -> &[Record] {
+        self.records.get(self.span(beats)).unwrap_or(&[])
     }
 
     /// Mean speed of the mass centre along n1 through the air [m/s].
@@ -85,37 +100,62 @@ impl Flown {
         }
     }
 
-    /// What is taken of a column; not a number where this flight has none of that name.
-    fn column(&self, of: Of, name: &str, beats: &[BeatMeans]) -> Result<f64, String> {
+    /// The columns that `numbers` are taken of, row by row, by their names; without those that this flight has none of.
+    ///
+    /// # Errors
+    /// Nothing flown.
+    fn columns<'a>(&self, numbers: &'a [Number]) -> Result<HashMap<&'a str, Vec<f64>>, String> {
+        let name = |n: &'a Number| match &n.source {
+            Source::Column(_, name) => Some(&name[..]),
+            _ => None,
+        };
+        let mut columns: HashMap<&str, Vec<f64>> = numbers
+            .iter()
+            .filter_map(name)
+            .map(|n| (n, vec![]))
+            .collect();
+        if columns.is_empty() {
+            return Ok(columns);
+        }
         let first = self.records.first().ok_or("nothing was flown")?;
-        let columns = Columns::of(&self.setup, first).map_err(|e| e.to_string())?;
-        let Some(place) = columns.iter().position(|c| c.name == name) else {
-            return Ok(f64::NAN);
+        let all = Columns::of(&self.setup, first).map_err(|e| e.to_string())?;
+        let places: HashMap<&str, usize> = (all.iter().enumerate())
+            .map(|(k, c)| (&c.name[..], k))
+            .collect();
+        columns.retain(|name, _| places.contains_key(name));
+        let mut row = first.clone();
+        for record in &self.records {
+            row.clone_from(record);
+            for (name, column) in &mut columns {
+                column.push(all.value(places[name], &mut row));
+            }
+        }
+        Ok(columns)
+    }
+
+    /// What is taken of a column.
+    ///
+    /// # Errors
+    /// Records of its wingbeats that are not at hand.
+    fn taken(&self, of: Of, column: &[f64], beats: &[BeatMeans]) -> Result<f64, String> {
+        let rows = match (of, beats) {
+            (Of::Mean, beats) | (_, beats @ [_, ..]) => self.span(beats),
+            (_, []) => 0..=column.len() - 1,
         };
-        let (mut scratch, mut row) = (first.clone(), vec![]);
-        let mut value = |r: &Record| {
-            columns.values(r, &mut scratch, &mut row);
-            row[place]
-        };
-        let all = &self.records[..];
-        let counted = match beats {
-            [] => all,
-            beats => self.rows(beats),
-        };
+        let gone = || "records of its wingbeats are not at hand".to_owned();
+        let known = column.get(rows.clone()).ok_or_else(gone);
         Ok(match of {
-            Of::End => value(&all[all.len() - 1]),
-            Of::Min => counted.iter().map(value).fold(f64::INFINITY, f64::min),
-            Of::Max => (counted.iter().map(value)).fold(f64::NEG_INFINITY, f64::max),
+            Of::End => column[column.len() - 1],
+            Of::Min => known?.iter().copied().fold(f64::INFINITY, smaller),
+            Of::Max => known?.iter().copied().fold(f64::NEG_INFINITY, larger),
             Of::Mean => {
-                let rows = self.rows(beats);
-                let [first, .., last] = rows else {
-                    return Err("records of its wingbeats are not at hand".to_owned());
+                let (values, records) = (known?, &self.records[rows]);
+                let [first, .., last] = records else {
+                    return Err(gone());
                 };
-                let time = last.time - first.time;
-                let values: Vec<f64> = rows.iter().map(value).collect();
-                let pairs = rows.windows(2).zip(values.windows(2));
+                let pairs = records.windows(2).zip(values.windows(2));
                 let area = pairs.map(|(r, v)| 0.5 * (v[0] + v[1]) * (r[1].time - r[0].time));
-                area.sum::<f64>() / time
+                area.sum::<f64>() / (last.time - first.time)
             }
         })
     }
@@ -207,7 +247,50 @@ fn efficiency(useful: f64, power: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
+    use wingbeat_case::LoadedCase;
+    use wingbeat_flight::Simulation;
+    use wingbeat_results::Outcome;
+
     use super::*;
+    use crate::number::{find, registry};
+
+    /// Means and extremes over a wingbeat of which a row is gone say so; the end is the last row that there is.
+    #[test]
+    fn refuses_means_and_extremes_of_rows_that_are_gone() {
+        let set = ["time.beats=1".to_owned()];
+        let setup = LoadedCase::find("fruit-fly-blade", &set).unwrap().setup;
+        let mut flight = Simulation::new(setup.clone()).unwrap();
+        let mut records = vec![flight.record().clone()];
+        while !flight.finished() {
+            records.push(flight.step().unwrap().clone());
+        }
+        let all = registry(&setup).unwrap();
+        let name = "body_z_m";
+        let mut flown = Flown {
+            summary: Summary::of(&setup, &records, &Outcome::Finished),
+            records,
+            setup,
+        };
+        let of = |flown: &Flown, prefix: &str| {
+            let number = find(&all, &format!("{prefix}{name}")).unwrap();
+            let mut value = [0.0];
+            flown.fill(&[number], 1, &mut value).map(|()| value[0])
+        };
+        let places = flown.records.iter().map(|r| r.coordinates[2]);
+        let [least, most] = places.fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], x| {
+            [a.min(x), b.max(x)]
+        });
+        assert_eq!(of(&flown, "min."), Ok(least));
+        assert_eq!(of(&flown, "max."), Ok(most));
+        assert!((least..=most).contains(&of(&flown, "").unwrap()));
+        flown.records.pop();
+        for prefix in ["", "min.", "max."] {
+            let refused = of(&flown, prefix).unwrap_err();
+            assert_eq!(refused, "records of its wingbeats are not at hand");
+        }
+        let last = flown.records[flown.records.len() - 1].coordinates[2];
+        assert_eq!(of(&flown, "end."), Ok(last));
+    }
 
     #[test]
     fn exact_wings_that_the_air_drives_have_no_efficiency() {

@@ -150,6 +150,10 @@ impl Leases {
                 .create_new(true)
                 .open(&path)
             {
+                // Whoever has the block lets it go, or died as it did: the leases of the dead go first.
+                Ok(_) if self.file(block, generation + 1).exists() => {
+                    fs::remove_file(&path).map_err(IoError::write(&path))?;
+                }
                 Ok(file) => return self.begin(path, file, (block, generation), flown),
                 Err(e) if e.kind() != ErrorKind::AlreadyExists => {
                     return Err(IoError::write(&path)(e));
@@ -314,6 +318,11 @@ impl Lease {
         Ok(())
     }
 
+    /// Leaves the block to who has taken it over: takes away one's own lease alone, which nobody would find dead.
+    pub fn withdraw(self) {
+        let _ = fs::remove_file(&self.path); // at worst found dead later
+    }
+
     /// Leaves the block to others: the leases of the dead first, one's own last.
     pub fn let_go(self) {
         let stem = format!("{:08}", self.block);
@@ -372,6 +381,8 @@ mod tests {
         // Somebody takes us for dead.
         fs::write(leases.file(3, 2), &text).unwrap();
         assert!(!lease.fly(1).unwrap(), "not held any more");
+        lease.withdraw();
+        assert!(!leases.file(3, 1).exists() && leases.file(3, 2).exists());
         let Taken::Own(lease, flown) = leases.take(3).unwrap() else {
             panic!("the third is dead")
         };
@@ -381,6 +392,27 @@ mod tests {
         assert_eq!(leases.done(), [3]);
         leases.undo(3).unwrap();
         assert!(matches!(leases.take(3).unwrap(), Taken::Own(_, None)));
+        fs::remove_dir_all(&leases.folder).unwrap();
+    }
+
+    /// Leases are let go one after the other: who asks for the block in between neither has it nor keeps the others from it.
+    #[test]
+    fn behaves_a_block_that_is_being_let_go_is_not_lost() {
+        let leases = leases("between");
+        let mut dead = Process::own();
+        dead.start += "0"; // of this number there was another
+        let text = |p: &Process| format!("{} {} {}\n{NONE}\n", p.machine, p.number, p.start);
+        fs::write(leases.file(5, 1), text(&leases.own)).unwrap();
+        assert!(matches!(leases.take(5).unwrap(), Taken::Held));
+        assert!(!leases.file(5, 0).exists(), "nobody holds the first");
+        // Whoever let it go died in between.
+        fs::write(leases.file(5, 1), text(&dead)).unwrap();
+        let Taken::Own(mut lease, None) = leases.take(5).unwrap() else {
+            panic!("it is free")
+        };
+        assert!(lease.fly(0).unwrap() && lease.generation == 2);
+        lease.done().unwrap();
+        assert!(matches!(leases.take(5).unwrap(), Taken::Done));
         fs::remove_dir_all(&leases.folder).unwrap();
     }
 

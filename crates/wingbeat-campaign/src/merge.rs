@@ -180,7 +180,7 @@ fn parquet(campaign: &Campaign, rows: &[Row], path: &std::path::Path) -> std::io
         };
         let keys: Vec<Cell> = row.keys.iter().enumerate().map(key).collect();
         let success = row.success.map_or(f64::NAN, |s| f64::from(u8::from(s)));
-        let head = [Cell::Number(row.point as f64)].into_iter().chain(keys);
+        let head = [Cell::Count(row.point as i64)].into_iter().chain(keys);
         let numbers = row.numbers.iter().map(|x| Cell::Number(*x));
         let all = (head.chain([Cell::Number(success), Cell::Text(verdict(row))])).chain(numbers);
         table.cells(all.chain([Cell::Text(reason(row))]))?;

@@ -378,11 +378,21 @@ fn modes_and_derivatives(put: &mut impl FnMut(String, &str, &str, Source)) {
         for (m, motion) in MOTIONS.iter().enumerate() {
             put(
                 format!("stability.derivative.{load}_{motion}"),
-                "SI",
+                unit_of_derivative(l, m),
                 &format!("derivative of the mean load {load} by {motion}"),
                 Source::Derivative(l, m),
             );
         }
+    }
+}
+
+/// Unit of the derivative of a load (three forces, three moments) by a motion (three velocities, three angular ones).
+fn unit_of_derivative(load: usize, motion: usize) -> &'static str {
+    match (load < 3, motion < 3) {
+        (true, true) => "N s m-1",
+        (true, false) => "N s rad-1",
+        (false, true) => "N s",
+        (false, false) => "N m s rad-1",
     }
 }
 
@@ -415,4 +425,25 @@ pub fn find(all: &[Number], name: &str) -> Result<Number, String> {
         Some(near) => format!("did you mean `{near}`?"),
         None => "`wingbeat campaign numbers FILE` lists all names".to_owned(),
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exact_units_of_derivatives_are_those_of_load_and_motion() {
+        let mut units = vec![];
+        modes_and_derivatives(&mut |name, unit, _, _| units.push((name, unit.to_owned())));
+        for (name, unit) in [
+            ("X_u", "N s m-1"),
+            ("Z_q", "N s rad-1"),
+            ("L_v", "N s"),
+            ("M_q", "N m s rad-1"),
+        ] {
+            let name = format!("stability.derivative.{name}");
+            assert!(units.contains(&(name, unit.to_owned())), "{unit}");
+        }
+        assert!(units.iter().all(|(_, unit)| unit != "SI"));
+    }
 }

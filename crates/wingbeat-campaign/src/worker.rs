@@ -166,7 +166,8 @@ impl<'a> Worker<'a> {
                 continue;
             }
             if !lease.fly(i)? {
-                return Ok(false); // somebody took us for dead
+                lease.withdraw(); // somebody took us for dead
+                return Ok(false);
             }
             match self.point(i, &hash, stop) {
                 Ok(Tried::Kept) => tell(),

@@ -7,7 +7,8 @@ use wingbeat_air::{AirSettings, CoreModel};
 use wingbeat_case::{LoadedCase, presets};
 use wingbeat_flight::{AirModel, Simulation};
 
-fn load(text: &str, set: &[&str]) -> Result<LoadedCase, String> {
+/// The case of this text, and why there is none.
+pub(crate) fn load(text: &str, set: &[&str]) -> Result<LoadedCase, String> {
     let set: Vec<String> = set.iter().map(|s| (*s).to_owned()).collect();
     LoadedCase::from_text("case.toml", text, Path::new(""), &set).map_err(|e| e.to_string())
 }

@@ -1,9 +1,7 @@
 //! Deforming and joined wings, section drag and side edges from case files; what does not fit is
 //! refused at its line.
 
-use std::path::Path;
-
-use wingbeat_case::LoadedCase;
+use crate::defaults::load;
 use wingbeat_flight::{AirModel, FlightSetup, Record, Simulation};
 use wingbeat_model::WingMotion;
 
@@ -40,11 +38,6 @@ const TWIST: &str = "
 table_deg = [[0, 0], [0.5, 2], [1, 10]]
 fourier = { mean = 0.5, cosine = [1] }
 ";
-
-fn load(text: &str, set: &[&str]) -> Result<LoadedCase, String> {
-    let set: Vec<String> = set.iter().map(|s| (*s).to_owned()).collect();
-    LoadedCase::from_text("case.toml", text, Path::new(""), &set).map_err(|e| e.to_string())
-}
 
 fn good(text: &str, set: &[&str]) -> FlightSetup {
     load(text, set).unwrap_or_else(|e| panic!("{e}")).setup
@@ -243,7 +236,7 @@ fn exact_joined_wings_of_a_case_share_their_root() {
     };
     assert_eq!(air.joined, [[0, 1]]);
     let [one, two] = [fly(setup), fly(good(GOOD, &[]))].map(|r| r.last().unwrap().air.clone());
-    let lift = |air: &[wingbeat_flight::LoadRecord]| air.iter().map(|l| l.force.z).sum::<f64>();
+    let lift = |air: &[wingbeat_dynamics::Wrench]| air.iter().map(|l| l.force.z).sum::<f64>();
     println!(
         "lift joined {:.4} N, apart {:.4} N",
         -lift(&one),

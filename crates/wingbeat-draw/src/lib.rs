@@ -5,6 +5,7 @@
 #![warn(missing_docs)]
 
 pub mod figures;
+mod markup;
 pub mod page;
 pub mod points;
 

@@ -2,7 +2,8 @@
 
 use serde_json::Value;
 
-use crate::page::{bare, escaped, fill, inert};
+use crate::markup::escaped;
+use crate::page::{bare, fill, inert};
 
 const TEMPLATE: &str = include_str!("../assets/points/points.html");
 const STYLE: &str = include_str!("../assets/points/points.css");

@@ -122,6 +122,17 @@ impl MomentumForm {
         Ok(y)
     }
 
+    /// Quaternions of the root and of spherical joints in the state `y` to unit length.
+    pub fn to_unit_length(&self, y: &mut [f64]) {
+        let unit = |q: &mut [f64]| DQuat::from_slice(q).normalize().write_to_slice(q);
+        unit(&mut y[3..]);
+        for (joint, offsets) in self.system.joints().zip(self.system.offsets()) {
+            if joint.kind == JointType::Spherical {
+                unit(&mut y[DIM + offsets.q..]);
+            }
+        }
+    }
+
     /// Rotation of the root, and its angular velocity from the angular momentum, `w = I^-1 (R^T H - h)` [rad/s].
     fn root_turn(t: f64, state: &State, ws: &Workspace) -> Result<(DMat3, DVec3), DynamicsError> {
         let r = state.rotation();
@@ -364,15 +375,8 @@ impl Formulation for MomentumForm {
     }
 
     fn normalise(&self, t: f64, y: &mut [f64], _ws: &mut Workspace) -> Result<(), DynamicsError> {
-        let mut state = State::read(t, y)?;
-        state.attitude = state.attitude.normalize();
-        state.write(y);
-        for (joint, offsets) in self.system.joints().zip(self.system.offsets()) {
-            if joint.kind == JointType::Spherical {
-                let q = &mut y[DIM + offsets.q..];
-                DQuat::from_slice(q).normalize().write_to_slice(q);
-            }
-        }
+        check_state(t, y)?;
+        self.to_unit_length(y);
         Ok(())
     }
 }

@@ -241,12 +241,12 @@ fn check_carrying(hinge: &Joint) -> Result<(), DynamicsError> {
     check_numbers_of(hinge)
 }
 
-/// Where the coordinates of the hinges lie.
 /// A number to four digits.
 fn rounded(x: f64) -> f64 {
     format!("{x:.3e}").parse().unwrap_or(x)
 }
 
+/// Where the coordinates of the hinges lie.
 fn offsets(hinges: &[Joint]) -> Vec<JointOffsets> {
     let next = |before: &mut JointOffsets, h: &Joint| {
         *before = JointOffsets::after(before, h.model.kind);

@@ -12,7 +12,7 @@ use wingbeat_math::{DVec3, MovingRotation, RotationLaw, smoothstep7};
 use wingbeat_model::motion::{Adjustment, wing_rotation};
 use wingbeat_model::{Side, Wing, WingMotion};
 
-pub use crate::controller::{Aim, Controller, Sensed, check_heeded, for_all};
+pub use crate::controller::{Aim, Controller, Sensed, check_heeded, fits, for_all};
 use crate::error::FlightError;
 use crate::setup::{AirModel, FlightSetup, MotionMode};
 pub use crate::setup::{ControlModel, Feedback};
@@ -138,6 +138,23 @@ pub struct ControlState {
     pub memory: Vec<f64>,
 }
 
+/// What wings go over to from the commands `now`: the `command` joins those under way, the oldest of these is due, and actuators
+/// that lag go this `share` of the way to it.
+pub fn due(
+    queue: &mut VecDeque<Vec<Adjustment>>,
+    command: Vec<Adjustment>,
+    now: &[Adjustment],
+    share: f64,
+) -> Vec<Adjustment> {
+    queue.push_back(command);
+    let mut due = queue.pop_front().expect("one was just pushed");
+    if share < 1.0 {
+        let pairs = due.iter_mut().zip(now);
+        pairs.for_each(|(due, now)| *due = now.toward(due, share));
+    }
+    due
+}
+
 /// Feedback in a flight: controller, latency, and the wings it moves.
 pub struct Loop {
     controller: Box<dyn Controller>,
@@ -200,10 +217,32 @@ impl Loop {
     }
 
     /// Goes on from what was remembered.
-    pub fn restore(&mut self, state: &ControlState) {
-        self.controller.restore(&state.memory);
+    ///
+    /// # Errors
+    /// What is not the memory of this feedback.
+    pub fn restore(&mut self, state: &ControlState) -> Result<(), FlightError> {
+        let misfit = |value: String, problem: String| FlightError::Setup {
+            key: "state",
+            value,
+            problem,
+        };
+        let own = &self.state;
+        let commands = [&state.from, &state.to].into_iter().chain(&state.queue);
+        let wings = self.wings.len();
+        if state.queue.len() != own.queue.len() || commands.into_iter().any(|c| c.len() != wings) {
+            return Err(misfit(
+                format!("{} commands under way", state.queue.len()),
+                format!(
+                    "the case has {}, of {wings} wings; resume with the case that was saved with it",
+                    own.queue.len()
+                ),
+            ));
+        }
+        let restored = self.controller.restore(&state.memory);
+        restored.map_err(|problem| misfit("what the controller remembers".into(), problem))?;
         self.state = state.clone();
         self.apply();
+        Ok(())
     }
 
     /// The wings.
@@ -252,14 +291,7 @@ impl Loop {
         let command = self.controller.command(sensed).map_err(refused)?;
         self.check(&command, t)?;
         self.state.limited_looks += usize::from(self.controller.is_limited());
-        self.state.queue.push_back(command);
-        let mut due = self.state.queue.pop_front().expect("one was just pushed");
-        if self.share < 1.0 {
-            let lagged = |(due, now): (&mut Adjustment, &Adjustment)| {
-                *due = now.toward(due, self.share);
-            };
-            due.iter_mut().zip(&self.state.to).for_each(lagged);
-        }
+        let due = due(&mut self.state.queue, command, &self.state.to, self.share);
         self.state.from = std::mem::replace(&mut self.state.to, due);
         self.state.since = t;
         self.state.looks += 1;

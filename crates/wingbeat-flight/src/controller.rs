@@ -58,7 +58,26 @@ pub trait Controller: Send {
     }
 
     /// Goes on from what it remembered.
-    fn restore(&mut self, _memory: &[f64]) {}
+    ///
+    /// # Errors
+    /// Why this cannot be its memory.
+    fn restore(&mut self, memory: &[f64]) -> Result<(), String> {
+        fits(memory, 0)
+    }
+}
+
+/// Whether a memory has as many numbers as it must have.
+///
+/// # Errors
+/// How many it has.
+pub fn fits(memory: &[f64], numbers: usize) -> Result<(), String> {
+    match memory.len() == numbers {
+        true => Ok(()),
+        false => Err(format!(
+            "the controller remembers {numbers} numbers, and {} were saved; resume with the case that was saved with it",
+            memory.len()
+        )),
+    }
 }
 
 /// Refuses a command of which a part can have no effect on its wing: of an angle that is constant there is neither

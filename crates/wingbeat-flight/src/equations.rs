@@ -359,7 +359,7 @@ impl Equations {
         Ok(self.air.initial(&s.air_scratch))
     }
 
-    /// Moves the wake of an accepted `air` by one step.
+    /// Begins a step: elastic wings have no passes yet, and the wake of an accepted `air` moves on by it.
     ///
     /// # Errors
     /// Velocities that are not finite.

@@ -69,8 +69,8 @@ pub use interface::{
 pub use joints::{closes_loop, faster, is_driven};
 pub use memory::AirMemory;
 pub use record::{
-    AccelerationRecord, ElasticRecord, HingeRecord, LoadRecord, ParticleSnapshot, Record, STATIONS,
-    SectionRecord, Snapshot, SurfaceSnapshot, WakeSnapshot,
+    ElasticRecord, ParticleSnapshot, Record, STATIONS, SectionRecord, Snapshot, SurfaceSnapshot,
+    WakeSnapshot,
 };
 pub use recorder::Ledger;
 pub use setup::*;

@@ -1,7 +1,7 @@
 //! What one accepted step leaves behind: every quantity a reader may ask for, SI and radians.
 
 use wingbeat_air::ImpulseAccount;
-use wingbeat_dynamics::{Mechanism, Passive};
+use wingbeat_dynamics::{BodyAcceleration, HingeReaction, Mechanism, Passive, Wrench};
 use wingbeat_math::{DMat3, DQuat, DVec3};
 use wingbeat_model::motion::Adjustment;
 
@@ -33,13 +33,13 @@ pub struct Record {
     /// Mass centre of the whole animal, N components [m].
     pub mass_centre: DVec3,
     /// Per body: accelerations.
-    pub accelerations: Vec<AccelerationRecord>,
+    pub accelerations: Vec<BodyAcceleration>,
     /// Lagrange multipliers in the seed's order [N, N m].
     pub multipliers: Vec<f64>,
-    /// Per hinge (wing): what the body does to the wing.
-    pub hinges: Vec<HingeRecord>,
+    /// Per hinge (wing): what the body does to the wing; powers are those of actuators, springs, dampers and stops.
+    pub hinges: Vec<HingeReaction>,
     /// Per joint that closes a loop: what the parent does to the child.
-    pub loops: Vec<HingeRecord>,
+    pub loops: Vec<HingeReaction>,
     /// Coordinate and rate along every free direction of every joint, in the order of the joints
     /// [rad or m, per s]; angles of revolute and universal joints go on beyond half a turn.
     pub joints: Vec<[f64; 2]>,
@@ -48,11 +48,11 @@ pub struct Record {
     /// Per elastic wing, in the order of the wings: how it is bent.
     pub elastic: Vec<ElasticRecord>,
     /// Per body: air load.
-    pub air: Vec<LoadRecord>,
+    pub air: Vec<Wrench>,
     /// Per body: applied load.
-    pub applied: Vec<LoadRecord>,
+    pub applied: Vec<Wrench>,
     /// Tether reaction on the root (zero in free flight).
-    pub tether: LoadRecord,
+    pub tether: Wrench,
     /// Kinetic energy [J].
     pub kinetic_energy: f64,
     /// Potential energy of weight, zero at the inertial origin, and elastic energy of wings [J].
@@ -207,8 +207,8 @@ impl Record {
     }
 }
 
-/// The impulse of a force, counted step by step with the trapezoidal rule: exact to the last digit
-/// over the beats of a periodic force.
+/// The impulse of a force since time 0, counted step by step with the trapezoidal rule: over whole beats of a periodic force
+/// it errs by no more than harmonics beyond half the steps in a beat.
 #[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct AirImpulse {
     time: f64,
@@ -218,7 +218,7 @@ pub struct AirImpulse {
 
 impl AirImpulse {
     /// Counts on to `time` [s], where the force is `force` [N]; returns the impulse up to there
-    /// [N s]. The first call sets the start.
+    /// [N s]. The first call, at time 0, sets the force of the start.
     pub fn count(&mut self, time: f64, force: DVec3) -> DVec3 {
         self.sum += 0.5 * (time - self.time) * (self.force + force);
         (self.time, self.force) = (time, force);
@@ -278,35 +278,6 @@ pub struct SectionRecord {
     pub twist: f64,
     /// Camber: largest height over its chord, over the chord, positive towards -axis 3 as prescribed camber is \[1\].
     pub camber: f64,
-}
-
-/// Accelerations of one body.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct AccelerationRecord {
-    /// Acceleration of the body's origin, N components [m/s2].
-    pub linear: DVec3,
-    /// Angular acceleration, body components [rad/s2].
-    pub angular: DVec3,
-}
-
-/// One hinge: what the parent does to the child there.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct HingeRecord {
-    /// Force on the wing at the hinge, N components [N].
-    pub force: DVec3,
-    /// Moment on the wing about the hinge, wing components [N m].
-    pub moment: DVec3,
-    /// Power at this hinge, positive when it feeds the wing [W]: of actuators, springs, dampers and stops.
-    pub power: f64,
-}
-
-/// Force and moment on one body.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct LoadRecord {
-    /// Force, N components [N].
-    pub force: DVec3,
-    /// Moment about the body's origin, N components [N m].
-    pub moment: DVec3,
 }
 
 /// The geometry of one instant, for pictures and for the eyes of ParaView.

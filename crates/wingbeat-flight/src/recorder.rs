@@ -3,7 +3,7 @@
 use std::f64::consts::{PI, TAU};
 
 use wingbeat_air::{AirState, WakeSheet};
-use wingbeat_dynamics::{Body, BodyMotion, Budget, Wrench};
+use wingbeat_dynamics::{Body, BodyMotion, Budget};
 use wingbeat_math::ode::StepReport;
 use wingbeat_math::{DQuat, DVec3};
 
@@ -12,7 +12,7 @@ use crate::equations::{Equations, Scratch};
 use crate::error::FlightError;
 use crate::memory::{AirMemory, wakes_of};
 use crate::quadratures::Quadratures;
-use crate::record::{AccelerationRecord, AirImpulse, HingeRecord, LoadRecord, PassiveWork, Record};
+use crate::record::{AirImpulse, PassiveWork, Record};
 use crate::turns;
 
 /// Below this |cos theta| Euler angles and their rates are not evaluated but kept: they lose
@@ -128,7 +128,7 @@ impl Sources<'_> {
         r.root_quaternion = quaternion(&s.motions[0]);
         r.root_angular_velocity = s.motions[0].w;
         r.mass_centre = solution.budget.centre;
-        refill(&mut r.accelerations, &solution.bodies, acceleration);
+        r.accelerations.clone_from(&solution.bodies);
         self.write_joints(time, ledger, r)?;
         r.violation_position = solution.violation.position;
         r.violation_orientation = solution.violation.orientation;
@@ -141,14 +141,14 @@ impl Sources<'_> {
     fn write_loads(&self, r: &mut Record) {
         let (s, solution) = (self.scratch, &self.scratch.solution);
         r.multipliers.clone_from(&solution.multipliers);
-        refill(&mut r.hinges, &solution.hinges, hinge);
-        refill(&mut r.loops, &solution.loops, hinge);
+        r.hinges.clone_from(&solution.hinges);
+        r.loops.clone_from(&solution.loops);
         let wings = 1..s.deformation.len().min(r.wing_angles.len() + 1);
         r.deformation_power.clear();
         (r.deformation_power).extend_from_slice(s.deformation.get(wings).unwrap_or(&[]));
-        refill(&mut r.air, &s.air, load);
-        refill(&mut r.applied, &s.applied, load);
-        r.tether = load(&solution.tether);
+        r.air.clone_from(&s.air);
+        r.applied.clone_from(&s.applied);
+        r.tether = solution.tether;
         self.equations.elastic.records(&s.elastic, &mut r.elastic);
     }
 
@@ -228,12 +228,6 @@ impl Sources<'_> {
     }
 }
 
-/// Makes `list` what `of` makes of `items`.
-fn refill<T, U>(list: &mut Vec<T>, items: &[U], of: impl Fn(&U) -> T) {
-    list.clear();
-    list.extend(items.iter().map(of));
-}
-
 /// All regularised events of the air so far.
 fn total_events(air: &AirState) -> u64 {
     air.events.limited + air.events.near_surface
@@ -242,28 +236,6 @@ fn total_events(air: &AirState) -> u64 {
 /// Angular momentum about the inertial origin.
 fn about_origin(b: &Budget) -> DVec3 {
     b.angular_momentum + b.centre.cross(b.momentum)
-}
-
-fn load(w: &Wrench) -> LoadRecord {
-    LoadRecord {
-        force: w.force,
-        moment: w.moment,
-    }
-}
-
-fn acceleration(a: &wingbeat_dynamics::BodyAcceleration) -> AccelerationRecord {
-    AccelerationRecord {
-        linear: a.linear,
-        angular: a.angular,
-    }
-}
-
-fn hinge(h: &wingbeat_dynamics::HingeReaction) -> HingeRecord {
-    HingeRecord {
-        force: h.force,
-        moment: h.moment,
-        power: h.power,
-    }
 }
 
 /// Unit quaternion (w, x, y, z) of R_NB with w >= 0.

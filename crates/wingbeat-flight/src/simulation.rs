@@ -144,7 +144,7 @@ impl Simulation {
         flight.scratch = Scratch::new(first);
         flight.scratch.elastic = first.elastic.scratch(&flight.state.wings);
         if let (Some(feedback), Some(state)) = (&mut flight.feedback, &flight.state.control) {
-            feedback.restore(state);
+            feedback.restore(state)?;
         }
         flight.lay_out()?;
         Ok(flight)

@@ -13,3 +13,17 @@ pub fn larger(a: f64, b: f64) -> f64 {
         false => b,
     }
 }
+
+/// The smaller of two; not a number where one of them is not, which [`f64::min`] leaves out.
+///
+/// ```
+/// use wingbeat_math::smaller;
+/// assert_eq!(smaller(1.0, 2.0), 1.0);
+/// assert!(smaller(f64::NAN, 2.0).is_nan() && smaller(2.0, f64::NAN).is_nan());
+/// ```
+pub fn smaller(a: f64, b: f64) -> f64 {
+    match a.is_nan() || a < b {
+        true => a,
+        false => b,
+    }
+}

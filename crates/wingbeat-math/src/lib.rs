@@ -31,7 +31,7 @@ mod smoothstep;
 mod split_mix;
 
 pub use euler::{EulerMatrices, EulerSequence};
-pub use extremes::larger;
+pub use extremes::{larger, smaller};
 pub use glam::{DMat3, DQuat, DVec2, DVec3};
 pub use iterative::{BiCgStab, Product};
 pub use lu::{DenseLu, LuError};
@@ -43,6 +43,6 @@ pub use rotation::{
 };
 pub use secants::{Secants, Shown};
 pub use series::{DriftingFourier, interpolate, with_harmonics};
-pub use small_lu::{SingularMatrix, solve_small};
+pub use small_lu::{SingularMatrix, SmallLu, solve_small};
 pub use smoothstep::{smoothstep, smoothstep7};
 pub use split_mix::SplitMix64;

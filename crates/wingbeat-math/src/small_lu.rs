@@ -29,24 +29,77 @@ pub struct SingularMatrix {
 pub fn solve_small(a: &mut [f64], b: &mut [f64]) -> Result<(), SingularMatrix> {
     let n = b.len();
     assert_eq!(a.len(), n * n, "a {n} x {n} matrix is needed");
-    let largest = a.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
-    let negligible = n as f64 * f64::EPSILON * largest;
+    let negligible = negligible(a, n);
     for k in 0..n {
-        exchange_pivot(a, b, k, negligible)?;
-        eliminate_below(a, b, k);
+        let pivot = exchange_pivot(a, n, k, negligible)?;
+        b.swap(k, pivot);
+        let bk = b[k];
+        eliminate_below(a, n, k, |i, factor| b[i] -= factor * bk);
     }
     substitute_back(a, b);
     Ok(())
 }
 
-/// Brings the largest entry of column k on or below the diagonal to the diagonal.
+/// A matrix that is eliminated once, for many right-hand sides: to the last bit what [`solve_small`] has for each.
+///
+/// ```
+/// let lu = wingbeat_math::SmallLu::new(vec![0.0, 2.0, 4.0, 0.0], 2).unwrap(); // 2 x_1, 4 x_0
+/// let mut b = [6.0, 4.0];
+/// lu.solve(&mut b);
+/// assert_eq!(b, [1.0, 3.0]);
+/// ```
+#[derive(Clone, Debug)]
+pub struct SmallLu {
+    /// The upper triangle, by rows.
+    upper: Vec<f64>,
+    /// Column by column: the row that was exchanged, and rows below with their multipliers.
+    steps: Vec<(usize, Vec<(usize, f64)>)>,
+}
+
+impl SmallLu {
+    /// Of the matrix `a` (row-major, n x n).
+    ///
+    /// # Errors
+    /// As [`solve_small`].
+    ///
+    /// # Panics
+    /// If `a` has not n x n entries.
+    pub fn new(mut a: Vec<f64>, n: usize) -> Result<Self, SingularMatrix> {
+        assert_eq!(a.len(), n * n, "a {n} x {n} matrix is needed");
+        let negligible = negligible(&a, n);
+        let step = |k: usize| {
+            let (pivot, mut below) = (exchange_pivot(&mut a, n, k, negligible)?, vec![]);
+            eliminate_below(&mut a, n, k, |i, factor| below.push((i, factor)));
+            Ok((pivot, below))
+        };
+        let steps = (0..n).map(step).collect::<Result<_, _>>()?;
+        Ok(Self { upper: a, steps })
+    }
+
+    /// Solves `A x = b` in place.
+    pub fn solve(&self, b: &mut [f64]) {
+        for (k, (pivot, below)) in self.steps.iter().enumerate() {
+            b.swap(k, *pivot);
+            let bk = b[k];
+            below.iter().for_each(|(i, factor)| b[*i] -= factor * bk);
+        }
+        substitute_back(&self.upper, b);
+    }
+}
+
+/// A pivot up to here is round-off.
+fn negligible(a: &[f64], n: usize) -> f64 {
+    let largest = a.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
+    n as f64 * f64::EPSILON * largest
+}
+
+/// Brings the largest entry of column k on or below the diagonal to the diagonal; returns its row.
 fn exchange_pivot(
     a: &mut [f64],
-    b: &mut [f64],
+    n: usize,
     k: usize,
     negligible: f64,
-) -> Result<(), SingularMatrix> {
-    let n = b.len();
+) -> Result<usize, SingularMatrix> {
     let (mut p, mut largest) = (k, 0.0);
     for i in k..n {
         let size = a[i * n + k].abs();
@@ -60,26 +113,23 @@ fn exchange_pivot(
     if p != k {
         let (upper, lower) = a.split_at_mut(p * n);
         upper[k * n..(k + 1) * n].swap_with_slice(&mut lower[..n]);
-        b.swap(k, p);
     }
-    Ok(())
+    Ok(p)
 }
 
-/// Subtracts multiples of row k from the rows below, skipping rows with a zero in column k.
-fn eliminate_below(a: &mut [f64], b: &mut [f64], k: usize) {
-    let n = b.len();
+/// Subtracts multiples of row k from the rows below, skipping rows with a zero in column k; tells rows and multipliers.
+fn eliminate_below(a: &mut [f64], n: usize, k: usize, mut tell: impl FnMut(usize, f64)) {
     let (upper, lower) = a.split_at_mut((k + 1) * n);
     let pivot_row = &upper[k * n + k..];
     let inverse = 1.0 / pivot_row[0];
-    let bk = b[k];
-    for (row, bi) in lower.chunks_exact_mut(n).zip(&mut b[k + 1..]) {
+    for (i, row) in (k + 1..).zip(lower.chunks_exact_mut(n)) {
         let row = &mut row[k..];
         if row[0] != 0.0 {
             let factor = row[0] * inverse;
             for (x, p) in row[1..].iter_mut().zip(&pivot_row[1..]) {
                 *x -= factor * p;
             }
-            *bi -= factor * bk;
+            tell(i, factor);
         }
     }
 }
@@ -119,6 +169,26 @@ mod tests {
         for j in 0..n {
             assert!((b[j] - x(j)).abs() < 1e-12); // condition number of order 10, x of order 10
         }
+    }
+
+    /// The same operations in the same order.
+    #[test]
+    fn exact_many_right_hand_sides_have_the_bits_of_one() {
+        let n = 9;
+        let entry =
+            |e: usize| ((e * e) as f64 * 0.37).sin() * f64::from(u8::from(!e.is_multiple_of(5)));
+        let a: Vec<f64> = (0..n * n).map(entry).collect();
+        let lu = SmallLu::new(a.clone(), n).unwrap();
+        for column in 0..4 {
+            let b: Vec<f64> = (0..n).map(|i| ((i + 7 * column) as f64).cos()).collect();
+            let (mut one, mut other) = (b.clone(), b);
+            solve_small(&mut a.clone(), &mut one).unwrap();
+            lu.solve(&mut other);
+            let bits = |x: &[f64]| x.iter().map(|x| x.to_bits()).collect::<Vec<_>>();
+            assert_eq!(bits(&one), bits(&other));
+        }
+        let singular = SmallLu::new(vec![1.0, 2.0, 2.0, 4.0], 2).map(drop);
+        assert_eq!(singular, Err(SingularMatrix { column: 1 }));
     }
 
     #[test]

@@ -7,7 +7,7 @@ use wingbeat_math::{DMat3, DVec3, RotationLaw};
 
 /// Instants of a beat at which wings are compared.
 pub(crate) const INSTANTS: usize = 100;
-/// Beats that are looked at of the faster wing that are looked at where two beat at different frequencies.
+/// Beats of the faster wing that are looked at where two beat at different frequencies.
 const BEATS: usize = 10;
 /// Lines of nodes along chord and span that are compared at most.
 const LINES: [usize; 2] = [9, 17];

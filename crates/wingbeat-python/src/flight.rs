@@ -130,10 +130,16 @@ impl Flight {
     }
 
     /// In air that `function` computes.
-    fn with_air(&self, py: Python<'_>, function: Py<PyAny>, has_memory: bool) -> PyResult<Self> {
+    fn with_air(
+        &self,
+        py: Python<'_>,
+        function: Py<PyAny>,
+        has_memory: bool,
+        is_steady_and_uniform: bool,
+    ) -> PyResult<Self> {
         let checked = self.case.check_own_air();
         checked.map_err(|e| raised(py, &IoError::Case(e).into()))?;
-        let air = air(function, &self.pending, has_memory);
+        let air = air(function, &self.pending, has_memory, is_steady_and_uniform);
         Ok(self.with(|flight| flight.setup.air = air))
     }
 

@@ -3,8 +3,8 @@
 use pyo3::prelude::*;
 use wingbeat::analysis::{
     AnalysisError, Bound as Limits, CONTROL_NAMES, ControlDerivative, LinearModel, Mode, ModeSet,
-    Power, STATE, TRIM_STEPS, TrimProblem, TrimRequest, UNKNOWNS, Unknown, floquet_of_trim,
-    input_matrix, linear_model, power_of_trim, trimmed_controls,
+    Power, STATE, TrimProblem, TrimRequest, UNKNOWNS, Unknown, floquet_of_trim, input_matrix,
+    linear_model, power_of_trim, trimmed_controls,
 };
 use wingbeat::case::{LoadedCase, trimmed_case};
 use wingbeat::math::DVec3;
@@ -26,37 +26,12 @@ pub fn problem(
     (velocity, turn_rate, unknowns, bounds): &Asked,
     steps: usize,
 ) -> PyResult<TrimProblem> {
-    let names = UNKNOWNS.map(|u| u.1).join(", ");
-    let known = |key: &str, name: &String| {
-        Unknown::from_name(name)
-            .ok_or_else(|| refused(py, key, &format!("`{name}` is not known"), &names))
+    let named = |list: &Vec<String>| {
+        list.iter()
+            .map(|name| known(py, "unknowns", name))
+            .collect()
     };
     let [forward, right, up] = *velocity;
-    let numbers = [
-        ("velocity_m_s", forward + right + up),
-        ("turn_rate_rad_s", *turn_rate),
-    ];
-    for (key, x) in numbers {
-        if !x.is_finite() {
-            return Err(refused(py, key, "it is not finite", "finite numbers"));
-        }
-    }
-    let [least, most] = TRIM_STEPS;
-    if !(least..=most).contains(&steps) {
-        let remedy = format!("{least} to {most} steps per wingbeat");
-        return Err(refused(py, "steps", "out of range", &remedy));
-    }
-    if let Some(unknowns) = unknowns {
-        let twice = (1..unknowns.len()).find(|&k| unknowns[..k].contains(&unknowns[k]));
-        if let Some(k) = twice {
-            let problem = format!("`{}` is named twice", unknowns[k]);
-            return Err(refused(py, "unknowns", &problem, &names));
-        }
-        if unknowns.len() < 3 {
-            return Err(refused(py, "unknowns", "fewer than three", &names));
-        }
-    }
-    let named = |list: &Vec<String>| list.iter().map(|name| known("unknowns", name)).collect();
     let request = TrimRequest {
         velocity: DVec3::new(forward, right, -up),
         turn_rate: *turn_rate,
@@ -65,23 +40,41 @@ pub fn problem(
         steps: Some(steps),
     };
     let mut problem = request.problem(&flight.setup);
-    for (name, from, to) in bounds {
-        let unknown = known("bounds", name)?;
-        let is_range = from < to && from.is_finite() && to.is_finite();
-        if !is_range || !problem.unknowns.contains(&unknown) {
-            let problem = format!("`{name}` from {from} to {to}");
-            let remedy = "finite, the first below the second, of what is among the unknowns";
-            return Err(refused(py, "bounds", &problem, remedy));
-        }
-        let (from, to) = (*from, *to);
-        let bound = Limits { unknown, from, to };
-        if let Err(problem) = bound.check() {
-            let remedy = "parts of 1, which is the whole of what the animal has";
-            return Err(refused(py, "bounds", &problem, remedy));
-        }
-        problem.bounds.push(bound);
-    }
+    let limits = bounds.iter().map(|b| limits(py, b, &problem.unknowns));
+    problem.bounds = limits.collect::<PyResult<_>>()?;
     Ok(problem)
+}
+
+/// The unknown of this name, given as `key`.
+fn known(py: Python<'_>, key: &str, name: &str) -> PyResult<Unknown> {
+    Unknown::from_name(name).ok_or_else(|| {
+        let names = UNKNOWNS.map(|u| u.1).join(", ");
+        refused(py, key, &format!("`{name}` is not known"), &names)
+    })
+}
+
+/// Between what one of the `unknowns` must lie.
+fn limits(
+    py: Python<'_>,
+    (name, from, to): &(String, f64, f64),
+    unknowns: &[Unknown],
+) -> PyResult<Limits> {
+    let unknown = known(py, "bounds", name)?;
+    let is_range = from < to && from.is_finite() && to.is_finite();
+    if !is_range || !unknowns.contains(&unknown) {
+        let problem = format!("`{name}` from {from} to {to}");
+        let remedy = "finite, the first below the second, of what is among the unknowns";
+        return Err(refused(py, "bounds", &problem, remedy));
+    }
+    let (from, to) = (*from, *to);
+    let bound = Limits { unknown, from, to };
+    match bound.check() {
+        Ok(()) => Ok(bound),
+        Err(problem) => {
+            let remedy = "parts of 1, which is the whole of what the animal has";
+            Err(refused(py, "bounds", &problem, remedy))
+        }
+    }
 }
 
 /// Trims the flight, its feedback left out.

@@ -157,7 +157,7 @@ impl Controller for Steered {
             self.function.function.call1(py, (seen,))?.extract(py)
         });
         let numbers = self.function.pending.keep(answer)?;
-        let command: Vec<Adjustment> = numbers.into_iter().map(adjustment).collect();
+        let command: Vec<Adjustment> = numbers.into_iter().map(Adjustment::of_numbers).collect();
         if let [one] = &command[..] {
             return for_all(&self.wings, one);
         }
@@ -166,33 +166,31 @@ impl Controller for Steered {
     }
 }
 
-/// From the numbers of `wingbeat.Adjustment`, in its order.
-fn adjustment(x: [f64; 8]) -> Adjustment {
-    Adjustment {
-        stroke_amplitude: x[0],
-        stroke_offset: x[1],
-        feathering_offset: x[2],
-        feathering_amplitude: x[3],
-        feathering_lead: x[4],
-        deviation_offset: x[5],
-        stroke_plane: x[6],
-        frequency: x[7],
-    }
-}
-
 /// Air that Python computes.
 #[derive(Clone, Debug)]
-struct PythonAir(Function);
+struct PythonAir {
+    function: Function,
+    is_steady_and_uniform: bool,
+}
 
 /// The air of `function`, called with time [s] and the motions of all bodies, shape (bodies, 18): origin,
 /// rotation to N by rows, velocity, angular velocity in body components; it answers forces and moments about
 /// the origins, N components, shape (bodies, 6). An air with a memory hears which steps are accepted
-/// (`function.accept(step)`), and is called with the number of the step as well.
-pub fn air(function: Py<PyAny>, pending: &PendingException, has_memory: bool) -> AirModel {
-    let air = PythonAir(Function {
-        function: Arc::new(function),
-        pending: pending.clone(),
-    });
+/// (`function.accept(step)`), and is called with the number of the step as well. Loads that
+/// `is_steady_and_uniform` depend on the motions alone, not on time or place.
+pub fn air(
+    function: Py<PyAny>,
+    pending: &PendingException,
+    has_memory: bool,
+    is_steady_and_uniform: bool,
+) -> AirModel {
+    let air = PythonAir {
+        function: Function {
+            function: Arc::new(function),
+            pending: pending.clone(),
+        },
+        is_steady_and_uniform,
+    };
     match has_memory {
         true => AirModel::External(Arc::new(air)),
         false => AirModel::Own(Arc::new(air)),
@@ -210,7 +208,7 @@ impl PythonAir {
         let answer = Python::attach(|py| {
             let numbers = motions.iter().flat_map(numbers).collect();
             let motions = array(py, numbers, &[motions.len(), 18])?;
-            let answer = self.0.function.call1(py, (step, time, motions))?;
+            let answer = self.function.function.call1(py, (step, time, motions))?;
             let loads = answer.bind(py).cast::<PyArray2<f64>>()?.readonly();
             for (load, row) in out.iter_mut().zip(loads.as_slice()?.as_chunks::<6>().0) {
                 load.force = DVec3::from_slice(row);
@@ -218,7 +216,7 @@ impl PythonAir {
             }
             Ok(())
         });
-        self.0.pending.keep(answer)
+        self.function.pending.keep(answer)
     }
 }
 
@@ -239,19 +237,21 @@ impl Air for PythonAir {
         self.call(None, at.time, at.motions, out)
             .map_err(FlightError::External)
     }
+
+    fn is_steady_and_uniform(&self) -> bool {
+        self.is_steady_and_uniform
+    }
 }
 
 impl ExternalAir for PythonAir {
     fn open(&self, flyer: &Announcement) -> Result<Box<dyn ExternalSession>, String> {
         let opened = Python::attach(|py| {
             let bodies = flyer.bodies.clone();
-            let open = self
-                .0
-                .function
-                .call_method1(py, "open", (bodies, flyer.step));
+            let open = &self.function.function;
+            let open = open.call_method1(py, "open", (bodies, flyer.step));
             open.map(drop)
         });
-        self.0.pending.keep(opened)?;
+        self.function.pending.keep(opened)?;
         Ok(Box::new(self.clone()))
     }
 }
@@ -269,9 +269,10 @@ impl ExternalSession for PythonAir {
 
     fn accept(&mut self, step: usize) -> Result<(), String> {
         let accepted = Python::attach(|py| {
-            let accept = self.0.function.call_method1(py, "accept", (step,));
+            let accept = &self.function.function;
+            let accept = accept.call_method1(py, "accept", (step,));
             accept.map(drop)
         });
-        self.0.pending.keep(accepted)
+        self.function.pending.keep(accepted)
     }
 }

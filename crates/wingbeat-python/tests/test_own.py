@@ -155,6 +155,30 @@ def test_exact_a_steady_force_on_the_body_accelerates_all_of_it():
     np.testing.assert_allclose(moved, expected, atol=1e-9 * expected[-1])
 
 
+def test_behaves_air_written_in_python_is_trimmed_in_where_it_says_that_it_is_steady(blade):
+    """Air that carries the weight whatever the wings do, with drag and damping, as a gust may change it."""
+    weight = 9.81 * blade.mass_kg
+
+    def air(motions: wingbeat.Motions) -> np.ndarray:
+        loads = np.zeros((3, 6))
+        loads[0, :3] = -1e-5 * motions.velocity_m_per_s[0] - np.array([0.0, 0.0, weight])
+        loads[0, 3:] = -1e-9 * motions.angular_velocity_rad_per_s[0]
+        return loads
+
+    with pytest.raises(wingbeat.AnalysisError, match="model of your own") as caught:
+        blade.with_air(air).trim()
+    assert "is_steady_and_uniform" in caught.value.remedy
+    air.is_steady_and_uniform = True
+    try:
+        blade.with_air(air).trim()  # flown, whether steady flight is found or not
+    except wingbeat.AnalysisError as error:
+        assert "model of your own" not in str(error)
+    air.is_steady_and_uniform = "yes"
+    with pytest.raises(wingbeat.CaseError, match="is_steady_and_uniform") as caught:
+        blade.with_air(air)
+    assert caught.value.key == "air"
+
+
 class Remembering:
     """Air with a memory: drag of the body by its velocity at the last accepted step."""
 

@@ -3,7 +3,9 @@
 //!
 //! `table` holds the quantities; everything else follows from it: the header, the numbers of a row, the
 //! record read back from a row and units and frames of the exports. Nobody else
-//! knows names of columns, and nobody takes them apart.
+//! writes names of columns. Who reads a history by itself, without its case or record by record, finds families of columns by the
+//! beginnings and ends of their names: total force and driving power ([`crate::summary::air_force`],
+//! [`crate::summary::driving_power`]), angles of joints in the figures.
 
 use std::path::Path;
 
@@ -291,6 +293,11 @@ impl Columns {
         for (column, value) in own.filter(|(c, _)| c.fold == Fold::Last) {
             *value = column.entry(record).get();
         }
+    }
+
+    /// The number of column `k` of a record of its flight, which stays as it is.
+    pub fn value(&self, k: usize, record: &mut Record) -> f64 {
+        self.list[k].entry(record).get()
     }
 
     /// Puts the number of column `k` into a record of [`Self::blank`]'s shape.

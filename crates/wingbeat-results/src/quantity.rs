@@ -2,6 +2,7 @@
 //! in a [`Record`].
 
 use wingbeat_flight::Record;
+use wingbeat_math::{larger, smaller};
 
 /// What decides on frames and units.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -73,8 +74,8 @@ impl Fold {
         match self {
             Self::Last => value,
             Self::Sum => so_far + value,
-            Self::Largest => so_far.max(value),
-            Self::Smallest => so_far.min(value),
+            Self::Largest => larger(so_far, value),
+            Self::Smallest => smaller(so_far, value),
         }
     }
 }
@@ -380,4 +381,18 @@ pub(crate) const fn scalar(
     entry: fn(&mut Record, usize, usize) -> Entry<'_>,
 ) -> Quantity {
     Quantity::scalar(name, unit, about, entry)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Fold;
+
+    #[test]
+    fn behaves_rows_of_a_thinned_history_keep_numbers_that_are_none() {
+        for fold in [Fold::Sum, Fold::Largest, Fold::Smallest] {
+            assert!(fold.join(f64::NAN, 1.0).is_nan() && fold.join(1.0, f64::NAN).is_nan());
+        }
+        assert_eq!(Fold::Largest.join(1.0, 2.0), 2.0);
+        assert_eq!(Fold::Smallest.join(1.0, 2.0), 1.0);
+    }
 }

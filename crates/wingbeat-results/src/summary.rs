@@ -20,6 +20,7 @@ mod words;
 use std::path::Path;
 
 use wingbeat_flight::{FlightSetup, MotionMode, Record};
+use wingbeat_math::{larger, smaller};
 
 use super::Outcome;
 pub use beats::{BeatMeans, Beats, down, over_weight};
@@ -107,7 +108,7 @@ impl Summary {
             momentum_residual_relative: momentum_residual(setup, each, s.last.time),
             violation_position_m: each.violation_position.most,
             violation_orientation: each.violation_orientation.most,
-            euler_regularity: each.euler_regularity.least.min(1.0),
+            euler_regularity: smaller(each.euler_regularity.least, 1.0),
             corrector_passes_most: each.corrector_passes.most as usize,
             corrector_passes_mean: each.passes_sum as f64 / each.steps.max(1) as f64,
             regularised: s.regularised,
@@ -160,7 +161,7 @@ fn energy_scale(s: &EachStep) -> f64 {
         POTENTIAL_FLOOR * s.potential_energy.most,
     ];
     let works = works.map(|w| w.most);
-    energies.into_iter().chain(works).fold(0.0, f64::max)
+    energies.into_iter().chain(works).fold(0.0, larger)
 }
 
 /// Largest residual over the largest of what is in play: the momentum, the impulse of the weight, and
@@ -174,7 +175,7 @@ fn momentum_residual(setup: &FlightSetup, s: &EachStep, time: f64) -> f64 {
     };
     let impulse = mass * setup.gravity.length() * time;
     let of_parts = (2.0 * mass * s.kinetic_energy.most).sqrt();
-    let scale = impulse.max(s.momentum.most).max(of_parts);
+    let scale = larger(larger(impulse, s.momentum.most), of_parts);
     ratio(s.momentum_residual.most, scale)
 }
 
@@ -207,7 +208,7 @@ pub fn ordinal(number: usize) -> String {
 }
 
 fn ratio(x: f64, scale: f64) -> f64 {
-    if scale > 0.0 { x / scale } else { x }
+    if scale == 0.0 { x } else { x / scale }
 }
 
 /// Total air force along a direction, row by row \[N\].

@@ -4,9 +4,9 @@ use crate::flights::{flown, preset, says};
 use std::path::Path;
 use wingbeat_case::LoadedCase;
 use wingbeat_case::raw::{AirCase, AirModel, BodyCase, Case, FlightCase, OutputCase, TimeCase};
-use wingbeat_flight::Simulation;
+use wingbeat_flight::{Record, Simulation};
 use wingbeat_results::summary::Verdict;
-use wingbeat_results::{Outcome, ResultDir, RunWriter, saver};
+use wingbeat_results::{Outcome, ResultDir, RunWriter, Summary, saver};
 
 /// A body alone, without weight, turning at `rate` [deg/s].
 fn rigid(name: &str, rate: [f64; 3]) -> LoadedCase {
@@ -398,6 +398,31 @@ fn behaves_the_verdict_follows_the_balances() {
     }
 }
 /// A flyer whose waist is free keeps its momentum to second order in the step where its wings are elastic.
+/// Numbers that are none in one step of a flight are a fault, whatever comes after them.
+#[test]
+fn behaves_balances_with_numbers_that_are_none_are_red() {
+    let case = preset("fruit-fly-blade", &["time.beats=1"]);
+    let mut flight = Simulation::new(case.setup.clone()).unwrap();
+    let mut records = vec![flight.record().clone()];
+    while !flight.finished() {
+        records.push(flight.step().unwrap().clone());
+    }
+    let summary = |records: &[_]| Summary::of(&case.setup, records, &Outcome::Finished);
+    assert!(!says(&summary(&records), "balance does not close"));
+    let spoilt: [fn(&mut Record); 3] = [
+        |r| r.energy_residual = f64::NAN,
+        |r| r.kinetic_energy = f64::NAN,
+        |r| r.momentum_residual.y = f64::NAN,
+    ];
+    for spoil in spoilt {
+        let mut records = records.clone();
+        spoil(&mut records[20]);
+        let summary = summary(&records);
+        assert!(says(&summary, "balance does not close: residual NaN"));
+        assert_eq!(summary.verdict, Verdict::Red);
+    }
+}
+
 #[test]
 fn behaves_elastic_wings_beside_a_free_waist_raise_no_alarm() {
     let text = include_str!("data/elastic-free-waist.toml");

@@ -165,7 +165,7 @@ fn unbalanced<L: Loading + ?Sized>(p: &Problem<'_, L>, at: &Configuration, s: &m
     };
     inertial(p.structure, &motion, &p.frame, &mut s.residual);
     let free = p.structure.number.iter().map(|&k| s.residual[k].abs());
-    free.fold(0.0, f64::max)
+    free.fold(0.0, larger)
 }
 
 /// Assembles and factorises the tangent.

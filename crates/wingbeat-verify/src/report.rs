@@ -7,6 +7,21 @@ use crate::case::{Case, Part};
 use crate::cases::select;
 use crate::row::{Comparison, Row, Verdict, VerifyError};
 
+/// Columns of the table for machines.
+const COLUMNS: [&str; 11] = [
+    "case",
+    "quantity",
+    "unit",
+    "reference",
+    "source",
+    "computed",
+    "error",
+    "uncertainty",
+    "tolerance",
+    "verdict",
+    "reason",
+];
+
 /// What one case gave.
 #[derive(Clone, Debug, serde::Serialize, serde::Deserialize)]
 pub struct Entry {
@@ -177,9 +192,9 @@ impl Report {
 
     /// One row a line, comma separated, with a header.
     pub fn csv(&self) -> String {
-        let mut text = String::from(
-            "case,quantity,unit,reference,source,computed,error,uncertainty,tolerance,verdict,reason\n",
-        );
+        const LOST: &str = "a table in memory takes all rows";
+        let mut table = csv::Writer::from_writer(vec![]);
+        table.write_record(COLUMNS).expect(LOST);
         for e in &self.entries {
             for r in &e.rows {
                 let cells = [
@@ -195,14 +210,18 @@ impl Report {
                     word(r.verdict()).to_owned(),
                     r.reason.to_string(),
                 ];
-                let cells = cells.map(|c| quoted(&c));
-                let _ = writeln!(text, "{}", cells.join(","));
+                let plain = cells.map(|c| c.replace("**", ""));
+                table.write_record(plain).expect(LOST);
             }
             if let Some(failure) = &e.failure {
-                let _ = writeln!(text, "{},,,,,,,,,fail,{}", e.case, quoted(failure));
+                let mut cells = [""; COLUMNS.len()];
+                let failure = failure.replace("**", "");
+                (cells[0], cells[9], cells[10]) = (&e.case, "fail", &failure);
+                table.write_record(cells).expect(LOST);
             }
         }
-        text
+        let text = table.into_inner().expect(LOST);
+        String::from_utf8(text).expect("cells are texts")
     }
 
     /// From JSON that [`Self::json`] wrote.
@@ -298,14 +317,6 @@ fn number(x: f64) -> String {
 
 fn exact(x: Option<f64>) -> String {
     x.map_or(String::new(), |x| format!("{x:e}"))
-}
-
-fn quoted(cell: &str) -> String {
-    let plain = cell.replace("**", "");
-    match plain.contains([',', '"', '\n']) {
-        true => format!("\"{}\"", plain.replace('"', "\"\"")),
-        false => plain,
-    }
 }
 
 #[cfg(test)]

@@ -95,12 +95,8 @@ pub struct FastSum {
 impl FastSum {
     /// No sources yet. Instructions this processor lacks are replaced by the best it has.
     pub fn new(settings: FastSettings) -> Self {
-        let best = || {
-            InstructionSet::Best
-                .level()
-                .expect("the best is always there")
-        };
-        let level = settings.instructions.level().unwrap_or_else(best);
+        let level = settings.instructions.level();
+        let level = level.unwrap_or_else(InstructionSet::best);
         let is_single = settings.tolerance >= SINGLE;
         let cells = Cells::new(settings.model, level, order(settings.tolerance), is_single);
         let (groups, segments) = (Groups::default(), Network::default());

@@ -71,9 +71,8 @@ pub struct GaussianReport {
 
 impl Default for GaussianSum {
     fn default() -> Self {
-        let best = InstructionSet::Best.level();
         Self {
-            level: best.expect("the best set is always there"),
+            level: InstructionSet::best(),
             loaded: Vec::new(),
             levels: Vec::new(),
             meshes: Default::default(),

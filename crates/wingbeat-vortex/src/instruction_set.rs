@@ -35,10 +35,15 @@ impl InstructionSet {
         .collect()
     }
 
+    /// The best set of this processor in `fearless_simd`'s terms.
+    pub fn best() -> Level {
+        Level::new()
+    }
+
     /// The set in `fearless_simd`'s terms; None where the processor lacks it.
     #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
     pub fn level(self) -> Option<Level> {
-        let best = Level::new();
+        let best = Self::best();
         match self {
             Self::Best => Some(best),
             Self::Scalar => Some(Level::fallback()),
@@ -53,7 +58,7 @@ impl InstructionSet {
     #[cfg(not(any(target_arch = "x86", target_arch = "x86_64")))]
     pub fn level(self) -> Option<Level> {
         match self {
-            Self::Best => Some(Level::new()),
+            Self::Best => Some(Self::best()),
             Self::Scalar => Some(Level::fallback()),
             #[cfg(target_arch = "aarch64")]
             Self::Neon => Level::new().as_neon().map(Level::Neon),

@@ -7,15 +7,7 @@ use std::path::Path;
 
 use wingbeat::case::insect::{SPECIES, Species};
 
-use support::{Scratch, contents, wingbeat};
-
-/// Standard output of a command that succeeds.
-fn said(dir: &Path, args: &[&str]) -> String {
-    let out = wingbeat(dir, args);
-    let problem = String::from_utf8_lossy(&out.stderr);
-    assert!(out.status.success(), "{args:?}: {problem}");
-    String::from_utf8(out.stdout).unwrap()
-}
+use support::{Scratch, contents, said, wingbeat};
 
 /// Standard error of a command that is refused.
 fn refused(dir: &Path, args: &[&str]) -> String {

@@ -3,10 +3,9 @@
 mod support;
 
 use std::fs;
-use std::path::Path;
 
 use serde_json::Value;
-use support::{Scratch, flown, quick_case, wingbeat};
+use support::{Scratch, flown, quick_case, said, wingbeat};
 
 /// Every command that analyses, with a name that its JSON has.
 const ANALYSES: [(&[&str], &str); 13] = [
@@ -34,13 +33,6 @@ const ANALYSES: [(&[&str], &str); 13] = [
 ];
 
 /// Standard output of a command that succeeds.
-fn said(dir: &Path, args: &[&str]) -> String {
-    let out = wingbeat(dir, args);
-    let problem = String::from_utf8_lossy(&out.stderr);
-    assert!(out.status.success(), "{args:?}: {problem}");
-    String::from_utf8(out.stdout).unwrap()
-}
-
 /// Without the cost, which is measured and never the same.
 fn steady(text: &str) -> String {
     let lines = text.lines().filter(|l| !l.starts_with("cost"));

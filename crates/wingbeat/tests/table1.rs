@@ -4,7 +4,7 @@ mod support;
 
 use std::fs;
 
-use support::{Scratch, wingbeat};
+use support::{Scratch, said};
 
 /// Presets with the trim that belongs to them; none for the linear rows.
 const ROWS: [(&str, &[&str]); 12] = [
@@ -39,19 +39,12 @@ const CRUISE_8: &[&str] = &[
     "mass_centre",
 ];
 
-fn said(scratch: &Scratch, args: &[&str]) -> String {
-    let out = wingbeat(&scratch.0, args);
-    let problem = String::from_utf8_lossy(&out.stderr);
-    assert!(out.status.success(), "{args:?}: {problem}");
-    String::from_utf8(out.stdout).unwrap()
-}
-
 #[test]
 fn balances_every_row_flies() {
     let scratch = Scratch::new("table1-run");
     for (preset, _) in ROWS {
         said(
-            &scratch,
+            &scratch.0,
             &[
                 "run",
                 preset,
@@ -83,7 +76,7 @@ fn balances_every_row_flies() {
 fn balances_every_flapping_row_trims_and_has_modes() {
     let scratch = Scratch::new("table1-trim");
     for (preset, trim) in ROWS {
-        let text = said(&scratch, &[&["stability", preset], trim].concat());
+        let text = said(&scratch.0, &[&["stability", preset], trim].concat());
         assert!(text.contains("longitudinal"), "{preset}: {text}");
         if !trim.is_empty() {
             assert!(text.contains("trimmed after"), "{preset}: {text}");
@@ -111,7 +104,7 @@ fn names(text: &str, count: usize) -> Vec<String> {
 fn published_locust_has_a_divergence_a_subsidence_and_a_stable_oscillation() {
     // Taylor & Thomas 2003 measured that structure. Our blade elements find it, not its numbers.
     let scratch = Scratch::new("table1-locust");
-    let text = said(&scratch, &["stability", "table1-taylor-thomas-2003"]);
+    let text = said(&scratch.0, &["stability", "table1-taylor-thomas-2003"]);
     assert_eq!(
         names(&text, 3),
         ["divergence", "subsidence", "stable oscillation"]
@@ -124,7 +117,7 @@ fn agrees_hawkmoth_eigenvalues_with_an_independent_calculation() {
     // forces made dimensionless by rho U^2 S: half the density of the preset's rho U^2 S / 2.
     let scratch = Scratch::new("table1-hawkmoth");
     let text = said(
-        &scratch,
+        &scratch.0,
         &[
             "stability",
             "table1-sun-2007-hawkmoth",

@@ -170,7 +170,7 @@ impl Flyer {
             model.method.advance(t, h, &mut self.y, rates)?;
             self.steps += 1;
         }
-        trim.beat.normalise(&mut self.y);
+        trim.beat.flight().form().to_unit_length(&mut self.y);
         let end = self.steps as f64 * h;
         self.root = model.flight.root(end, &self.y, &mut model.scratch)?;
         Ok(())

@@ -13,6 +13,8 @@
 //! With the gains of the regulator on x^ this is the linear-quadratic-Gaussian regulator: the eigenvalues of the closed
 //! loop are those of regulator and filter.
 
+use wingbeat_flight::control::fits;
+
 use super::plant::{Plant, STATES, natural_sizes};
 use super::riccati::{product, solve_columns};
 use crate::AnalysisError;
@@ -119,8 +121,15 @@ impl Observer {
     }
 
     /// Goes on from what it remembered.
-    pub fn restore(&mut self, memory: &[f64]) {
+    ///
+    /// # Errors
+    /// A memory of another filter.
+    pub fn restore(&mut self, memory: &[f64]) -> Result<(), String> {
+        if !memory.is_empty() {
+            fits(memory, self.gains[0].len().isqrt())?;
+        }
         self.expected = (!memory.is_empty()).then(|| memory.to_vec());
+        Ok(())
     }
 }
 

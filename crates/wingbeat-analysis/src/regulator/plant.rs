@@ -5,9 +5,9 @@ use wingbeat_math::DVec3;
 use crate::AnalysisError;
 use crate::beat::{Beat, JOINTS};
 use crate::departure::{CONTROLS, Controls, Departure, adjustments};
+use crate::jacobian::jacobian;
 use crate::level::{Level, Perturbation};
 use crate::modes::Scales;
-use crate::monodromy::monodromy;
 use crate::part::{Orbit, Part};
 use crate::trim::Trim;
 
@@ -59,7 +59,7 @@ impl Plant {
         let mut sizes = natural_sizes(&trim.beat);
         sizes.extend([1.0; 2 * CONTROLS]);
         let steps: Vec<f64> = sizes.iter().map(|size| 1e-4 * size).collect();
-        let d = monodromy(map, &all, &steps)?;
+        let d = jacobian(map, &all, &steps)?;
         let columns = states + 2 * CONTROLS;
         let block = |from: usize, width: usize| {
             let entry = |k: usize| d[(k / width) * columns + from + k % width];

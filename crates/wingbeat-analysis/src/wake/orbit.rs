@@ -53,7 +53,7 @@ pub fn check_alike(setup: &FlightSetup) -> Result<(), AnalysisError> {
     };
     match has_wind || changes {
         false => Ok(()),
-        true => Err(changing_air()),
+        true => Err(changing_air(setup)),
     }
 }
 

@@ -22,7 +22,7 @@ pub fn fly() -> FlightSetup {
     let options = FlyOptions::default();
     let mut animal = drosophila_melanogaster(&options).unwrap();
     animal.parts.clear();
-    hovering(animal, options.frequency, HOVER_BODY_PITCH)
+    flying(animal, options.frequency, HOVER_BODY_PITCH)
 }
 
 /// The hawkmoth of the preset `hawkmoth-blade` without its body's surface: wings of 5.7 % of the mass.
@@ -74,11 +74,11 @@ pub fn moth() -> FlightSetup {
         wings: vec![right.mirrored("left"), right],
         segments: vec![],
     };
-    hovering(animal, frequency, pitch)
+    flying(animal, frequency, pitch)
 }
 
 /// An animal in free flight at rest with this body pitch \[rad\], ten strips a wing.
-fn hovering(animal: Animal, frequency: f64, pitch: f64) -> FlightSetup {
+fn flying(animal: Animal, frequency: f64, pitch: f64) -> FlightSetup {
     let period = 1.0 / frequency;
     let air = AirModel::BladeElement(BladeOptions {
         blade: BladeSettings::insect(RHO),
@@ -109,6 +109,11 @@ pub fn hover(steps: usize) -> TrimProblem {
         },
         ..TrimProblem::straight(DVec3::ZERO, HOVER_BODY_PITCH)
     }
+}
+
+/// The fruit fly, trimmed for it.
+pub fn hovering(steps: usize) -> Trim {
+    trim(&fly(), &hover(steps)).expect("the fruit fly")
 }
 
 /// Determinant of the n x n matrix `a` given by rows, by elimination with row exchanges.

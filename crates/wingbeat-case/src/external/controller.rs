@@ -341,25 +341,19 @@ impl Controller for Conversation {
         [&command[..], &origin, &[begun], &self.memory].concat()
     }
 
-    fn restore(&mut self, memory: &[f64]) {
+    fn restore(&mut self, memory: &[f64]) -> Result<(), String> {
         let split = memory.split_at_checked(NUMBERS * self.command.len());
         let Some((command, [x, y, z, begun, memory @ ..])) = split else {
-            return;
+            let problem = "it has no commands; resume with the case that was saved with it";
+            return Err(problem.to_owned());
         };
         self.origin = (*begun != 0.0).then(|| DVec3::new(*x, *y, *z));
         self.is_limited = *begun == 2.0;
         for (a, x) in self.command.iter_mut().zip(command.chunks(NUMBERS)) {
-            *a = Adjustment {
-                stroke_amplitude: x[0],
-                stroke_offset: x[1],
-                feathering_offset: x[2],
-                feathering_amplitude: x[3],
-                feathering_lead: x[4],
-                deviation_offset: x[5],
-                stroke_plane: x[6],
-                frequency: 0.0,
-            };
+            let number = |k: usize| x.get(k).copied().unwrap_or(0.0); // the frequency
+            *a = Adjustment::of_numbers(std::array::from_fn(number));
         }
         self.memory = memory.to_vec();
+        Ok(())
     }
 }

@@ -3,6 +3,7 @@
 use std::fmt::Write as _;
 
 use super::drawing::{Anchor, Colour, Drawing, Mark, Stroke};
+use crate::markup::escaped;
 
 /// Fonts of about the same widths, the one widths are computed with first.
 const FONTS: &str = "'DejaVu Sans', Verdana, sans-serif";
@@ -105,11 +106,6 @@ fn number(x: f64) -> String {
     let text = format!("{x:.2}");
     let short = text.trim_end_matches('0').trim_end_matches('.');
     if short == "-0" { "0" } else { short }.to_owned()
-}
-
-fn escaped(text: &str) -> String {
-    let text = text.replace('&', "&amp;").replace('<', "&lt;");
-    text.replace('>', "&gt;").replace('"', "&quot;")
 }
 
 #[cfg(test)]

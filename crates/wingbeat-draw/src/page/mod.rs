@@ -18,6 +18,8 @@ use std::path::PathBuf;
 use wingbeat_case::IoError;
 use wingbeat_results::{Outcome, ResultDir};
 
+use crate::markup::escaped;
+
 /// Name of the page in a result directory.
 pub const FILE: &str = "flight.html";
 /// Size of a page unless told otherwise \[bytes\].
@@ -148,9 +150,4 @@ pub(crate) fn fill(template: &str, parts: &[(&str, &str)]) -> String {
     }
     page.push_str(rest);
     page
-}
-
-pub(crate) fn escaped(text: &str) -> String {
-    let text = text.replace('&', "&amp;").replace('<', "&lt;");
-    text.replace('>', "&gt;").replace('"', "&quot;")
 }

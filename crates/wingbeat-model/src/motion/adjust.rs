@@ -102,7 +102,7 @@ impl Adjustment {
     }
 
     /// From the numbers in the order of [`Self::numbers`].
-    fn of_numbers(x: [f64; 8]) -> Self {
+    pub fn of_numbers(x: [f64; 8]) -> Self {
         let [
             stroke_amplitude,
             stroke_offset,

@@ -6,7 +6,7 @@
 use crate::error::{ModelError, in_row};
 use crate::motion::fourier::Fourier;
 use std::f64::consts::TAU;
-use wingbeat_math::{SingularMatrix, solve_small};
+use wingbeat_math::{SingularMatrix, SmallLu};
 
 /// Rows of the matrix that makes the coefficients (mean, cosines, sines in turn) of the values at some phases: least squares.
 pub(crate) struct FourierFit(Vec<Vec<f64>>);
@@ -34,14 +34,9 @@ impl FourierFit {
                 normal[a * size + b] += row[a] * row[b];
             }
         }
-        let column = |row: &Vec<f64>| {
-            let mut x = row.clone();
-            solve_small(&mut normal.clone(), &mut x).map(|()| x)
-        };
-        let columns = rows
-            .iter()
-            .map(column)
-            .collect::<Result<Vec<Vec<f64>>, _>>()?;
+        let normal = SmallLu::new(normal, size)?;
+        let mut columns = rows;
+        columns.iter_mut().for_each(|x| normal.solve(x));
         let row = |k: usize| columns.iter().map(|c| c[k]).collect();
         Ok(Self((0..size).map(row).collect()))
     }

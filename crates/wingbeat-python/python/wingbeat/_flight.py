@@ -151,15 +151,23 @@ class Flight:
         """A new flight in the air that ``air`` computes: called with :class:`wingbeat.Motions`, it answers with forces [N]
         and moments about the origins of all bodies [N m], N components, shape (bodies, 6). It is called several times a
         step. Air with a memory has a method ``accept(step)``, told which step holds (docs/external-air.md), and may
-        have ``open(names, step_s)``.
+        have ``open(names, step_s)``. Air whose attribute ``is_steady_and_uniform`` is True can be trimmed in: its loads depend
+        on velocities and attitudes alone, not on time or place. Of other air no wingbeat is taken to be like the next.
 
         It takes the place of the air of the case, of which it knows nothing: streams, gusts, vortex streets, shear and the ground of
         the case are refused, and keys of the air that :meth:`set` gave; ``set(KEY, None)`` takes them away.
         """
         if not callable(air):
             raise CaseError("air: the model of the air cannot be called", key="air", remedy="a function of Motions")
+        is_steady = getattr(air, "is_steady_and_uniform", False)
+        if not isinstance(is_steady, bool):
+            raise CaseError(
+                f"air: is_steady_and_uniform = {is_steady!r:.60}",
+                key="air",
+                remedy="True where the loads depend on the motions alone, not on time or place; False",
+            )
         has_memory = callable(getattr(air, "accept", None))
-        return Flight(self._core.with_air(Loads(air, self._core.body_count), has_memory))
+        return Flight(self._core.with_air(Loads(air, self._core.body_count), has_memory, is_steady))
 
     def _most_looks(self, steps: int) -> int:
         """How many looks later a command may act: 20 wingbeats, and within the flight."""

@@ -71,7 +71,7 @@ impl Seen {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use wingbeat_flight::LoadRecord;
+    use wingbeat_dynamics::Wrench;
 
     /// Longest run of a force along n3 on one wing, the body beside it alternating all the time.
     fn longest(force: impl Fn(usize) -> f64, every: usize) -> usize {
@@ -82,9 +82,9 @@ mod tests {
     fn longest_of(wings: usize, force: impl Fn(usize) -> f64, every: usize) -> usize {
         let mut seen = Alternation::default();
         for step in (0..400).step_by(every) {
-            let of = |f: f64| LoadRecord {
+            let of = |f: f64| Wrench {
                 force: DVec3::new(0.0, 0.0, f),
-                ..LoadRecord::default()
+                ..Wrench::default()
             };
             let body = if step % 2 == 0 { 1.0 } else { -1.0 };
             let record = Record {

@@ -95,7 +95,7 @@ impl<'a> Beats<'a> {
 mod tests {
     use super::*;
     use wingbeat_case::LoadedCase;
-    use wingbeat_flight::LoadRecord;
+    use wingbeat_dynamics::Wrench;
     use wingbeat_flight::record::AirImpulse;
 
     /// Lift m g cos^2 x has the mean m g / 2, to which the trapezoidal rule is exact; work that grows
@@ -120,7 +120,7 @@ mod tests {
                 hinge_work: 3.0 * k as f64,
                 vortex_impulse: DVec3::new(0.0, 0.0, 3.0 * k as f64),
                 inviscid_impulse: DVec3::new(0.0, 0.0, -4.0 * k as f64),
-                air: vec![LoadRecord {
+                air: vec![Wrench {
                     force,
                     moment: DVec3::ZERO,
                 }],

@@ -3,7 +3,7 @@
 
 use serde::{Deserialize, Serialize};
 use wingbeat_flight::{FlightSetup, Record};
-use wingbeat_math::{DVec3, EulerSequence};
+use wingbeat_math::{DVec3, EulerSequence, larger, smaller};
 use wingbeat_model::FlownCrossings;
 
 use super::alternation::Alternation;
@@ -11,7 +11,7 @@ use super::bent::Bent;
 use super::driven::DrivenWork;
 use super::held::Departures;
 
-/// Ends of the range of a number, and its largest magnitude.
+/// Ends of the range of a number, and its largest magnitude; not numbers where one of the numbers is not.
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 pub(super) struct Extent {
     pub least: f64,
@@ -31,14 +31,14 @@ impl Default for Extent {
 
 impl Extent {
     pub fn take(&mut self, value: f64) {
-        self.least = self.least.min(value);
-        self.highest = self.highest.max(value);
-        self.most = self.most.max(value.abs());
+        self.least = smaller(self.least, value);
+        self.highest = larger(self.highest, value);
+        self.most = larger(self.most, value.abs());
     }
 
     /// From end to end; 0 of nothing.
     pub fn range(&self) -> f64 {
-        (self.highest - self.least).max(0.0)
+        larger(self.highest - self.least, 0.0)
     }
 }
 

@@ -111,7 +111,7 @@ impl Solver {
     /// Largest residual at a free number [N, N m].
     pub(super) fn largest_residual(&self, structure: &Structure) -> f64 {
         let free = structure.number.iter().map(|&k| self.residual[k].abs());
-        free.fold(0.0, f64::max)
+        free.fold(0.0, larger)
     }
 
     fn damping_forces(&mut self, structure: &Structure, trial: &Trial) {

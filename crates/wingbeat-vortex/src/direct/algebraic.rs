@@ -56,9 +56,8 @@ pub struct AlgebraicSum {
 
 impl Default for AlgebraicSum {
     fn default() -> Self {
-        let best = InstructionSet::Best.level();
         Self {
-            level: best.expect("the best set is always there"),
+            level: InstructionSet::best(),
             sources: Vec::new(),
         }
     }

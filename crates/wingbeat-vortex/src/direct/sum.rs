@@ -39,16 +39,20 @@ pub struct DirectSum {
 impl DirectSum {
     /// No sources yet; the best instructions of this processor.
     pub fn new(model: CoreModel) -> Self {
-        Self::with_instructions(model, InstructionSet::Best).expect("the best set is always there")
+        Self::at_level(model, InstructionSet::best())
     }
 
     /// As [`DirectSum::new`] with these instructions; None where the processor lacks them.
     pub fn with_instructions(model: CoreModel, set: InstructionSet) -> Option<Self> {
-        Some(Self {
+        Some(Self::at_level(model, set.level()?))
+    }
+
+    fn at_level(model: CoreModel, level: Level) -> Self {
+        Self {
             model,
-            level: set.level()?,
+            level,
             packed: Packed::default(),
-        })
+        }
     }
 
     /// Replaces the sources by free segments.
@@ -132,9 +136,8 @@ pub struct UnitEdges {
 
 impl Default for UnitEdges {
     fn default() -> Self {
-        let best = InstructionSet::Best.level();
         Self {
-            level: best.expect("the best set is always there"),
+            level: InstructionSet::best(),
             packed: Packed::default(),
             groups: Vec::new(),
         }

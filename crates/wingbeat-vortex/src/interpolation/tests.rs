@@ -119,7 +119,7 @@ fn agrees_from_grid_to_grid_with_the_kernel() {
         let strengths: Vec<_> = (0..grid.len()).map(strength).collect();
         let mut packed = vec![[0.0; 8]; grid.len()];
         translate::pack(&grid, &NEAR, &strengths, unit, &mut packed);
-        let level = InstructionSet::Best.level().unwrap();
+        let level = InstructionSet::best();
         let mut received = Received::NONE;
         let frames = [&AWAY, &NEAR];
         assert!(translate::is_in_range(frames));

@@ -106,7 +106,7 @@ fn agrees_convolution_with_the_sum_over_nodes() {
             strengths: &strengths,
             stencil: &stencil,
         };
-        let level = InstructionSet::Best.level().unwrap();
+        let level = InstructionSet::best();
         let place = |k: usize| [k % size[0], k / size[0] % size[1], k / (size[0] * size[1])];
         let plane = size[0] * size[1];
         let mut room = Room::default();
@@ -157,7 +157,7 @@ fn exact_filament_on_the_mesh_of_a_gaussian() {
         strength: [0.5, -0.3, 0.2],
         index: 0,
     };
-    let level = InstructionSet::Best.level().unwrap();
+    let level = InstructionSet::best();
     let quadrature: Vec<_> = (1..=super::mesh::MOST_POINTS)
         .map(crate::tree::gauss_legendre)
         .collect();

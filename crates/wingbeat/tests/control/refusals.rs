@@ -1,9 +1,9 @@
 //! What control cannot do.
 
 use wingbeat::case::LoadedCase;
-use wingbeat::flight::Simulation;
+use wingbeat::flight::{FlightState, Simulation};
 
-use crate::{BLADES, PRESET, case};
+use crate::{BLADES, PRESET, case, in_blades};
 
 #[test]
 fn refuses_what_control_cannot_do_by_name() {
@@ -156,4 +156,31 @@ fn refuses_harmonics_of_loads_without_a_frequency() {
         .to_string();
     assert!(error.contains("load[0].force_cosine_newton") && error.contains("frequency_hz"));
     assert!(set("frequency_hz=50,force_cosine_newton=[[1e-6,0,0]]").is_ok());
+}
+
+/// Memories of another controller, of another latency and of no wings, as a checkpoint beside another case has them.
+#[test]
+fn refuses_to_resume_with_what_another_controller_remembers() {
+    let damages: [fn(&mut FlightState); 5] = [
+        |s| s.control.as_mut().unwrap().memory.clear(),
+        |s| s.control.as_mut().unwrap().memory.push(0.0),
+        |s| _ = s.control.as_mut().unwrap().memory.pop(),
+        |s| s.control.as_mut().unwrap().queue.clear(),
+        |s| s.control.as_mut().unwrap().to.clear(),
+    ];
+    let sums = ["control.weights.sum=2", "control.stiffness.integral=0.02"];
+    for (controller, sum) in ["regulator", "stabiliser"].iter().zip(sums) {
+        let controller = format!("control.controller={controller}");
+        let setup = in_blades(&["time.beats=3", "control.latency_beats=1", &controller, sum]);
+        let mut flight = Simulation::new(setup.clone()).unwrap();
+        (0..50).for_each(|_| _ = flight.step().unwrap());
+        assert!(Simulation::resume(setup.clone(), flight.state().clone()).is_ok());
+        for (k, damage) in damages.iter().enumerate() {
+            let mut state = flight.state().clone();
+            damage(&mut state);
+            let refused = Simulation::resume(setup.clone(), state).map(drop);
+            let said = refused.expect_err(&format!("damage {k}")).to_string();
+            assert!(said.contains("resume with the case"), "{k}: {said}");
+        }
+    }
 }
