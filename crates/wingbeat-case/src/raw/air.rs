@@ -40,7 +40,8 @@ pub struct AirCase {
     pub stream_m_s: [f64; 3],
     /// Whether head, thorax and abdomen are part of the lattice.
     ///
-    /// Change it to false where the body hardly moves the air at the wings: the flight is faster. Wings must be outside of its parts.
+    /// Change it to false where the body hardly moves the air at the wings: the flight is faster. Wings must be outside of its
+    /// parts; the circulation of wings whose roots lie on one goes on through it (docs/wings.md, "Wings on a body").
     #[default = true]
     #[schemars(extend("with" = LATTICE))]
     pub body: bool,
