@@ -32,6 +32,7 @@ mod start;
 mod steady;
 mod unsteady;
 mod wang;
+mod wing_body;
 mod yamano;
 mod yang;
 mod yeo;
@@ -43,6 +44,7 @@ pub fn suite() -> Vec<Case> {
     [
         kernel::CASES,
         bodies::CASES,
+        wing_body::CASES,
         steady::CASES,
         unsteady::CASES,
         garrick::CASES,
