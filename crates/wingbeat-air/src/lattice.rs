@@ -94,7 +94,7 @@ impl Lattice {
         }
         Ok(Self {
             rings,
-            carried: carried(&topology, &surfaces, &strips)?,
+            carried: carried(&topology, &surfaces)?,
             middle_columns: middle_columns(&topology, &surfaces),
             strips,
             shed_around: shed_around(&topology, &surfaces, &joined),
@@ -193,14 +193,18 @@ impl Lattice {
         &self.carried
     }
 
-    /// What leaves the leading edges beside the front edge of a panel within a body, if wake sheet `k` leaves that.
-    pub(crate) fn leading_beside(&self, k: usize, column: usize) -> Option<[WakeColumn; 2]> {
+    /// What leaves the wings on both sides of the edge that a column of wake sheet `k` leaves, if that is within a body.
+    pub(crate) fn leaving_beside(&self, k: usize, column: usize) -> Option<[WakeColumn; 2]> {
+        self.middle_column(k)?;
         let root = &self.sheets()[k];
-        if self.middle_column(k).is_none() || root.kinds[column] != EdgeKind::Leading {
-            return None;
-        }
         let here = |c: &&Carried| c.panel == root.panels[column];
-        self.carried.iter().find(here)?.leading
+        let carried = self.carried.iter().find(here)?;
+        carried.leaving(root.kinds[column])
+    }
+
+    /// Whether a column of wake sheet `k` leaves the front edge of a strip within a body.
+    pub(crate) fn leads_within(&self, k: usize, column: usize) -> bool {
+        self.middle_column(k).is_some() && self.sheets()[k].kinds[column] == EdgeKind::Leading
     }
 
     /// The column of nodes of wake sheet `k` that left the middle of a body, if one did.

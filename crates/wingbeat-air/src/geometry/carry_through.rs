@@ -4,10 +4,10 @@
 //! skin, and what the rings of the skin make inside is the flow about vortices that go on through the body. A wing that ends at the skin has a
 //! root vortex there instead, to which panels of finite size hardly answer. So a strip of panels leads from each of the two roots to the middle
 //! between them ([`crate::Surface::carry_through`]). Its rings have the mean circulation of the panels beside the two roots, in place of a
-//! condition on the flow through them; its rear edge sheds it, and from its front edge leaves the mean of what leaves the wings beside it.
+//! condition on the flow through them, and from its front and rear edges leaves the mean of what leaves the wings beside it.
 
+use crate::edges::EdgeKind;
 use crate::error::AirError;
-use crate::geometry::strips::Strip;
 use crate::geometry::surface::Surface;
 use crate::geometry::topology::{Sheet, Topology, WakeColumn};
 
@@ -17,23 +17,34 @@ pub(crate) struct Carried {
     pub panel: usize,
     /// The panels beside the two roots.
     pub beside: [usize; 2],
-    /// What leaves the leading edges there, if these are the foremost panels and their edges shed.
-    pub leading: Option<[WakeColumn; 2]>,
+    /// What leaves the leading edges there, and the trailing edges, if these are the first or last panels and their edges shed.
+    pub leaving: [Option<[WakeColumn; 2]>; 2],
+}
+
+impl Carried {
+    /// What leaves the edges of this kind beside both roots.
+    pub fn leaving(&self, kind: EdgeKind) -> Option<[WakeColumn; 2]> {
+        match kind {
+            EdgeKind::Leading => self.leaving[0],
+            EdgeKind::Trailing => self.leaving[1],
+            EdgeKind::Tip | EdgeKind::Root => None,
+        }
+    }
 }
 
 /// All panels within bodies.
 ///
 /// # Errors
 /// [`AirError::CarryThrough`] names the first that does not lie between the roots of two surfaces before its own.
-pub(crate) fn carried(
-    topology: &Topology,
-    surfaces: &[Surface],
-    strips: &[Strip],
-) -> Result<Vec<Carried>, AirError> {
+pub(crate) fn carried(topology: &Topology, surfaces: &[Surface]) -> Result<Vec<Carried>, AirError> {
     let is_within = |p: usize| surfaces[topology.panel_surface[p]].carry_through;
-    let leading = |panel: usize| {
-        let strip = strips.iter().find(|s| s.panels[0] == panel)?;
-        topology.edges[strip.edge].wake
+    let leaving = |panels: [usize; 2], kind: EdgeKind| {
+        let of = |panel: usize| {
+            let edges = topology.panel_edges[panel].iter();
+            let mut wakes = edges.filter_map(|e| topology.edges[e.edge].wake);
+            wakes.find(|w| topology.sheets[w.sheet].kinds[w.column] == kind)
+        };
+        Some([of(panels[0])?, of(panels[1])?])
     };
     let of = |panel: usize| {
         let is_root = |p: usize| !is_within(p) && p < panel;
@@ -47,7 +58,7 @@ pub(crate) fn carried(
         Ok(Carried {
             panel,
             beside: [a, b],
-            leading: leading(a).zip(leading(b)).map(|(a, b)| [a, b]),
+            leaving: [EdgeKind::Leading, EdgeKind::Trailing].map(|kind| leaving([a, b], kind)),
         })
     };
     let all = 0..topology.panels.len();

@@ -16,7 +16,7 @@ impl Lattice {
     /// Circulation [m2/s] that the edge of a column of a wake sheet holds: none but at leading edges with a criterion, and within bodies.
     pub(crate) fn hold(&self, state: &AirState, sheet: usize, column: usize) -> f64 {
         let root = &self.sheets()[sheet];
-        if self.leading_beside(sheet, column).is_some() {
+        if self.leads_within(sheet, column) {
             return f64::MAX; // nothing leaves but what leaves the wings beside it
         }
         if root.kinds[column] != EdgeKind::Leading || self.settings().leading == LeadingEdge::Always
@@ -47,7 +47,7 @@ impl Lattice {
     /// Whether the flow leaves the edge of a column of wake sheet `k`, which is `sheet`, by itself: the newest ring differs from the
     /// one before.
     pub(crate) fn feeds(&self, k: usize, sheet: &WakeSheet, column: usize) -> bool {
-        if self.leading_beside(k, column).is_some() {
+        if self.leads_within(k, column) {
             return false;
         }
         if self.sheets()[k].kinds[column] != EdgeKind::Leading

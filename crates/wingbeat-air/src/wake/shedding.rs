@@ -8,8 +8,7 @@ use crate::wake::near_wake::{NEW_VORTEX, kept, released};
 
 impl Lattice {
     /// Unsteady Kutta condition: the row that leaves carries the circulation of its panels, at leading edges less what
-    /// these hold. What leaves the front edges within bodies is the mean of what leaves the wings there, whose sheets are
-    /// among those `before`.
+    /// these hold. What leaves edges within bodies is the mean of what leaves the wings there, whose sheets are among those `before`.
     pub(crate) fn shed(
         &self,
         k: usize,
@@ -21,7 +20,7 @@ impl Lattice {
         self.finalise_newest(k, sheet, state, lengths);
         let delays = self.settings().newest_row == NewestRow::Matched && sheet.rows() > 0;
         for (c, (&panel, &sign)) in root.panels.iter().zip(&root.signs).enumerate() {
-            if let Some(beside) = self.leading_beside(k, c) {
+            if let Some(beside) = self.leaving_beside(k, c) {
                 carry(sheet, (c, sign), beside, before);
                 continue;
             }

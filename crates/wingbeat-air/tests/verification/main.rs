@@ -3,6 +3,7 @@
 mod answers;
 mod benchmark;
 mod bodies;
+mod carry_through;
 mod centre_of_pressure;
 mod common;
 mod errors;
