@@ -5,7 +5,7 @@
 //! (`disturbance`). The difference of the two is the response of the system linearised about the deformed state, wakes
 //! and all; [`realise`] finds its eigenvalues. Growth that changes its sign between speeds is an onset or an
 //! end of flutter ([`crossings`]), if it differs from zero by more than is not known of it (`uncertainty`). The disturbance of
-//! half the size tells how far the response is linear.
+//! half the size tells how far the response is linear; where it is not, the disturbance is made smaller (`response`).
 //!
 //! | symbol | name in code | meaning | unit |
 //! |---|---|---|---|
@@ -21,6 +21,7 @@
 mod condition;
 mod crossing;
 mod disturbance;
+mod response;
 mod settings;
 mod steady;
 mod uncertainty;

@@ -8,6 +8,8 @@ use wingbeat::analysis::flutter::{
 };
 use wingbeat::case::LoadedCase;
 
+#[path = "flutter/hale.rs"]
+mod hale;
 #[path = "flutter/theodorsen.rs"]
 mod theodorsen;
 
@@ -212,6 +214,7 @@ fn with_modes(speed: f64, modes: &[[f64; 3]]) -> Condition {
             residual: 0.0,
         },
         nonlinearity: 0.0,
+        disturbance: 1e-5,
     }
 }
 

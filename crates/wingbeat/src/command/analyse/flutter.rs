@@ -30,7 +30,7 @@ pub(crate) struct FlutterArgs {
     #[arg(long, value_name = "N", default_value_t = FlutterSettings::default().modes,
           value_parser = options::count::<1, 20>)]
     modes: usize,
-    /// Amplitude of the disturbance over the length of the wing.
+    /// Amplitude of the disturbance over the length of the wing; made smaller where the response to it is not linear.
     #[arg(long, value_name = "SHARE", default_value_t = FlutterSettings::default().disturbance,
           value_parser = options::share)]
     disturbance: f64,
@@ -172,6 +172,7 @@ fn values(c: &Condition) -> Value {
         "order": c.response.order,
         "residual": c.response.residual,
         "nonlinearity": c.nonlinearity,
+        "disturbance": c.disturbance,
     })
 }
 
