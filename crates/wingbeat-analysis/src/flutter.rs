@@ -1,6 +1,6 @@
 //! Flutter: when the vibrations of an elastic wing in a stream grow.
 //!
-//! At each speed the wing is flown to its deformed steady state with much damping, first with long steps. From there two
+//! At each speed the wing is flown to its deformed steady state with much damping, first with long steps (`settling`). From there two
 //! flights go on with the damping of the wing itself, one of them with small velocities added in the leading modes of the deformed wing
 //! (`disturbance`). The difference of the two is the response of the system linearised about the deformed state, wakes
 //! and all; [`realise`] finds its eigenvalues. Growth that changes its sign between speeds is an onset or an
@@ -23,6 +23,7 @@ mod crossing;
 mod disturbance;
 mod response;
 mod settings;
+mod settling;
 mod steady;
 mod uncertainty;
 

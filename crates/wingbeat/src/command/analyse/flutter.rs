@@ -60,7 +60,15 @@ pub(crate) fn run(args: &FlutterArgs) -> Result<(), Failure> {
             );
         }
         for speed in args.speeds.values() {
-            let next = watched("flutter", || condition(&case.setup, speed, &settings))?;
+            let next = match watched("flutter", || condition(&case.setup, speed, &settings)) {
+                Ok(next) => next,
+                Err(error) => {
+                    if !found.is_empty() {
+                        conclude(report, &found, &crossings(&found));
+                    }
+                    return Err(error.into());
+                }
+            };
             if found.is_empty() {
                 head(report, &case.name);
             }
