@@ -29,6 +29,6 @@ mod uncertainty;
 
 pub use crate::realisation::{NOISE, Realisation, Vibration, realise};
 pub use condition::{Condition, MAX_DAMPING, MIN_SHARE, condition};
-pub use crossing::{Crossing, crossings, growing};
+pub use crossing::{Crossing, crossings, growing, likely};
 pub use settings::FlutterSettings;
 pub use steady::{ElasticRig, SteadyWing};
