@@ -214,7 +214,11 @@ impl Equations {
         self.core
             .solve(t, &y[..n], &s.total, &mut s.dynamics, &mut s.solution)?;
         self.correct_budget(s);
-        s.relative = relative_energy(self.core.system(), &s.motions, &s.solution.bodies);
+        // Rigid wings would need much more than elastic ones where joints jerk.
+        s.relative = match self.elastic.damping_on_joints() {
+            Some(_) => [0.0; 2],
+            None => relative_energy(self.core.system(), &s.motions, &s.solution.bodies),
+        };
         self.deformation_power(t, s);
         self.quadrature_rates(s).write(dy);
         Ok(())
