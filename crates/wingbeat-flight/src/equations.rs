@@ -214,10 +214,9 @@ impl Equations {
         self.core
             .solve(t, &y[..n], &s.total, &mut s.dynamics, &mut s.solution)?;
         self.correct_budget(s);
-        // Rigid wings would need much more than elastic ones where joints jerk.
-        s.relative = match self.elastic.damping_on_joints() {
-            Some(_) => [0.0; 2],
-            None => relative_energy(self.core.system(), &s.motions, &s.solution.bodies),
+        s.relative = match self.elastic.are_passive() {
+            true => [0.0; 2],
+            false => relative_energy(self.core.system(), &s.motions, &s.solution.bodies),
         };
         self.deformation_power(t, s);
         self.quadrature_rates(s).write(dy);

@@ -213,7 +213,9 @@ fn balances(setup: &FlightSetup, summary: &Summary, list: &mut Warnings) {
         false => "the samples of wing angles scatter, which smaller steps do not mend",
     };
     let advice = match is_free_and_elastic_by_momenta(setup) {
-        true => "take smaller steps, or dynamics.formulation = \"euler\", before trusting the motion",
+        true => {
+            "take smaller steps, or dynamics.formulation = \"euler\", before trusting the motion"
+        }
         false => advice,
     };
     let balances = [
