@@ -6,12 +6,12 @@
 //! disturbance. Where that is more than [`LINEAR`], the disturbance is made smaller, as long as that makes it less: rounding
 //! weighs the more, the smaller the motion.
 
-use super::condition::MIN_SHARE;
 use crate::AnalysisError;
 use crate::realisation::rms;
 
-/// Nonlinearity of a response that is small enough \[1\]: squares have half of the share that is reported.
-const LINEAR: f64 = MIN_SHARE / 4.0;
+/// Nonlinearity of a response that is small enough \[1\]: squares have half of the share that is reported
+/// ([`super::MIN_SHARE`]).
+const LINEAR: f64 = 2.5e-4;
 
 /// Most times that the disturbance is made smaller, and bounds of the part that is left each time \[1\].
 const TRIALS: usize = 4;
