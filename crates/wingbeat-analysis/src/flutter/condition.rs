@@ -41,7 +41,7 @@ pub const MAX_DAMPING: f64 = 0.8;
 
 /// Most of that share below which motions are left out because the response is not linear \[1\]: with more, the modes are
 /// told, and that they are doubtful.
-const MOST_LEFT_OUT: f64 = 0.1;
+const MAX_LEFT_OUT: f64 = 0.1;
 
 /// Samples without which nothing is found, also not in three quarters of a response.
 const LEAST: usize = 8;
@@ -125,7 +125,7 @@ impl<'a> Identified<'a> {
                 length: whole.len() as f64 * apart,
             },
             others: [&found.doubled, &whole[..KEPT * whole.len() / 4]],
-            least: found.not_linear().min(MOST_LEFT_OUT).max(MIN_SHARE),
+            least: found.not_linear().min(MAX_LEFT_OUT).max(MIN_SHARE),
         })
     }
 

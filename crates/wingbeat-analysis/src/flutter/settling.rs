@@ -50,7 +50,7 @@ impl Settling {
     ///
     /// # Errors
     /// A wing that does not come to rest; what the flight reports.
-    pub fn settle(&self, start: Option<FlightState>) -> Result<FlightState, AnalysisError> {
+    pub fn to_rest(&self, start: Option<FlightState>) -> Result<FlightState, AnalysisError> {
         let mut flight = match start {
             Some(state) => Simulation::resume(self.setup.clone(), state)?,
             None => Simulation::new(self.setup.clone())?,

@@ -100,8 +100,8 @@ impl ElasticRig {
             least,
             most: settings.settling,
         };
-        let long = settling(LONG, LEAST).settle(None)?;
-        let state = settling(1, 4 * LEAST).settle(Some(long))?;
+        let long = settling(LONG, LEAST).to_rest(None)?;
+        let state = settling(1, 4 * LEAST).to_rest(Some(long))?;
         let steady = self.steady(&state, settings)?;
         Ok((state, steady))
     }
