@@ -45,7 +45,8 @@ impl Response {
             let part = (0.5 * LINEAR / best.nonlinearity).clamp(PARTS[0], PARTS[1]);
             let next = Self::to(part * best.part, &respond)?;
             // Not a number, or more: not what is not linear.
-            if !(next.nonlinearity < best.nonlinearity) {
+            let is_better = next.nonlinearity < best.nonlinearity;
+            if !is_better {
                 break;
             }
             best = next;
