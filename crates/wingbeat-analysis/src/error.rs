@@ -40,13 +40,19 @@ pub enum AnalysisError {
     },
     /// A wing in a stream does not come to rest.
     #[error(
-        "at {speed} m/s the wing does not come to rest: a node still moves at {drift:.1e} of the speed of the stream. A wing that diverges or whose flow separates has no steady state: try lower speeds, less incidence or a stiffer wing"
+        "at {speed} m/s the wing does not come to rest: after {time:.3} s with much damping ({steps} steps) a node still moves at {drift:.1e} of the speed of the stream. {remedy}"
     )]
     NotSteady {
         /// Speed of the stream [m/s].
         speed: f64,
+        /// Time that it was flown \[s\].
+        time: f64,
+        /// Steps in that time.
+        steps: usize,
         /// Velocity of its fastest node over that of the stream \[1\].
         drift: f64,
+        /// What to do instead.
+        remedy: &'static str,
     },
     /// A number is not finite or a matrix singular.
     #[error("{0}")]

@@ -214,7 +214,10 @@ impl Equations {
         self.core
             .solve(t, &y[..n], &s.total, &mut s.dynamics, &mut s.solution)?;
         self.correct_budget(s);
-        s.relative = relative_energy(self.core.system(), &s.motions, &s.solution.bodies);
+        s.relative = match self.elastic.are_passive() {
+            true => [0.0; 2],
+            false => relative_energy(self.core.system(), &s.motions, &s.solution.bodies),
+        };
         self.deformation_power(t, s);
         self.quadrature_rates(s).write(dy);
         Ok(())

@@ -15,7 +15,10 @@ mod wings;
 pub use state::{FlightState, Past};
 
 use wingbeat_dynamics::BodyMotion;
-use wingbeat_math::ode::{Multistep, StepError, StepReport, block_start};
+use wingbeat_math::ode::{
+    Multistep, StepError, StepReport, block_start, order_two_start, scaled_difference,
+    stepwise_start,
+};
 
 use self::fits::check_fits;
 use self::start::Start;
@@ -265,6 +268,19 @@ impl Simulation {
         let mut dy = vec![0.0; equations.dim()];
         let y = &self.state.past.y[k];
         equations.evaluate(t, y, self.state.memory(), &mut self.scratch, &mut dy)?;
+        if equations.elastic.damping_on_joints().is_some() {
+            // Joints accelerate as wings bend, and wings bend as they accelerate: the step before does not tell.
+            let scales = equations.scales();
+            let convergence = convergence(&self.setup.corrector, equations);
+            for _ in 0..convergence.max_passes {
+                let before = dy.clone();
+                equations.evaluate(t, y, self.state.memory(), &mut self.scratch, &mut dy)?;
+                let change = scaled_difference(&before, &dy, &scales);
+                if self.setup.time.step * change <= convergence.tolerance {
+                    break;
+                }
+            }
+        }
         Ok(self.state.start_report)
     }
 
@@ -320,8 +336,16 @@ impl Simulation {
         };
         let (y0, f0) = (&state.past.y[0], &state.past.f[0]);
         let convergence = convergence(&self.setup.corrector, equations);
-        let (past, report) = block_start(y0, f0, h, convergence, &equations.scales(), &mut start)
-            .map_err(|e| failure(e, first + 1, start.time(1), &self.setup))?;
+        let scales = equations.scales();
+        let started = match equations.elastic.damping_on_joints() {
+            Some(rho) => {
+                let (from, how) = ((&y0[..], &f0[..]), (convergence, &scales[..]));
+                stepwise_start(from, h, &order_two_start(rho), how, &mut start)
+            }
+            None => block_start(y0, f0, h, convergence, &scales, &mut start),
+        };
+        let (past, report) =
+            started.map_err(|e| failure(e, first + 1, start.time(1), &self.setup))?;
         (state.past, state.start_report) = (past, report);
         Ok(())
     }

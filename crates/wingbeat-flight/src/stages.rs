@@ -43,7 +43,9 @@ pub fn stages(setup: &FlightSetup, law: &WingLaw<'_>) -> Result<Vec<Stage>, Flig
     let elastic = ElasticWings::new(&setup.animal, setup.gravity)?;
     let on_joints = !CarriedAir::new(&system, setup.animal.wings.len()).is_empty();
     let is_light = is_light_as_a_whole(setup, (&system, air.as_ref()))?;
-    let elastic = elastic.carried_by(on_joints, is_light);
+    let beat = setup.animal.wings.iter().any(|w| w.motion.frequency > 0.0);
+    let is_driven = beat || setup.joints.iter().any(|j| j.law.is_some());
+    let elastic = elastic.carried_by(on_joints, is_light).driven(is_driven);
     let elastic = Arc::new(match setup.air.is_mirrored() {
         true => elastic.mirrored(&wing_pairs(&setup.animal)),
         false => elastic,

@@ -50,10 +50,11 @@ fn exact_growth_of_vibrations_by_bdf() {
         assert!((found - grows).abs() < 1e-3, "{w}: {found}");
     }
     for w in [0.1_f64, 0.3, 0.6, 1.0, 2.0, 10.0] {
-        // (3 - 2 i w) z^2 - 4 z + 1 = 0: z = 1 / (2 - sqrt(1 + 2 i w)).
-        let root = (1.0 + 4.0 * w * w).sqrt();
-        let (re, im) = ((0.5 * (root + 1.0)).sqrt(), (0.5 * (root - 1.0)).sqrt());
-        let expected = 1.0 / (2.0 - re).hypot(im);
+        // (4 - 3 i w) z^2 - (6 - i w) z + 2 = 0: z (4 - 3 i w) = 3 - i w / 2 +- sqrt(1 - w^2 / 4 + 3 i w).
+        let (re, size) = (1.0 - 0.25 * w * w, (1.0 - 0.25 * w * w).hypot(3.0 * w));
+        let (p, q) = ((0.5 * (size + re)).sqrt(), (0.5 * (size - re)).sqrt());
+        let root = |sign: f64| (3.0 + sign * p).hypot(sign * q - 0.5 * w) / 4.0_f64.hypot(3.0 * w);
+        let expected = root(1.0).max(root(-1.0));
         let found = growth_of_a_vibration(method.clone().order_two(0.0), w);
         println!("{w}: {found} {expected}");
         assert!(

@@ -465,3 +465,35 @@ fn behaves_feedback_of_a_held_body_is_not_judged() {
     assert!(!says(&fly("flight.held_beats=2"), "commands stood"));
     assert!(says(&fly("flight.held_beats=1"), "commands stood"));
 }
+
+#[test]
+fn behaves_elastic_wings_that_gain_energy_in_a_fall_are_red() {
+    // Two wings of 1 kg on a body of half a kilogram, let go: after four beats a tenth of what they turn over is added to it, a
+    // thousandth of what the fall has.
+    let text = "format = 1
+gravity_m_s2 = [0, 0, 1.0]
+motion.frequency_hz = 1.0
+time = { steps_per_beat = 125, beats = 4 }
+flight = { mode = \"free\", held_beats = 1 }
+air.model = \"none\"
+output = { frames_every = 0, figures = false, page = false }
+body = { mass_kg = 0.5, inertia_about_centre_kg_m2 = [0.1, 0.1, 0.1, 0, 0, 0] }
+[wing.right]
+hinge_m = [0, 0, 0]
+planform.rectangle = { chord_m = 0.1, span_m = 1.0, axis_fraction = 0.5 }
+mesh = { chordwise = 2, spanwise = 20 }
+[wing.right.structure.beam]
+axis_fraction = 0.5
+mass_fraction = 0.5
+elements = 12
+flap_newton_m2 = [1.0, 1.0]
+torsion_newton_m2 = [1.0, 1.0]
+lag_newton_m2 = [1e4, 1e4]
+mass_kg_per_m = [1.0, 1.0]
+inertia_kg_m = [1e-3, 1e-3]
+";
+    let case = LoadedCase::from_text("fall", text, Path::new("."), &[]).unwrap();
+    let summary = flown(&case);
+    assert_eq!(summary.verdict, Verdict::Red, "{:?}", summary.warnings);
+    assert!(says(&summary, "dynamics.formulation = \"euler\""));
+}

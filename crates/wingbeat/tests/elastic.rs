@@ -9,6 +9,8 @@ use wingbeat::verify::lab::series::{harmonic, mean};
 
 #[path = "elastic/blades.rs"]
 mod blades;
+#[path = "elastic/hinge.rs"]
+mod hinge;
 #[path = "elastic/leading_edges.rs"]
 mod leading_edges;
 #[path = "elastic/mirrored.rs"]

@@ -5,9 +5,12 @@ use std::f64::consts::{PI, TAU};
 use wingbeat::analysis::AnalysisError;
 use wingbeat::analysis::flutter::{
     Condition, FlutterSettings, Realisation, SteadyWing, Vibration, condition, crossings, growing,
+    likely,
 };
 use wingbeat::case::LoadedCase;
 
+#[path = "flutter/hale.rs"]
+mod hale;
 #[path = "flutter/theodorsen.rs"]
 mod theodorsen;
 
@@ -212,6 +215,7 @@ fn with_modes(speed: f64, modes: &[[f64; 3]]) -> Condition {
             residual: 0.0,
         },
         nonlinearity: 0.0,
+        disturbance: 1e-5,
     }
 }
 
@@ -241,6 +245,29 @@ fn behaves_growth_counts_beyond_its_uncertainty_alone() {
     ]);
     assert_eq!(found.len(), 1);
     assert_eq!(found[0].map(|v| v.frequency), [70.0, 68.0]);
+}
+
+#[test]
+fn behaves_a_mode_that_is_neutral_at_first_and_grows_later_begins_about_there() {
+    let all = [
+        with_modes(31.5, &[[23.4, -0.1, 0.15]]),
+        with_modes(33.5, &[[22.5, 0.4, 0.1]]),
+        with_modes(35.5, &[[21.6, 1.0, 0.1]]),
+    ];
+    assert!(crossings(&all).is_empty() && growing(&all).is_empty());
+    let [c] = likely(&all)[..] else {
+        panic!("an onset")
+    };
+    assert!(c.begins && (c.speed - 31.9).abs() < 1e-12, "{c:?}");
+    assert_eq!(c.between, [31.5, 33.5]);
+    // Above zero already as found: at the latest there.
+    let mut above = all.clone();
+    above[0] = with_modes(31.5, &[[23.4, 0.1, 0.15]]);
+    assert_eq!(likely(&above)[0].speed, 31.5);
+    // Neutral throughout, or dying out: no onset.
+    assert!(likely(&all[..1]).is_empty());
+    let dies = [all[0].clone(), with_modes(33.5, &[[22.5, -0.4, 0.1]])];
+    assert!(likely(&dies).is_empty());
 }
 
 #[test]

@@ -157,6 +157,22 @@ fn agrees_modes_of_a_slender_wing_in_air_with_strips() {
     assert!(air[0].mass > vacuum[0].mass && air[0].likeness(&vacuum[0]) > 0.999);
 }
 
+/// At 0.45 of the length, between two of five nodes and at one of forty.
+#[test]
+fn agrees_a_lumped_mass_between_nodes_with_one_at_a_node() {
+    let mass = "wing.right.structure.beam.mass=[{ at = 0.45, mass_kg = 20.0 }]";
+    let frequencies = |elements: &str| {
+        let elements = format!("wing.right.structure.beam.elements={elements}");
+        let found = modes(SLENDER, &[mass, &elements, "air.model=none"], About::Rest);
+        [0, 1].map(|k| found.vacuum[k].frequency)
+    };
+    let [coarse, fine] = ["5", "40"].map(frequencies);
+    for (a, b) in coarse.iter().zip(fine) {
+        println!("{a} {b}");
+        assert!((a / b - 1.0).abs() < 0.03, "{a} {b}");
+    }
+}
+
 #[test]
 fn exact_modes_in_blade_elements_have_the_added_mass_of_strips() {
     let mut text = SLENDER.replace("joined = true\n", "");

@@ -3,12 +3,13 @@
 use wingbeat_flight::{FlightSetup, FlightState, Simulation};
 
 use super::disturbance::{Disturbance, Stations};
+use super::response::{Response, difference};
 use super::settings::FlutterSettings;
 use super::steady::{ElasticRig, SteadyWing};
 use super::uncertainty::{Taken, uncertainties};
 use crate::AnalysisError;
 use crate::progress;
-use crate::realisation::{Realisation, Vibration, realise, rms};
+use crate::realisation::{Realisation, Vibration, realise};
 
 /// The elastic wing at one speed.
 #[derive(Clone, Debug)]
@@ -17,8 +18,8 @@ pub struct Condition {
     pub speed: f64,
     /// The deformed steady state.
     pub steady: SteadyWing,
-    /// Motions found in the response, of rising frequency, those that take part with less than [`MIN_SHARE`] or
-    /// hardly vibrate left out.
+    /// Motions found in the response, of rising frequency, those that take part with less than [`MIN_SHARE`] or than what is
+    /// not linear, or hardly vibrate, left out.
     pub modes: Vec<Vibration>,
     /// What is not known of the growth of each of them [1/s] (see `uncertainty.rs`).
     pub uncertainty: Vec<f64>,
@@ -28,6 +29,8 @@ pub struct Condition {
     pub response: Realisation,
     /// Difference to twice the response to half the disturbance, over the response \[1\].
     pub nonlinearity: f64,
+    /// Disturbance of this response, as [`FlutterSettings::disturbance`] or smaller \[1\].
+    pub disturbance: f64,
 }
 
 /// Least share in a response of a motion that is reported \[1\].
@@ -35,6 +38,10 @@ pub const MIN_SHARE: f64 = 1e-3;
 
 /// Damping over critical above which a motion is that of the wake, or dies within a period \[1\].
 pub const MAX_DAMPING: f64 = 0.8;
+
+/// Most of that share below which motions are left out because the response is not linear \[1\]: with more, the modes are
+/// told, and that they are doubtful.
+const MAX_LEFT_OUT: f64 = 0.1;
 
 /// Samples without which nothing is found, also not in three quarters of a response.
 const LEAST: usize = 8;
@@ -67,9 +74,8 @@ pub fn condition(
         flown(&rig.setup, from, &stations, &sampling)
     };
     let still = flown(0.0)?;
-    let whole = difference(&flown(1.0)?, &still);
-    let doubled = doubled(&difference(&flown(0.5)?, &still));
-    let identified = Identified::of(&whole, &doubled, rig.setup.time.step, &sampling)?;
+    let found = Response::linear(|part| Ok(difference(&flown(part)?, &still)))?;
+    let identified = Identified::of(&found, rig.setup.time.step, &sampling)?;
     let modes = identified.modes();
     let uncertainty = identified.uncertainties(&modes)?;
     Ok(Condition {
@@ -78,7 +84,8 @@ pub fn condition(
         uncertainty,
         divergence: identified.divergence()?,
         steady,
-        nonlinearity: rms(&difference(&whole, &doubled)) / rms(&whole),
+        nonlinearity: found.nonlinearity,
+        disturbance: found.part * settings.disturbance,
         response: identified.response,
     })
 }
@@ -101,16 +108,14 @@ struct Identified<'a> {
     response: Realisation,
     taken: Taken,
     others: [&'a [Vec<f64>]; 2],
+    /// Share below which motions are left out \[1\].
+    least: f64,
 }
 
 impl<'a> Identified<'a> {
-    /// From the whole response and twice that to half the disturbance, to `sampling` of flights in steps of `step` [s].
-    fn of(
-        whole: &'a [Vec<f64>],
-        doubled: &'a [Vec<f64>],
-        step: f64,
-        sampling: &Sampling,
-    ) -> Result<Self, AnalysisError> {
+    /// From a response and twice that to half the disturbance, to `sampling` of flights in steps of `step` [s].
+    fn of(found: &'a Response, step: f64, sampling: &Sampling) -> Result<Self, AnalysisError> {
+        let whole = &found.whole;
         let apart = sampling.every as f64 * step;
         Ok(Self {
             response: realise(whole, apart)?,
@@ -119,14 +124,15 @@ impl<'a> Identified<'a> {
                 step: apart,
                 length: whole.len() as f64 * apart,
             },
-            others: [doubled, &whole[..KEPT * whole.len() / 4]],
+            others: [&found.doubled, &whole[..KEPT * whole.len() / 4]],
+            least: found.not_linear().clamp(MIN_SHARE, MAX_LEFT_OUT),
         })
     }
 
     /// Motions that take part and vibrate.
     fn modes(&self) -> Vec<Vibration> {
         let vibrates = |v: &&Vibration| {
-            v.frequency > 0.0 && v.share >= MIN_SHARE && v.damping() <= MAX_DAMPING
+            v.frequency > 0.0 && v.share >= self.least && v.damping() <= MAX_DAMPING
         };
         let found = self.response.vibrations.iter().filter(vibrates);
         found.copied().collect()
@@ -134,7 +140,7 @@ impl<'a> Identified<'a> {
 
     /// The motion that grows fastest without vibrating, and what is not known of its growth [1/s].
     fn divergence(&self) -> Result<Option<(Vibration, f64)>, AnalysisError> {
-        let grows = |v: &&Vibration| v.frequency == 0.0 && v.growth > 0.0 && v.share >= MIN_SHARE;
+        let grows = |v: &&Vibration| v.frequency == 0.0 && v.growth > 0.0 && v.share >= self.least;
         let growing = self.response.vibrations.iter().filter(grows).copied();
         let fastest = growing.max_by(|a, b| a.growth.total_cmp(&b.growth));
         fastest
@@ -194,14 +200,4 @@ fn flown(
         samples.push(stations.outputs(flight.state()));
     }
     Ok(samples)
-}
-
-fn difference(a: &[Vec<f64>], b: &[Vec<f64>]) -> Vec<Vec<f64>> {
-    let row = |(a, b): (&Vec<f64>, &Vec<f64>)| a.iter().zip(b).map(|(a, b)| a - b).collect();
-    a.iter().zip(b).map(row).collect()
-}
-
-fn doubled(response: &[Vec<f64>]) -> Vec<Vec<f64>> {
-    let row = |y: &Vec<f64>| y.iter().map(|x| 2.0 * x).collect();
-    response.iter().map(row).collect()
 }

@@ -43,6 +43,21 @@ pub fn crossings(conditions: &[Condition]) -> Vec<Crossing> {
     found
 }
 
+/// Onsets of modes that are neutral within what is known at the first of `conditions` and up to where they grow: flutter begins at
+/// about the speed where their growth, as far as it is known, is zero, or may have begun at the last speed at which they are neutral.
+pub fn likely(conditions: &[Condition]) -> Vec<Crossing> {
+    let onset = |track: Vec<(usize, usize)>| {
+        let first = (track.iter()).position(|&(c, m)| conditions[c].grows(m).is_some())?;
+        let (c, m) = track[first];
+        let begins = track[0].0 == 0 && first > 0 && conditions[c].grows(m) == Some(true);
+        let sides = [track[first.checked_sub(1)?], (c, m)];
+        begins.then(|| crossing(sides.map(|(c, m)| (&conditions[c], m)), true))
+    };
+    let mut found: Vec<_> = (tracks(conditions).into_iter()).filter_map(onset).collect();
+    found.sort_by(|a, b| a.speed.total_cmp(&b.speed));
+    found
+}
+
 /// Modes whose growth is above zero, by more than its uncertainty, at all of `conditions`: at the first and at the last of
 /// them.
 pub fn growing(conditions: &[Condition]) -> Vec<[Vibration; 2]> {
@@ -60,7 +75,9 @@ pub fn growing(conditions: &[Condition]) -> Vec<[Vibration; 2]> {
 
 fn crossing([(a, i), (b, j)]: [(&Condition, usize); 2], begins: bool) -> Crossing {
     let (v, next, between) = (&a.modes[i], &b.modes[j], [a.speed, b.speed]);
-    let s = v.growth / (v.growth - next.growth);
+    // Within the two, where the first is neutral and its growth above zero as found.
+    let s = (v.growth / (v.growth - next.growth)).clamp(0.0, 1.0);
+    let s = if v.growth * next.growth > 0.0 { 0.0 } else { s };
     Crossing {
         speed: between[0] + s * (between[1] - between[0]),
         frequency: v.frequency + s * (next.frequency - v.frequency),

@@ -9,7 +9,7 @@ pub struct FlutterSettings {
     pub disturbance: f64,
     /// Length of the response in periods of the first mode \[1\].
     pub periods: f64,
-    /// Most steps to the steady state, long ones.
+    /// Most steps to the steady state, long ones, or 30 periods of the first mode if those are more.
     pub settling: usize,
 }
 

@@ -1,11 +1,14 @@
 //! An elastic wing held in a stream, and its deformed steady state.
 
+use std::f64::consts::TAU;
+
 use wingbeat_flight::elastic::{ElasticWing, ElasticWings};
 use wingbeat_flight::{AirModel, FlightSetup, FlightState, MotionMode, Simulation};
 use wingbeat_math::{DVec3, rotation_vector};
 use wingbeat_structure::{FrameMotion, Mode, modes};
 
 use super::settings::FlutterSettings;
+use super::settling::{Settling, drift};
 use crate::AnalysisError;
 use crate::moving::moving;
 
@@ -14,9 +17,6 @@ const LONG: usize = 4;
 
 /// Long steps before the steady state is looked at, a quarter of the short ones after them.
 const LEAST: usize = 60;
-
-/// Velocity at which the wing counts as steady: of its fastest node over that of the stream \[1\].
-const STEADY: f64 = 1e-7;
 
 /// The deformed steady state.
 #[derive(Clone, Debug, PartialEq)]
@@ -88,39 +88,22 @@ impl ElasticRig {
         &self,
         settings: &FlutterSettings,
     ) -> Result<(FlightState, SteadyWing), AnalysisError> {
-        let mut start = Simulation::new(self.damped(1, [0.0; 2]))?.state().clone();
-        let rest = leading(self, &start, settings.modes)?;
+        let built = Simulation::new(self.damped(1, [0.0; 2]))?;
+        let rest = leading(self, built.state(), settings.modes)?;
         let [first, second] = [0, 1].map(|k| rest[k.min(rest.len() - 1)].frequency());
         let damping = [1.0 / second, first];
-        let mut long = Simulation::new(self.damped(LONG, damping))?;
-        let mut steps = 0;
-        while steps < LEAST || self.drift(long.state()) > STEADY {
-            if steps == settings.settling {
-                return Err(self.unsteady(long.state()));
-            }
-            long.step()?;
-            steps += 1;
-        }
-        start.clone_from(long.state());
-        let mut short = Simulation::resume(self.damped(1, damping), start)?;
-        steps = 0;
-        while steps < 4 * LEAST || self.drift(short.state()) > STEADY {
-            if steps == settings.settling {
-                return Err(self.unsteady(short.state()));
-            }
-            short.step()?;
-            steps += 1;
-        }
-        let state = short.state().clone();
+        let settling = |long: usize, least: usize| Settling {
+            setup: self.damped(long, damping),
+            speed: self.speed,
+            size: self.first().structure().size(),
+            period: TAU / first,
+            least,
+            most: settings.settling,
+        };
+        let long = settling(LONG, LEAST).to_rest(None)?;
+        let state = settling(1, 4 * LEAST).to_rest(Some(long))?;
         let steady = self.steady(&state, settings)?;
         Ok((state, steady))
-    }
-
-    fn unsteady(&self, state: &FlightState) -> AnalysisError {
-        AnalysisError::NotSteady {
-            speed: self.speed,
-            drift: self.drift(state),
-        }
     }
 
     /// The setup with other steps and damping added.
@@ -140,13 +123,6 @@ impl ElasticRig {
         setup
     }
 
-    /// Velocity of the fastest node over that of the stream.
-    fn drift(&self, state: &FlightState) -> f64 {
-        let nodes = state.wings[0].structure.velocity.chunks_exact(6);
-        let speeds = nodes.map(|node| DVec3::from_slice(node).length());
-        speeds.fold(0.0, f64::max) / self.speed
-    }
-
     fn steady(
         &self,
         state: &FlightState,
@@ -161,7 +137,7 @@ impl ElasticRig {
         Ok(SteadyWing {
             tip: at.position[tip] - rest.position[tip],
             turn: rotation_vector(at.rotation[tip] * rest.rotation[tip].inverse()),
-            drift: self.drift(state),
+            drift: drift(state, self.speed),
             vacuum: modes
                 .iter()
                 .map(wingbeat_structure::Mode::frequency)

@@ -339,7 +339,7 @@ fn mass(source: &Source<'_>) -> Built<MassInput> {
         return Err(Fault::new(
             format!("{path}.mass_kg"),
             "the wing has no mass",
-            "mass_kg, areal_density_kg_m2 or areal_density_table_m_kg_m2 (0 for a massless wing)",
+            "mass_kg, areal_density_kg_m2 or areal_density_table_m_kg_m2 (0 for a massless wing); of an elastic one also structure.beam.mass_kg_per_m or structure.shell.density_kg_m3",
             "an insect's wing has 0.5 to 1 % of the body mass",
         ));
     }

@@ -165,7 +165,7 @@ pub struct BeamCase {
     #[schemars(length(min = 2), extend("or" = "inertia_kg_m"))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub inertia_table_kg_m: Option<Vec<[f64; 2]>>,
-    /// Lumped masses, each rigid with the nearest node of the beam. They are part of `mass_kg` of the wing and weigh less than it in all, or they are beside
+    /// Lumped masses, each rigid with a node of the beam: the one that it lies at (within a twentieth of an element), or one of its own, which divides its element. They are part of `mass_kg` of the wing and weigh less than it in all, or they are beside
     /// `mass_kg_per_m`.
     ///
     /// Change it for stores, ballast, and models whose mass is given at nodes.

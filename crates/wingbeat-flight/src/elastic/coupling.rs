@@ -2,7 +2,7 @@
 
 use wingbeat_dynamics::{BodyAcceleration, BodyMotion, Wrench};
 use wingbeat_math::{Secants, larger};
-use wingbeat_structure::NODE;
+use wingbeat_structure::{GeneralizedAlpha, NODE};
 
 use super::step::{ROUNDING, SMALL, WingScratch};
 use super::wing::{ElasticState, ElasticWing};
@@ -193,7 +193,12 @@ impl ElasticWings {
         s.has_answers = false;
         for ((w, ws), state) in self.wings.iter().zip(&mut s.wings).zip(states) {
             let (structure, own) = (&w.structure, &state.structure);
-            w.method.predict(structure, own, step, &mut ws.trial);
+            // As the joints that carry it start.
+            let method = match self.on_joints && own.is_fresh() {
+                true => GeneralizedAlpha::euler(),
+                false => w.method,
+            };
+            method.predict(structure, own, step, &mut ws.trial);
             ws.is_predicted = true;
             ws.carried = None;
             accelerations[w.wing + 1] = state.acceleration();

@@ -21,6 +21,8 @@ pub struct ElasticWings {
     pub(super) gravity: DVec3,
     /// Whether wings hang on free joints.
     pub(super) on_joints: bool,
+    /// Whether wings or joints are driven.
+    is_driven: bool,
     /// Whether they do, or the flyer is light as a whole: small moments of inertia turn small forces into accelerations.
     is_delicate: bool,
 }
@@ -39,6 +41,7 @@ impl ElasticWings {
             count: animal.wings.len(),
             gravity,
             on_joints: false,
+            is_driven: false,
             is_delicate: false,
         })
     }
@@ -50,6 +53,17 @@ impl ElasticWings {
             is_delicate: on_joints || is_light,
             ..self
         }
+    }
+
+    /// The same, wings or joints driven if `is_driven`.
+    pub fn driven(self, is_driven: bool) -> Self {
+        Self { is_driven, ..self }
+    }
+
+    /// Whether wings hang on free joints and nothing is driven: what joints do is then little beside what it takes to move a rigid wing
+    /// so, where joints jerk, and is counted by itself.
+    pub fn are_passive(&self) -> bool {
+        self.on_joints && !self.is_driven
     }
 
     /// The same in air of which one half is computed, wings of which these `pairs` are mirror images of each other: the shape of

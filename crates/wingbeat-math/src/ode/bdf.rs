@@ -16,15 +16,18 @@
 //!
 //! Undamped vibrations of the angular frequency w grow by the formula of order four where w h is more than a few tenths (by
 //! 1.4 % a step at 0.6, by 11 % at 1). That of order two damps vibrations of every frequency, and leaves the share rho of the fastest from step to step: the
-//! generalized-alpha method for equations of first order [Jansen, Whiting & Hulbert 2000], its rates at the middle of a step taken out;
-//! with rho = 0 backward differences of order two:
+//! generalized-alpha method for equations of first order [Jansen, Whiting & Hulbert 2000], its rates at the middle of a step taken out.
+//! Its parameters are those of the method of second order [Chung & Hulbert 1993], by which elastic bodies go: velocities of bodies that
+//! carry each other then follow alike from their accelerations, however these jump:
 //!
 //! ```text
 //! predict  p = y[n] + h/2 (3 f[n] - f[n-1])
 //! correct  m c = (2 m - 1) y[n] + (1 - m) y[n-1]
 //!                + h (g a f(c) + (g + a - 2 g a) f[n] + (1 - g) (1 - a) f[n-1])    (repeated)
-//!          m = (3 - rho) / (2 (1 + rho)),  a = 1 / (1 + rho),  g = 1/2 + m - a
+//!          m = (2 - rho) / (1 + rho),  a = 1 / (1 + rho),  g = 1/2 + m - a
 //! ```
+//!
+//! It starts with a step of Euler's backward method, which knows no rate at the start: a jump there leaves nothing behind.
 
 use super::corrector::{Convergence, Passing, StepError, StepReport, agree};
 use super::hamming::Multistep;
@@ -45,6 +48,31 @@ const ORDER_FOUR: Weights = Weights {
     new_rate: 12.0 / 25.0,
     predictor: [55.0, -59.0, 37.0, -9.0],
 };
+
+/// m, a and g of the method of order two that leaves the share `rho`.
+fn parameters(rho: f64) -> [f64; 3] {
+    let (m, a) = ((2.0 - rho) / (1.0 + rho), 1.0 / (1.0 + rho));
+    [m, a, 0.5 + m - a]
+}
+
+/// Weights of f0 to f3 in (y_k - y_0) / h of the first three steps of the method of order two that leaves the share `rho`: one of
+/// Euler's backward method, one in which the rate at the middle of the step before is that at its end, and one as all later ones.
+pub fn order_two_start(rho: f64) -> [[f64; 4]; 3] {
+    let [m, a, g] = parameters(rho);
+    let (now, before) = (g * a / m, 1.0 - g * a / m);
+    let carried = (m - 1.0) / m;
+    let last = [(1.0 - g) * (1.0 - a) / m, (g + a - 2.0 * g * a) / m];
+    [
+        [0.0, 1.0, 0.0, 0.0],
+        [0.0, 1.0 + before, now, 0.0],
+        [
+            0.0,
+            1.0 + (1.0 + carried) * before + last[0],
+            (1.0 + carried) * now + last[1],
+            now,
+        ],
+    ]
+}
 
 /// The method: step, convergence and scratch.
 #[derive(Clone, Debug)]
@@ -83,8 +111,7 @@ impl Bdf {
 
     /// That of order two that leaves the share `rho` \[1\] of the fastest vibrations from step to step.
     pub fn order_two(self, rho: f64) -> Self {
-        let (m, a) = (0.5 * (3.0 - rho) / (1.0 + rho), 1.0 / (1.0 + rho));
-        let g = 0.5 + m - a;
+        let [m, a, g] = parameters(rho);
         let weights = Weights {
             states: [2.0 * m - 1.0, 1.0 - m, 0.0, 0.0],
             rates: [(g + a - 2.0 * g * a) / m, (1.0 - g) * (1.0 - a) / m],

@@ -17,9 +17,9 @@ pub mod runge_kutta;
 pub mod start;
 
 pub use adams::AdamsBashforthMoulton;
-pub use bdf::Bdf;
+pub use bdf::{Bdf, order_two_start};
 pub use corrector::{Asked, Convergence, StepError, StepReport, scaled_difference};
 pub use dop853::{AdaptiveError, AdaptiveReport, Dense, Dop853, Tolerance};
 pub use hamming::{Hamming, Multistep};
 pub use runge_kutta::Rk4;
-pub use start::{Memoryless, Replay, block_start};
+pub use start::{Memoryless, Replay, block_start, stepwise_start};

@@ -111,6 +111,33 @@ pub fn block_start<R: Replay>(
     Ok((past, report))
 }
 
+/// Three starting steps by formulas that ask for no later rate: `weights` of f0 to f3 in (y_k - y_0) / h.
+///
+/// # Errors
+/// As [`block_start`].
+pub fn stepwise_start<R: Replay>(
+    (y0, f0): (&[f64], &[f64]),
+    step: f64,
+    weights: &[[f64; 4]; 3],
+    (convergence, scales): (Convergence, &[f64]),
+    replay: &mut R,
+) -> Result<(Multistep, StepReport), StepError<R::Error>> {
+    let mut past = Multistep::from_start(
+        std::array::from_fn(|_| y0.to_vec()),
+        std::array::from_fn(|_| f0.to_vec()),
+    );
+    let mut report = StepReport::default();
+    for k in 1..4 {
+        replay.enter(k).map_err(StepError::Rates)?;
+        let w = weights[k - 1];
+        let inner = agree(k, w, step, convergence, scales, replay, &mut past)?;
+        report.passes = report.passes.max(inner.passes);
+        report.residual = report.residual.max(inner.residual);
+        replay.leave(k).map_err(StepError::Rates)?;
+    }
+    Ok((past, report))
+}
+
 /// Weights of f0 to f3 in (y_k - y_0) / h.
 const BLOCK: [[f64; 4]; 3] = [
     [9.0 / 24.0, 19.0 / 24.0, -5.0 / 24.0, 1.0 / 24.0],

@@ -93,6 +93,9 @@ struct Piece {
     chordwise: DVec3,
 }
 
+/// Part of an element within which a lumped mass lies at its node \[1\].
+const AT_NODE: f64 = 0.05;
+
 /// What all pieces of a beam share.
 struct Whole {
     /// Mass of the wing, less lumped masses, over its area \[kg/m2\].
@@ -153,15 +156,25 @@ impl WingBeam {
         })
     }
 
-    /// Distances of the nodes from the hinge \[m\].
+    /// Distances of the nodes from the hinge \[m\], those of lumped masses between others among them.
     fn distances(&self, mesh: &GridMesh) -> Vec<f64> {
         let [root, tip] = span(mesh);
-        match &self.stations {
+        let mut at: Vec<f64> = match &self.stations {
             Some(stations) => stations.iter().map(|r| r * tip).collect(),
             None => (0..=self.elements)
                 .map(|k| root + (tip - root) * k as f64 / self.elements as f64)
                 .collect(),
+        };
+        for r in self.masses.iter().map(|m| m.at * tip) {
+            let after = at.iter().filter(|&&node| node <= r).count();
+            if let (Some(k), Some(&next)) = (after.checked_sub(1), at.get(after)) {
+                let part = (r - at[k]) / (next - at[k]);
+                if (AT_NODE..=1.0 - AT_NODE).contains(&part) {
+                    at.insert(after, r);
+                }
+            }
         }
+        at
     }
 
     /// Place of the elastic axis at the distance `r` \[m\] from the hinge, wing components \[m\].

@@ -48,6 +48,8 @@ pub(crate) struct EachStep {
     pub(super) steps: usize,
     pub(super) kinetic_energy: Extent,
     pub(super) potential_energy: Extent,
+    /// Kinetic energy beside that of the mass centre, and strain energy of elastic wings.
+    pub(super) inner_energy: Extent,
     pub(super) hinge_work: Extent,
     pub(super) air_work: Extent,
     pub(super) deformation_work: Extent,
@@ -113,6 +115,7 @@ impl EachStep {
         self.motion(r, setup);
         self.kinetic_energy.take(r.kinetic_energy);
         self.potential_energy.take(r.potential_energy);
+        self.inner_energy.take(inner_energy(r, setup));
         self.hinge_work.take(r.hinge_work);
         self.air_work.take(r.air_work);
         self.deformation_work.take(r.deformation_work);
@@ -147,4 +150,11 @@ impl EachStep {
             crossings.see(&of_wings.map(pose).collect::<Vec<_>>());
         }
     }
+}
+
+/// Energy that the parts of a flyer turn over among themselves \[J\].
+fn inner_energy(r: &Record, setup: &FlightSetup) -> f64 {
+    let mass = setup.animal.mass();
+    let strain: f64 = r.elastic.iter().map(|w| w.strain_energy).sum();
+    r.kinetic_energy - r.momentum.length_squared() / (2.0 * mass) + strain
 }

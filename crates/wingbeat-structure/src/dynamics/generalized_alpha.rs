@@ -44,6 +44,12 @@ impl State {
             dissipation: 0.0,
         }
     }
+
+    /// Whether nothing accelerates: the state is that of a start.
+    pub fn is_fresh(&self) -> bool {
+        let mut both = self.acceleration.iter().chain(&self.algorithmic);
+        both.all(|a| *a == 0.0)
+    }
 }
 
 /// A state that a step may end in, while it is sought.
@@ -162,6 +168,16 @@ impl GeneralizedAlpha {
             gamma,
             beta: 0.25 * (gamma + 0.5) * (gamma + 0.5),
         })
+    }
+
+    /// Euler's backward method, which knows no acceleration at the start.
+    pub fn euler() -> Self {
+        Self {
+            alpha_m: 0.0,
+            alpha_f: 0.0,
+            gamma: 1.0,
+            beta: 1.0,
+        }
     }
 
     fn weights(&self, h: f64) -> Weights {

@@ -4,8 +4,8 @@ use wingbeat_math::{DMat3, DVec3, MassProperties};
 
 use crate::error::{ModelError, require};
 
-/// A rigid body on the beam of a wing: ballast, a store at the tip, the parts of a wing beside its spar. It moves with the
-/// nearest node of the beam.
+/// A rigid body on the beam of a wing: ballast, a store at the tip, the parts of a wing beside its spar. It moves with a
+/// node of the beam of its own, or with one that it lies at.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BeamMass {
     /// Its place along the beam, r/R \[1\].

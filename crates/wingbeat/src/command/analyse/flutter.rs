@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use clap::Args;
 use serde_json::{Value, json};
 use wingbeat::analysis::flutter::{
-    Condition, Crossing, FlutterSettings, Vibration, condition, crossings, growing,
+    Condition, Crossing, FlutterSettings, Vibration, condition, crossings, growing, likely,
 };
 use wingbeat::case::LoadedCase;
 
@@ -30,7 +30,7 @@ pub(crate) struct FlutterArgs {
     #[arg(long, value_name = "N", default_value_t = FlutterSettings::default().modes,
           value_parser = options::count::<1, 20>)]
     modes: usize,
-    /// Amplitude of the disturbance over the length of the wing.
+    /// Amplitude of the disturbance over the length of the wing; made smaller where the response to it is not linear.
     #[arg(long, value_name = "SHARE", default_value_t = FlutterSettings::default().disturbance,
           value_parser = options::share)]
     disturbance: f64,
@@ -60,7 +60,15 @@ pub(crate) fn run(args: &FlutterArgs) -> Result<(), Failure> {
             );
         }
         for speed in args.speeds.values() {
-            let next = watched("flutter", || condition(&case.setup, speed, &settings))?;
+            let next = match watched("flutter", || condition(&case.setup, speed, &settings)) {
+                Ok(next) => next,
+                Err(error) => {
+                    if !found.is_empty() {
+                        conclude(report, &found, &crossings(&found));
+                    }
+                    return Err(error.into());
+                }
+            };
             if found.is_empty() {
                 head(report, &case.name);
             }
@@ -172,6 +180,7 @@ fn values(c: &Condition) -> Value {
         "order": c.response.order,
         "residual": c.response.residual,
         "nonlinearity": c.nonlinearity,
+        "disturbance": c.disturbance,
     })
 }
 
@@ -229,6 +238,17 @@ fn conclude(report: &mut Report, conditions: &[Condition], found: &[Crossing]) {
             c.between[1]
         );
     }
+    let likely = likely(conditions);
+    for c in &likely {
+        line!(
+            report,
+            "\nFlutter begins at about {:.3} m/s with {:.3} Hz: at {:.3} m/s growth is neutral within what is known (+-), at {:.3} m/s it is positive. Lower --speeds make it certain.",
+            c.speed,
+            c.frequency / TAU,
+            c.between[0],
+            c.between[1]
+        );
+    }
     let through = growing(conditions);
     for [first, last] in &through {
         line!(
@@ -241,7 +261,7 @@ fn conclude(report: &mut Report, conditions: &[Condition], found: &[Crossing]) {
     if let Some(text) = divergence(conditions) {
         line!(report, "\n{text}");
     }
-    if found.is_empty() && through.is_empty() {
+    if found.is_empty() && likely.is_empty() && through.is_empty() {
         line!(report, "\n{}", unchanged(conditions));
     }
     let noted = conditions.iter().filter(|c| !notes(c).is_empty());
@@ -258,15 +278,18 @@ fn conclude(report: &mut Report, conditions: &[Condition], found: &[Crossing]) {
             "\nModes whose growth is smaller than what is not known of it (+-) are neutral within what is known: they count for no onset."
         );
     }
-    let value = |c: &Crossing| {
+    let value = |(c, certain): (&Crossing, bool)| {
         json!({
+            "certain": certain,
             "begins": c.begins,
             "speed_m_s": c.speed,
             "frequency_hz": c.frequency / TAU,
             "between_m_s": c.between,
         })
     };
-    report.value("flutter", found.iter().map(value).collect::<Vec<_>>());
+    let all = found.iter().map(|c| (c, true));
+    let all = all.chain(likely.iter().map(|c| (c, false)));
+    report.value("flutter", all.map(value).collect::<Vec<_>>());
 }
 
 /// What is said where no growth changes its sign and none is positive throughout.

@@ -1,0 +1,175 @@
+//! Coming to rest in a stream.
+//!
+//! What is left last is a motion that decays without vibrating, the more slowly, the closer the wing is to static divergence:
+//! `q(t) = q + d exp(-t / tau)`. From three shapes equally far apart in time, whose two differences are alike and of the ratio
+//! `r < 1`, follows where it leads, `q_3 + (q_3 - q_2) r / (1 - r)` [Aitken 1926]. The wing goes on from there, at rest.
+
+use std::collections::VecDeque;
+
+use wingbeat_flight::{FlightSetup, FlightState, Simulation};
+use wingbeat_math::{DVec3, rotation_vector};
+use wingbeat_structure::{Configuration, NODE};
+
+use crate::AnalysisError;
+
+/// Velocity at which the wing counts as steady: of its fastest node over that of the stream \[1\].
+const STEADY: f64 = 1e-7;
+
+/// Steps before anything is extrapolated: what calms down soon is flown.
+const PATIENCE: usize = 400;
+
+/// Periods of the first mode that a wing may take however short the steps are.
+const PERIODS: f64 = 30.0;
+
+/// Part of a period of the first mode between shapes that are extrapolated from.
+const APART: f64 = 0.25;
+
+/// Most that the two differences of three shapes differ, once scaled to each other, over the smaller \[1\], and how far
+/// ahead they lead at most, in their last difference.
+const ALIKE: f64 = 0.05;
+const FARTHEST: f64 = 300.0;
+
+/// How a wing comes to rest.
+pub(super) struct Settling {
+    /// Wings with much damping.
+    pub setup: FlightSetup,
+    /// Speed of the stream [m/s].
+    pub speed: f64,
+    /// Size of the wing \[m\].
+    pub size: f64,
+    /// Period of the first mode \[s\].
+    pub period: f64,
+    /// Steps before the wing is looked at.
+    pub least: usize,
+    /// Steps after which it may be given up, if they last [`PERIODS`].
+    pub most: usize,
+}
+
+impl Settling {
+    /// Flies on from `start`, or from the start of the setup, until the wing rests.
+    ///
+    /// # Errors
+    /// A wing that does not come to rest; what the flight reports.
+    pub fn to_rest(&self, start: Option<FlightState>) -> Result<FlightState, AnalysisError> {
+        let mut flight = match start {
+            Some(state) => Simulation::resume(self.setup.clone(), state)?,
+            None => Simulation::new(self.setup.clone())?,
+        };
+        let (most, apart) = (self.most.max(self.steps(PERIODS)), self.steps(APART).max(1));
+        let (mut steps, mut least, mut midway) = (0, self.least, f64::INFINITY);
+        let mut shapes = VecDeque::new();
+        while steps < least || drift(flight.state(), self.speed) > STEADY {
+            if steps >= most {
+                return Err(self.unsteady(flight.state(), steps, midway));
+            }
+            if steps == most / 2 {
+                midway = drift(flight.state(), self.speed);
+            }
+            flight.step()?;
+            steps += 1;
+            let extrapolates = self.setup.joints.is_empty() && steps >= PATIENCE;
+            if extrapolates && steps.is_multiple_of(apart) {
+                shapes.push_back(shapes_of(flight.state()));
+                if let Some(ahead) = self.ahead(&shapes) {
+                    let state = moved(flight.state(), &ahead);
+                    flight = Simulation::resume(self.setup.clone(), state)?;
+                    // At rest because it was laid there: the air has still to answer.
+                    least = least.max(steps + 2 * apart);
+                    shapes.clear();
+                }
+                if shapes.len() == 3 {
+                    shapes.pop_front();
+                }
+            }
+        }
+        Ok(flight.state().clone())
+    }
+
+    fn steps(&self, periods: f64) -> usize {
+        (periods * self.period / self.setup.time.step) as usize
+    }
+
+    /// Where three shapes lead, from the last of them; none where they do not decay in a line.
+    fn ahead(&self, shapes: &VecDeque<Vec<Configuration>>) -> Option<Vec<Vec<f64>>> {
+        let [a, b, c] = [0, 1, 2].map(|k| shapes.get(k));
+        let (first, last) = (increments(a?, b?), increments(b?, c?));
+        let product = |p: &[Vec<f64>], q: &[Vec<f64>]| -> f64 {
+            let weight = |k: usize| {
+                if k % NODE < 3 {
+                    self.size.powi(-2)
+                } else {
+                    1.0
+                }
+            };
+            let all = p.iter().flatten().zip(q.iter().flatten()).enumerate();
+            all.map(|(k, (x, y))| weight(k) * x * y).sum()
+        };
+        let [aa, ab, bb] = [
+            product(&first, &first),
+            product(&first, &last),
+            product(&last, &last),
+        ];
+        let ratio = ab / aa;
+        let off = (bb - ratio * ab).max(0.0).sqrt();
+        let factor = ratio / (1.0 - ratio);
+        let decays = aa > 0.0 && ratio > 0.0 && ratio < 1.0 && factor < FARTHEST;
+        let leads = decays && off <= ALIKE * bb.sqrt();
+        let scaled = |d: &Vec<f64>| d.iter().map(|x| factor * x).collect();
+        leads.then(|| last.iter().map(scaled).collect())
+    }
+
+    fn unsteady(&self, state: &FlightState, steps: usize, midway: f64) -> AnalysisError {
+        let drift = drift(state, self.speed);
+        AnalysisError::NotSteady {
+            speed: self.speed,
+            time: steps as f64 * self.setup.time.step,
+            steps,
+            drift,
+            remedy: match drift < 0.5 * midway {
+                true => {
+                    "It still calms down: longer steps (time.step_s) and damping of its own (structure.damping_s) bring it further"
+                }
+                false => {
+                    "A wing that diverges or whose flow separates has no steady state: try lower speeds, less incidence or a stiffer wing"
+                }
+            },
+        }
+    }
+}
+
+/// Velocity of the fastest node over that of the stream.
+pub(super) fn drift(state: &FlightState, speed: f64) -> f64 {
+    let nodes = state.wings[0].structure.velocity.chunks_exact(NODE);
+    let speeds = nodes.map(|node| DVec3::from_slice(node).length());
+    speeds.fold(0.0, f64::max) / speed
+}
+
+fn shapes_of(state: &FlightState) -> Vec<Configuration> {
+    let wings = state.wings.iter();
+    wings.map(|w| w.structure.configuration.clone()).collect()
+}
+
+/// Six numbers of every node, wing by wing, by which `b` is `a` moved ([`Configuration::moved`]).
+fn increments(a: &[Configuration], b: &[Configuration]) -> Vec<Vec<f64>> {
+    let of = |(a, b): (&Configuration, &Configuration)| {
+        let node = |n: usize| {
+            let shift = b.position[n] - a.position[n];
+            let turn = rotation_vector(a.rotation[n].inverse() * b.rotation[n]);
+            [shift.to_array(), turn.to_array()].concat()
+        };
+        (0..a.len()).flat_map(node).collect()
+    };
+    a.iter().zip(b).map(of).collect()
+}
+
+/// `state` with its wings moved, at rest.
+fn moved(state: &FlightState, ahead: &[Vec<f64>]) -> FlightState {
+    let mut state = state.clone();
+    for (wing, increment) in state.wings.iter_mut().zip(ahead) {
+        let s = &mut wing.structure;
+        s.configuration.moved(increment);
+        let motions = [&mut s.velocity, &mut s.acceleration, &mut s.algorithmic];
+        motions.into_iter().for_each(|m| m.fill(0.0));
+    }
+    state
+}
