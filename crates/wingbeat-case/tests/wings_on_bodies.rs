@@ -118,6 +118,62 @@ fn behaves_roots_on_bodies_are_carried_through_or_named() {
     }
 }
 
+/// What lies in the way of the circulation: thin bodies, hinges of their own, roots that bend away, that sit high, wakes that end within the body.
+#[test]
+fn behaves_what_is_in_the_way_through_a_body_is_named() {
+    let carried = |keys: &[&str]| {
+        let setup = ON_BODY.setup_with(keys);
+        let AirModel::VortexLattice(air) = &setup.air else {
+            panic!("a lattice")
+        };
+        let said = setup.roots_on_bodies();
+        assert!(said.len() < 2, "{said:?}");
+        (setup.carried_pairs(air).len(), said.concat())
+    };
+    let thin = [
+        "body.part.trunk.diameter_m=0.04",
+        "wing.right.hinge_m=[0.05,0.02,0]",
+    ];
+    let (pairs, said) = carried(&thin);
+    assert!(
+        pairs == 0 && said.contains("a quarter of a chord wide"),
+        "{said}"
+    );
+    let bent = [
+        "wing.right.deformation.bending=[{ table_m = [[0,0.1],[1,0.1]], fourier = { mean = 1 } }]",
+    ];
+    assert_eq!(carried(&bent), (0, String::new()));
+    let hinged = Case {
+        more: "[joint.flap]\nchild = \"right\"\nkind = \"revolute\"\naxis = [1, 0, 0]\n",
+        ..ON_BODY
+    };
+    let said = hinged.setup_with(&["wing.right.mass_kg=0.01"]);
+    assert!(
+        said.roots_on_bodies()
+            .concat()
+            .contains("no joints of their own")
+    );
+    let high = ["wing.right.hinge_m=[0.05,0.0866,-0.05]"];
+    let short = ["air.max_wake_rows=10"];
+    for (keys, says) in [
+        (
+            &high[..],
+            "lie high or low on the body part `trunk`, 0.6 of its half width",
+        ),
+        (
+            &short,
+            "ends, or turns to particles, within a length of the body part `trunk`",
+        ),
+    ] {
+        let (pairs, said) = carried(keys);
+        assert!(
+            pairs == 1 && said.contains(says),
+            "{keys:?}: {pairs} {said}"
+        );
+    }
+    assert_eq!(carried(&["air.max_wake_rows=40"]), (1, String::new()));
+}
+
 /// Slender-body theory: wings on a cylinder have K_W times their lift when put together, the cylinder K_B times \[NACA Report
 /// 1307\]; r is its radius, s half the span.
 #[test]

@@ -40,6 +40,7 @@ pub mod joints;
 mod light;
 mod memory;
 mod mirrored;
+mod on_bodies;
 mod prescribed;
 mod quadratures;
 pub mod record;

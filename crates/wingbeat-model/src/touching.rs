@@ -2,6 +2,7 @@
 //! both does not know.
 
 use crate::animal::{Animal, Wing};
+use crate::deformation::DeformingMesh;
 use crate::inside::Solid;
 use crate::mesh::{GridMesh, QuadMesh};
 use crate::motion::{Start, WingMotion};
@@ -26,7 +27,7 @@ pub struct RootOnPart {
 }
 
 /// Which of `wings` of the animal have their roots on parts of the central body: along three quarters of the chord of the root
-/// within a tenth of it from panels of the part, or inside, at each of 20 instants of a beat, shapes at rest.
+/// within a tenth of it from panels of the part, or inside, at each of 20 instants of a beat, with prescribed shapes, elastic ones at rest.
 pub fn roots_on_parts(animal: &Animal, wings: &[usize]) -> Vec<RootOnPart> {
     let skins: Vec<Skin> = animal.parts.iter().map(|p| Skin::new(&p.mesh)).collect();
     let of_wing = |&wing: &usize| {
@@ -48,6 +49,12 @@ pub struct PairOnPart {
     /// From the middle between the two roots towards that of the part, normal to the mean chord of the roots [m], body components: so far
     /// the way leads off the straight one to stay clear of the surface. Zero where that would lead out of the part.
     pub aside: DVec3,
+    /// How far the middle between the roots is from that of the part, normal to the chord, over half the distance of the roots \[1\].
+    pub off_middle: f64,
+    /// Distance of the roots over their chord \[1\].
+    pub apart_chords: f64,
+    /// Length of the part along the chord [m].
+    pub part_length: f64,
     /// Length along the chord of the longest panel of the part beside either root, over the chord of the root \[1\].
     pub panel_chords: f64,
 }
@@ -62,29 +69,42 @@ pub fn pairs_on_parts(animal: &Animal, pairs: &[[usize; 2]]) -> Vec<PairOnPart> 
         let part = (0..animal.parts.len()).find(|&part| lies(a, part) && lies(b, part))?;
         let mesh = &animal.parts[part].mesh;
         let roots = wings.map(|w| places(&animal.wings[w]).swap_remove(0));
+        let middles: Vec<DVec3> = (roots[0].iter().zip(&roots[1]))
+            .map(|(a, b)| a.midpoint(*b))
+            .collect();
+        let chord = middles[middles.len() - 1] - middles[0];
+        let off = off_middle(&middles, chord, mesh);
+        let apart = roots[0].iter().zip(&roots[1]).map(|(a, b)| a.distance(*b));
+        let apart = apart.sum::<f64>() / middles.len() as f64;
+        let along = mesh.nodes.iter().map(|x| x.dot(chord.normalize_or_zero()));
         Some(PairOnPart {
             wings,
             part,
-            aside: aside(&roots, mesh),
+            aside: if leads_within(&middles, off, mesh) {
+                off
+            } else {
+                DVec3::ZERO
+            },
+            off_middle: off.length() / (0.5 * apart).max(f64::MIN_POSITIVE),
+            apart_chords: apart / chord.length(),
+            part_length: along.clone().fold(f64::MIN, f64::max) - along.fold(f64::MAX, f64::min),
             panel_chords: (roots.iter().map(|root| panel_chords(root, mesh))).fold(0.0, f64::max),
         })
     };
     pairs.iter().filter_map(of).collect()
 }
 
-/// See [`PairOnPart::aside`].
-fn aside([a, b]: &[Vec<DVec3>; 2], part: &QuadMesh) -> DVec3 {
-    let middles: Vec<DVec3> = a.iter().zip(b).map(|(a, b)| a.midpoint(*b)).collect();
+/// From the middles between two roots to that of the part, normal to their mean chord [m].
+fn off_middle(middles: &[DVec3], chord: DVec3, part: &QuadMesh) -> DVec3 {
     let [low, high] = part.bounds();
     let to_middle = low.midpoint(high) - middles.iter().sum::<DVec3>() / middles.len() as f64;
-    let chord = middles[middles.len() - 1] - middles[0];
-    let aside = to_middle - to_middle.project_onto(chord);
+    to_middle - to_middle.project_onto(chord)
+}
+
+/// Whether these places are within the part, too, where they are moved `aside`.
+fn leads_within(middles: &[DVec3], aside: DVec3, part: &QuadMesh) -> bool {
     let solid = Solid::new(part);
-    let is_within = |x: &DVec3| solid.contains(*x + aside);
-    match aside.is_finite() && middles.iter().all(is_within) {
-        true => aside,
-        false => DVec3::ZERO,
-    }
+    aside.is_finite() && middles.iter().all(|x| solid.contains(*x + aside))
 }
 
 /// See [`PairOnPart::panel_chords`], of one root.
@@ -119,9 +139,19 @@ fn places(wing: &Wing) -> Vec<Vec<DVec3>> {
         true => (INSTANTS, 1.0 / motion.frequency),
         false => (1, 0.0),
     };
-    let root = root(&wing.mesh);
+    let rest = root(&wing.mesh);
+    let deforming = (wing.deformation.as_ref()).map(|d| DeformingMesh::new(&wing.mesh, d));
     let at = |k: usize| {
-        let turn = motion.at(beat * k as f64 / INSTANTS as f64).c;
+        let t = beat * k as f64 / INSTANTS as f64;
+        let turn = motion.at(t).c;
+        let mut root = rest.clone();
+        if let Some(mesh) = &deforming {
+            mesh.visit(motion.phase_at(t), |n, [x, ..]| {
+                if n % (wing.mesh.cols + 1) == 0 {
+                    root[n / (wing.mesh.cols + 1)] = x;
+                }
+            });
+        }
         root.iter().map(|x| wing.hinge_b + turn * *x).collect()
     };
     (0..instants).map(at).collect()
