@@ -335,8 +335,8 @@ fn behaves_summaries_tell_of_wings_on_bodies() {
             &body,
         ];
         let summary = flown(&preset("bird-cruise", &set));
-        let says = says(&summary, "lie on the body part `trunk`");
-        assert_eq!(says, told, "{:?}", summary.warnings);
+        let told_of = "panels of the body part `trunk` are 0.6 chords long";
+        assert_eq!(says(&summary, told_of), told, "{:?}", summary.warnings);
     }
 }
 

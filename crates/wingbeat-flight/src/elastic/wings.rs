@@ -63,7 +63,7 @@ impl ElasticWings {
     /// Whether wings hang on free joints and nothing is driven: what joints do is then little beside what it takes to move a rigid wing
     /// so, where joints jerk, and is counted by itself.
     pub fn are_passive(&self) -> bool {
-        self.on_joints && !self.is_driven
+        !self.wings.is_empty() && self.on_joints && !self.is_driven
     }
 
     /// The same in air of which one half is computed, wings of which these `pairs` are mirror images of each other: the shape of
