@@ -114,8 +114,8 @@ impl Lattice {
     /// The same lattice for motions that are mirror-symmetric: computed on one half.
     ///
     /// # Errors
-    /// [`AirError::MirrorPairs`] names the first node, panel or wake sheet whose image does not fit, [`AirError::AsymmetricAir`] the
-    /// part of the undisturbed air that is no mirror image of itself.
+    /// [`AirError::MirrorPairs`] names the first node, panel or wake sheet whose image does not fit,
+    /// [`AirError::AsymmetricAir`] the part of the undisturbed air that is no mirror image of itself.
     pub fn with_mirror_symmetry(mut self, pairs: MirrorPairs) -> Result<Self, AirError> {
         let symmetry = Symmetry::new(pairs, &self.topology)?;
         if let Some(what) = self.settings.asymmetric_part(&symmetry.mirror) {
@@ -193,7 +193,8 @@ impl Lattice {
         &self.carried
     }
 
-    /// What leaves the wings on both sides of the edge that a column of wake sheet `k` leaves, if that is within a body.
+    /// What leaves the wings on both sides of the edge that a column of wake sheet `k` leaves, if that is
+    /// within a body.
     pub(crate) fn leaving_beside(&self, k: usize, column: usize) -> Option<[WakeColumn; 2]> {
         self.middle_column(k)?;
         let root = &self.sheets()[k];

@@ -28,9 +28,9 @@
 //!
 //! Old rows of wake, or those of leading edges at once, can become vortex particles ([`ParticleSettings`]).
 //!
-//! Surfaces may change their shape: their nodes move as the caller says. [`JoinedEdge`] joins surfaces to
-//! one; strips with [`Surface::carry_through`] carry the circulation of two wings through the body they stand on; [`SectionDrag`] adds friction and
-//! profile drag.
+//! Surfaces may change their shape: their nodes move as the caller says. [`JoinedEdge`] joins surfaces to one;
+//! strips with [`Surface::carry_through`] carry the circulation of two wings through the body they stand on;
+//! [`SectionDrag`] adds friction and profile drag.
 //!
 //! The crate reads downward, and each storey knows those below it only: `step` (the recipes), `workspace`, `loads`
 //! (from circulations to forces), `solve` (the circulations), `wake` (filaments, their velocities, their motion),

@@ -1,10 +1,10 @@
 //! How the forces of a surface answer to normal velocities of its panels: the lattice's own added mass, and what the
 //! circulation does meanwhile.
 //!
-//! In frozen wakes the circulations are linear in the normal velocities w of the panels, `dGamma = A^-1 dw`, A the
-//! influence of the surface on itself; pressures are linear in the circulations, by their rate of change and by the jump
-//! of the tangential velocity. Other surfaces, the images and the tilt of the panels are left out: this is for the
-//! left-hand side of a coupled step, whose right-hand side knows all of it.
+//! In frozen wakes the circulations are linear in the normal velocities w of the panels, `dGamma = A^-1 dw`, A
+//! the influence of the surface on itself; pressures are linear in the circulations, by their rate of change
+//! and by the jump of the tangential velocity. Other surfaces, the images and the tilt of the panels are left
+//! out: this is for the left-hand side of a coupled step, whose right-hand side knows all of it.
 
 use crate::error::AirError;
 use crate::geometry::corner_weights;
@@ -15,14 +15,14 @@ use crate::state::AirState;
 use crate::workspace::AirWorkspace;
 use wingbeat_math::{DVec3, DenseLu};
 
-/// How the normal velocity of a panel changes with a node of its surface: by its velocity \[1\] and by its place \[1/s\], N
-/// components. The first is also how the node shares in a normal force of the panel.
+/// How the normal velocity of a panel changes with a node of its surface: by its velocity \[1\] and by its
+/// place \[1/s\], N components. The first is also how the node shares in a normal force of the panel.
 pub type NodeWash = [DVec3; 2];
 
 impl Lattice {
-    /// Derivative of the normal forces of the panels of the open surface `s` by the normal velocities of their control
-    /// points \[N s/m\], row by row, at the instant that `ws` and `out` were last asked for ([`Self::loads`]): of one half
-    /// where only that is computed the other's answers are its mirror image.
+    /// Derivative of the normal forces of the panels of the open surface `s` by the normal velocities of their
+    /// control points \[N s/m\], row by row, at the instant that `ws` and `out` were last asked for
+    /// ([`Self::loads`]): of one half where only that is computed the other's answers are its mirror image.
     ///
     /// # Errors
     /// A singular influence matrix.
@@ -50,8 +50,9 @@ impl Lattice {
         Ok(response)
     }
 
-    /// Derivative of the normal forces of the panels of the open surface `s` by the normal accelerations of their control
-    /// points \[kg\], row by row, at the instant that `ws` and `out` were last asked for: the added mass, its sign turned.
+    /// Derivative of the normal forces of the panels of the open surface `s` by the normal accelerations of
+    /// their control points \[kg\], row by row, at the instant that `ws` and `out` were last asked for: the
+    /// added mass, its sign turned.
     ///
     /// # Errors
     /// A singular influence matrix.
@@ -71,8 +72,9 @@ impl Lattice {
         Ok(rows.map(entry).collect())
     }
 
-    /// Weights of the circulations now, `dt` \[s\] after the last accepted step, in that step and in the one before in their
-    /// rate of change \[1/s\]; none where the loads leave that out ([`CirculationRate::Omitted`]).
+    /// Weights of the circulations now, `dt` \[s\] after the last accepted step, in that step and in the one
+    /// before in their rate of change \[1/s\]; none where the loads leave that out
+    /// ([`CirculationRate::Omitted`]).
     pub fn circulation_rate_weights(&self, state: &AirState, dt: f64) -> Option<[f64; 3]> {
         let is_omitted = self.settings().rate == CirculationRate::Omitted;
         (!is_omitted).then(|| rate_weights(self, state, dt))
@@ -95,9 +97,9 @@ impl Lattice {
         Ok(lu.inverse())
     }
 
-    /// How the normal velocity of panel `p`, that of the surface less that of the air, changes with the nodes of its surface
-    /// (their numbers on it), at the instant of `ws` and `loads`, all nodes of the surfaces being at `position` [m, N]; some nodes
-    /// several times.
+    /// How the normal velocity of panel `p`, that of the surface less that of the air, changes with the nodes
+    /// of its surface (their numbers on it), at the instant of `ws` and `loads`, all nodes of the surfaces
+    /// being at `position` [m, N]; some nodes several times.
     pub fn normal_wash(
         &self,
         p: usize,
@@ -127,7 +129,8 @@ impl Lattice {
         }
     }
 
-    /// Secant of the normal force of panel `p` by circulations, the derivative where edges hold nothing or all: (panel, weight \[N s/m2\]), some panels twice.
+    /// Secant of the normal force of panel `p` by circulations, the derivative where edges hold nothing or all:
+    /// (panel, weight \[N s/m2\]), some panels twice.
     fn force_by_circulation<'a>(
         &'a self,
         p: usize,

@@ -90,7 +90,8 @@ impl Lattice {
         }
     }
 
-    /// Place and motion of the surfaces as the rings meet them, where leading edges hold this part of their circulation, strip by strip.
+    /// Place and motion of the surfaces as the rings meet them, where leading edges hold this part of their
+    /// circulation, strip by strip.
     fn take_wash(&self, ws: &mut AirWorkspace, panels: &Panels, held: impl Fn(usize) -> f64) {
         ws.wash.none(&ws.rings, panels);
         let all = self.settings().held_shift();
@@ -100,8 +101,8 @@ impl Lattice {
         }
     }
 
-    /// Circulations of the panels and velocities at their control points. Without circulation before it is not known what leading edges
-    /// will hold: that follows from the flow in which they hold all.
+    /// Circulations of the panels and velocities at their control points. Without circulation before it is not
+    /// known what leading edges will hold: that follows from the flow in which they hold all.
     fn solve_circulations(
         &self,
         state: &AirState,

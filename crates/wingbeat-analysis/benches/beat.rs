@@ -64,7 +64,8 @@ fn seconds(work: impl FnOnce()) -> f64 {
     start.elapsed().as_secs_f64()
 }
 
-/// Control steps of `many` episodes of hover that take turns, 40 Runge-Kutta steps a beat, one control every `interval` steps.
+/// Control steps of `many` episodes of hover that take turns, 40 Runge-Kutta steps a beat, one control every
+/// `interval` steps.
 fn episodes(many: usize, interval: usize) {
     let trim = wingbeat_analysis::trim(&common::fly(), &common::hover(40)).expect("the fruit fly");
     let mut course = Course::new(Task::Hover, trim).expect("the fruit fly");

@@ -1,9 +1,9 @@
 //! One wingbeat of free flight in air without memory, as a map of the state.
 //!
 //! The equations are those of a flight ([`FreeFlight`]): any bodies and joints, loops among them whose motion
-//! is driven, any air that depends on the present motion alone. As the wings' motion is prescribed and periodic, everything that
-//! depends on time alone is known beforehand at the half steps of the classical Runge-Kutta
-//! method.
+//! is driven, any air that depends on the present motion alone. As the wings' motion is prescribed and
+//! periodic, everything that depends on time alone is known beforehand at the half steps of the classical
+//! Runge-Kutta method.
 //!
 //! State: mass centre, quaternion, linear momentum, angular momentum about the mass centre (13
 //! numbers, N components), then coordinates and speeds of the free joints.
@@ -45,8 +45,8 @@ pub struct Beat {
 }
 
 impl Beat {
-    /// The wingbeat of a setup, its wings beating steadily from the first instant, in `steps`
-    /// equal steps. Start state, mode and time grid of the setup do not matter; of the start of the strokes what remains is
+    /// The wingbeat of a setup, its wings beating steadily from the first instant, in `steps` equal steps.
+    /// Start state, mode and time grid of the setup do not matter; of the start of the strokes what remains is
     /// by how much it delays them behind joints that are driven in time.
     ///
     /// # Errors
@@ -385,10 +385,11 @@ pub(crate) fn changing_air(setup: &FlightSetup) -> AnalysisError {
     )
 }
 
-/// The setup without the start of its strokes and of its tether: wings that beat at full rate from the first instant, the beat beginning
-/// at the phase of the case. Where joints are driven in time, a start that delays the wings does not delay the joints; so
-/// that a beat of both is one of the flight, it begins where the joints' laws do, at the phase of the wings that have
-/// risen ([`WingMotion::risen`](wingbeat_model::WingMotion::risen)).
+/// The setup without the start of its strokes and of its tether: wings that beat at full rate from the first
+/// instant, the beat beginning at the phase of the case. Where joints are driven in time, a start that delays
+/// the wings does not delay the joints; so that a beat of both is one of the flight, it begins where the
+/// joints' laws do, at the phase of the wings that have risen
+/// ([`WingMotion::risen`](wingbeat_model::WingMotion::risen)).
 pub(crate) fn steadied(setup: &FlightSetup) -> FlightSetup {
     let mut steady = setup.clone();
     let driven = setup.joints.iter().any(is_driven);

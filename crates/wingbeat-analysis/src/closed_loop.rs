@@ -1,5 +1,5 @@
-//! The loop that a regulator closes over a wingbeat of the linear flight: states that are seen, free joints, which are not, what the
-//! regulator remembers, and commands in force and under way.
+//! The loop that a regulator closes over a wingbeat of the linear flight: states that are seen, free joints,
+//! which are not, what the regulator remembers, and commands in force and under way.
 //!
 //! ```text
 //! z[k+1] = F z[k]        the departure dies out where every eigenvalue of F is less than 1 in size

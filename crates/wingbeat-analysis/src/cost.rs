@@ -1,5 +1,5 @@
-//! Seconds that the steps of a flight take: what a step costs, as a function of the wake, fitted to the steps made so far and
-//! summed over those to come.
+//! Seconds that the steps of a flight take: what a step costs, as a function of the wake, fitted to the steps
+//! made so far and summed over those to come.
 //!
 //! ```text
 //! cost(n) = a + b n + c n^p        n: rings and particles of the wake; a, b, c >= 0

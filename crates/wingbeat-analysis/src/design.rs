@@ -67,8 +67,9 @@ pub struct Design {
 }
 
 impl Design {
-    /// The trimmed flight about which the controller of a flight of `setup` is laid out; its beat begins where the flight, its
-    /// strokes once risen, is after whole wingbeats: a smooth start makes them late, not the looks.
+    /// The trimmed flight about which the controller of a flight of `setup` is laid out; its beat begins where
+    /// the flight, its strokes once risen, is after whole wingbeats: a smooth start makes them late, not the
+    /// looks.
     ///
     /// # Errors
     /// A flight that has none, or that [`trim()`] does not cover.

@@ -1,7 +1,7 @@
 //! A steady flight that is disturbed: what begins beside a trimmed flight, to see whether it comes back or is held.
 //!
-//! The whole flyer is turned by the rotation T of [`Perturbation::tilt`], which is seen in the level frame F of the steady
-//! attitude, and its velocities with it; then velocities are added:
+//! The whole flyer is turned by the rotation T of [`Perturbation::tilt`], which is seen in the level frame F of
+//! the steady attitude, and its velocities with it; then velocities are added:
 //!
 //! | quantity | steady | disturbed |
 //! |---|---|---|
@@ -9,8 +9,9 @@
 //! | velocity, N components | `v` | `turn v + push` |
 //! | angular velocity, root components | `w` | `w + R_BF rate` |
 //!
-//! `push` is `R_NF T velocity` where the velocity is along axes that turn with the flyer, as modes of flight have it; along axes that
-//! stay level it is `R_NF velocity`, as where episodes and flights under feedback begin ([`disturbed`]).
+//! `push` is `R_NF T velocity` where the velocity is along axes that turn with the flyer, as modes of flight
+//! have it; along axes that stay level it is `R_NF velocity`, as where episodes and flights under feedback
+//! begin ([`disturbed`]).
 
 use wingbeat_dynamics::BodyMotion;
 use wingbeat_flight::StartState;

@@ -23,9 +23,9 @@ fn redrawn(setup: &FlightSetup, k: usize) -> Option<Feedback> {
     })
 }
 
-/// Member `k` of `count`: the first as it is, in the others the air moves by a millionth of the wings' speed (length over
-/// period, or that of the stream), each in a direction of its own, all in the plane of symmetry where half is computed; noise
-/// of the senses is another. None where the air has no stream.
+/// Member `k` of `count`: the first as it is, in the others the air moves by a millionth of the wings' speed
+/// (length over period, or that of the stream), each in a direction of its own, all in the plane of symmetry
+/// where half is computed; noise of the senses is another. None where the air has no stream.
 pub fn member(setup: &FlightSetup, k: usize, count: usize) -> Option<FlightSetup> {
     let mut member = setup.clone();
     let reports = member.animal.wing_reports();

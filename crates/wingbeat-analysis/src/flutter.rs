@@ -1,11 +1,12 @@
 //! Flutter: when the vibrations of an elastic wing in a stream grow.
 //!
-//! At each speed the wing is flown to its deformed steady state with much damping, first with long steps (`settling`). From there two
-//! flights go on with the damping of the wing itself, one of them with small velocities added in the leading modes of the deformed wing
-//! (`disturbance`). The difference of the two is the response of the system linearised about the deformed state, wakes
-//! and all; [`realise`] finds its eigenvalues. Growth that changes its sign between speeds is an onset or an
-//! end of flutter ([`crossings`]), if it differs from zero by more than is not known of it (`uncertainty`). The disturbance of
-//! half the size tells how far the response is linear; where it is not, the disturbance is made smaller (`response`).
+//! At each speed the wing is flown to its deformed steady state with much damping, first with long steps
+//! (`settling`). From there two flights go on with the damping of the wing itself, one of them with small
+//! velocities added in the leading modes of the deformed wing (`disturbance`). The difference of the two is the
+//! response of the system linearised about the deformed state, wakes and all; [`realise`] finds its
+//! eigenvalues. Growth that changes its sign between speeds is an onset or an end of flutter ([`crossings`]),
+//! if it differs from zero by more than is not known of it (`uncertainty`). The disturbance of half the size
+//! tells how far the response is linear; where it is not, the disturbance is made smaller (`response`).
 //!
 //! | symbol | name in code | meaning | unit |
 //! |---|---|---|---|

@@ -5,8 +5,8 @@ use crate::progress;
 /// Derivative of `map` at `x` by fourth-order central differences with steps `step[k]`, by rows:
 /// entry (i, j) is the derivative of component i by component j.
 ///
-/// The map may have more or fewer components than the point. For the map "state one period later" this is the monodromy matrix,
-/// its eigenvalues Floquet's multipliers.
+/// The map may have more or fewer components than the point. For the map "state one period later" this is the
+/// monodromy matrix, its eigenvalues Floquet's multipliers.
 ///
 /// # Errors
 /// What the map reports.

@@ -1,14 +1,14 @@
 //! Questions of flight dynamics, asked of the full flapping model.
 //!
-//! The chapter in order: [`Beat`] is one wingbeat of free flight as a map of the state; [`trim()`]
-//! finds steady flight as a periodic orbit of that map (Newton's method, shooting over one beat), [`sweep()`] over a range of
-//! speeds; [`MeanLoad`] averages loads over a beat of steadily moving body; [`linear_model`] linearises: the
-//! cycle-averaged rigid-body model with its derivatives; [`floquet`] has Floquet's multipliers of the
-//! periodic orbit from the monodromy matrix ([`orbit_monodromy`]); [`ModeSet`] names what comes out; [`control_derivatives`]
-//! are the controls; [`power()`] is what it takes; [`control`] holds a flyer on its orbit by feedback; an [`episode`] is
-//! steered from outside, for who learns; [`wing_modes()`] are the vibrations of elastic wings, [`flutter`] asks when they grow;
-//! [`estimate`] says before a flight what it will be like, [`cost`] how long it takes; an [`ensemble`] is the same flight many
-//! times over.
+//! The chapter in order: [`Beat`] is one wingbeat of free flight as a map of the state; [`trim()`] finds steady
+//! flight as a periodic orbit of that map (Newton's method, shooting over one beat), [`sweep()`] over a range
+//! of speeds; [`MeanLoad`] averages loads over a beat of steadily moving body; [`linear_model`] linearises: the
+//! cycle-averaged rigid-body model with its derivatives; [`floquet`] has Floquet's multipliers of the periodic
+//! orbit from the monodromy matrix ([`orbit_monodromy`]); [`ModeSet`] names what comes out;
+//! [`control_derivatives`] are the controls; [`power()`] is what it takes; [`control`] holds a flyer on its
+//! orbit by feedback; an [`episode`] is steered from outside, for who learns; [`wing_modes()`] are the
+//! vibrations of elastic wings, [`flutter`] asks when they grow; [`estimate`] says before a flight what it will
+//! be like, [`cost`] how long it takes; an [`ensemble`] is the same flight many times over.
 //!
 //! | symbol | name in code | meaning | unit |
 //! |---|---|---|---|

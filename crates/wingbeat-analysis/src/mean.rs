@@ -61,9 +61,9 @@ impl Beat {
         sum / (2 * self.steps()) as f64
     }
 
-    /// Mean air load when the mean mass centre moves with `velocity` [m/s] and the body turns with
-    /// `rate` [rad/s], the rate and the velocity through the air steady in the level frame that turns with the body. Equal
-    /// weights over the beat: spectrally accurate for a periodic motion.
+    /// Mean air load when the mean mass centre moves with `velocity` [m/s] and the body turns with `rate`
+    /// [rad/s], the rate and the velocity through the air steady in the level frame that turns with the body.
+    /// Equal weights over the beat: spectrally accurate for a periodic motion.
     ///
     /// # Errors
     /// Free joints, whose motion is not known beforehand; what the air reports.
@@ -81,8 +81,9 @@ impl Beat {
         self.changing_load(level, &state, [DVec3::ZERO; 2])
     }
 
-    /// The same in a tilted attitude, and while the velocity through the air changes by `rates[0]` [m/s2] and the rate by
-    /// `rates[1]` [rad/s2]: components of the level frame that turns and is tilted with the body, the load's too.
+    /// The same in a tilted attitude, and while the velocity through the air changes by `rates[0]` [m/s2] and
+    /// the rate by `rates[1]` [rad/s2]: components of the level frame that turns and is tilted with the body,
+    /// the load's too.
     pub(crate) fn changing_load(
         &self,
         level: &Level,

@@ -61,8 +61,8 @@ pub struct Mode {
     pub multiplier: [f64; 2],
     /// Period of a wingbeat [s], for times in wingbeats.
     pub wingbeat: f64,
-    /// Components of the eigenvector over their natural sizes, largest 1: size, and phase from that of the largest component of
-    /// flight \[rad\].
+    /// Components of the eigenvector over their natural sizes, largest 1: size, and phase from that of the
+    /// largest component of flight \[rad\].
     pub vector: Vec<(&'static str, f64, f64)>,
 }
 
@@ -105,8 +105,9 @@ impl ModeSet {
         Self::build(&pairs, scales, ([].as_slice(), JOINTS), with)
     }
 
-    /// From eigenpairs of a monodromy matrix, `wings` the natural sizes of the components of elastic wings behind the nine of
-    /// flight. What has decayed to a thousandth within a beat is left out: what else wings do is of that size.
+    /// From eigenpairs of a monodromy matrix, `wings` the natural sizes of the components of elastic wings
+    /// behind the nine of flight. What has decayed to a thousandth within a beat is left out: what else wings
+    /// do is of that size.
     pub fn with_wings(mut pairs: Vec<Eigenpair>, scales: &Scales, wings: &[f64]) -> Self {
         pairs.retain(|p| p.value[0].hypot(p.value[1]) > 1e-3);
         Self::of_map(&pairs, scales, (wings, WINGS))

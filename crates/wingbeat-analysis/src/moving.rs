@@ -11,8 +11,8 @@ pub(crate) fn only_turns(wing: &ElasticWing, mode: &Mode) -> bool {
     wing.is_sheet() && mode.turning(wing.structure()) > TURNING
 }
 
-/// Part of the kinetic energy in the turns of the nodes up to which a mode that is left out moves, too: a wave of the sheet mixed with such
-/// turns of nearly its frequency \[1\].
+/// Part of the kinetic energy in the turns of the nodes up to which a mode that is left out moves, too: a wave
+/// of the sheet mixed with such turns of nearly its frequency \[1\].
 const MIXED: f64 = 0.9;
 
 /// The leading modes of a wing in which something moves.

@@ -68,8 +68,8 @@ impl Part {
 /// The trimmed flight where each part of its wingbeat begins.
 #[derive(Clone, Debug)]
 pub struct Orbit {
-    /// What is seen there, and the place of the mass centre less that of the flight with the mean velocity, level frame;
-    /// less both at the start of the beat.
+    /// What is seen there, and the place of the mass centre less that of the flight with the mean velocity,
+    /// level frame; less both at the start of the beat.
     pub points: Vec<Departure>,
     /// What is seen there.
     pub seen: Vec<Perturbation>,

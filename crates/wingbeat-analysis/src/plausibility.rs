@@ -73,7 +73,8 @@ pub fn estimate(setup: &FlightSetup) -> Estimate {
     estimate
 }
 
-/// Fastest speed through the undisturbed air at which a tether moves the tip of the wing, strokes left out [m/s]; 0 in free flight.
+/// Fastest speed through the undisturbed air at which a tether moves the tip of the wing, strokes left out
+/// [m/s]; 0 in free flight.
 fn carried(setup: &FlightSetup, wing: &Wing) -> f64 {
     let MotionMode::Tethered(motion) = &setup.mode else {
         return 0.0;

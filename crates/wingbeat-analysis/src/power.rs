@@ -92,8 +92,8 @@ pub fn power(setup: &FlightSetup) -> Result<Power, AnalysisError> {
     Ok(last)
 }
 
-/// Powers over the free wingbeat of a flight that was trimmed in air without memory. (A body carried at one attitude is not in
-/// balance: a bird whose pitch swings by 12 degrees was asked for 1.7 times the power.)
+/// Powers over the free wingbeat of a flight that was trimmed in air without memory. (A body carried at one
+/// attitude is not in balance: a bird whose pitch swings by 12 degrees was asked for 1.7 times the power.)
 ///
 /// # Errors
 /// As [`power`].
@@ -109,7 +109,8 @@ pub fn power_with_wake(trim: &WakeTrim) -> Result<Power, AnalysisError> {
     over_free_beat(&trim.setup, trim.start().held_steps, &trim.past)
 }
 
-/// Powers over a free flight after `held` steps, its elastic wings and wakes of strips beginning as in `past` if there are any.
+/// Powers over a free flight after `held` steps, its elastic wings and wakes of strips beginning as in `past`
+/// if there are any.
 fn over_free_beat(setup: &FlightSetup, held: usize, past: &Past) -> Result<Power, AnalysisError> {
     let limbs = Limbs::of(setup)?;
     let mut flight = match past.is_empty() {

@@ -1,9 +1,10 @@
-//! Modes of a linear system from its free response: the eigensystem realisation algorithm [Juang & Pappa, J. Guid. 8:620,
-//! 1985].
+//! Modes of a linear system from its free response: the eigensystem realisation algorithm [Juang & Pappa, J.
+//! Guid. 8:620, 1985].
 //!
-//! Samples `y_k = C A^k x_0` fill two Hankel matrices, `H0 = [y_(i+j)]` and `H1 = [y_(i+j+1)]`. With `H0 = U S V^T`, singular
-//! values below the noise left out, `A = S^(-1/2) U^T H1 V S^(-1/2)` up to the choice of the state, and `ln(eigenvalue) / step`
-//! are growth and angular frequency. How much each mode takes part follows by least squares.
+//! Samples `y_k = C A^k x_0` fill two Hankel matrices, `H0 = [y_(i+j)]` and `H1 = [y_(i+j+1)]`. With `H0 = U S
+//! V^T`, singular values below the noise left out, `A = S^(-1/2) U^T H1 V S^(-1/2)` up to the choice of the
+//! state, and `ln(eigenvalue) / step` are growth and angular frequency. How much each mode takes part follows
+//! by least squares.
 
 use std::f64::consts::PI;
 

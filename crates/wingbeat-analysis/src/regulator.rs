@@ -7,13 +7,13 @@
 //! u[k] = -K (x[k], a[k], commands under way)   command, in force `latency` beats later
 //! ```
 //!
-//! Controls: amplitude of all wings, mean stroke angle of all wings, right-left differences of
-//! amplitude and of stroke plane. Free joints are states of the map that nobody sees: their departures are what the map makes
-//! of what was seen and commanded since the start, `j[k+1] = M_jx x[k] + M_jj j[k] + ...`; the closed loop has the eigenvalues
-//! of the regulator and those of `M_jj`. With a weight of their sums, position and heading are summed from
-//! beat to beat and fed back too (integral action): what steadily pulls the flyer away, a load or an
-//! air that differs from that of the layout, is then found and taken back wholly. Noise of what is seen is filtered by an
-//! [`observer`] where there is one.
+//! Controls: amplitude of all wings, mean stroke angle of all wings, right-left differences of amplitude and of
+//! stroke plane. Free joints are states of the map that nobody sees: their departures are what the map makes of
+//! what was seen and commanded since the start, `j[k+1] = M_jx x[k] + M_jj j[k] + ...`; the closed loop has the
+//! eigenvalues of the regulator and those of `M_jj`. With a weight of their sums, position and heading are
+//! summed from beat to beat and fed back too (integral action): what steadily pulls the flyer away, a load or
+//! an air that differs from that of the layout, is then found and taken back wholly. Noise of what is seen is
+//! filtered by an [`observer`] where there is one.
 
 pub(crate) mod observer;
 pub(crate) mod plant;
@@ -127,7 +127,8 @@ impl Regulator {
     /// Gains for the trimmed flight and commands that act `latency` beats after sensing.
     ///
     /// # Errors
-    /// A flight that the strokes cannot stabilise: Riccati's iteration does not converge; free joints that keep on moving.
+    /// A flight that the strokes cannot stabilise: Riccati's iteration does not converge; free joints that keep
+    /// on moving.
     pub fn new(trim: &Trim, weights: &Weights, latency: usize) -> Result<Self, AnalysisError> {
         let timing = Timing {
             parts: 1,
@@ -198,8 +199,8 @@ impl Regulator {
         }
     }
 
-    /// Feedback gains of every look of a wingbeat, `CONTROLS` rows; columns: position, velocity, rate, tilt (SI), free joints, sums, then
-    /// commands in force and under way.
+    /// Feedback gains of every look of a wingbeat, `CONTROLS` rows; columns: position, velocity, rate, tilt
+    /// (SI), free joints, sums, then commands in force and under way.
     pub fn gains(&self) -> &[Vec<f64>] {
         &self.gains
     }
@@ -277,13 +278,15 @@ impl Regulator {
     }
 }
 
-/// A weight so many times the default, or so small a part of it, may be why no gains are found; those of one tenth of it fly.
+/// A weight so many times the default, or so small a part of it, may be why no gains are found; those of one
+/// tenth of it fly.
 const FAR: f64 = 100.0;
 
 /// Sums over the beats that weigh as position and tilt usually do.
 const USUAL_SUM: f64 = 2.0;
 
-/// What an iteration without gains means: weights far from those of the default leave nothing to balance within its passes and digits.
+/// What an iteration without gains means: weights far from those of the default leave nothing to balance within
+/// its passes and digits.
 fn unstable(error: AnalysisError, weights: &Weights) -> AnalysisError {
     let AnalysisError::Numbers(problem) = error else {
         return error;

@@ -1,5 +1,5 @@
-//! The rigid body of the averaged model: Newton's and Euler's laws with the added mass of the air and the angular momentum
-//! of the beating wings.
+//! The rigid body of the averaged model: Newton's and Euler's laws with the added mass of the air and the
+//! angular momentum of the beating wings.
 
 use wingbeat_math::{DMat3, DQuat, DVec3, solve_small};
 
@@ -20,14 +20,16 @@ pub(crate) struct RigidBody {
     pub(crate) stream: DVec3,
     /// Mean angular momentum of the wings seen from the body [kg m2/s].
     pub(crate) momentum: DVec3,
-    /// Force and moment that the air takes for rates of the velocity through it and of the angular velocity, SI, 6 x 6 by rows.
+    /// Force and moment that the air takes for rates of the velocity through it and of the angular velocity,
+    /// SI, 6 x 6 by rows.
     pub(crate) added_mass: [[f64; 6]; 6],
     /// By which forces and moments are compared [m].
     pub(crate) length: f64,
 }
 
 impl RigidBody {
-    /// That of the wingbeat `beat` about the steady flight `reference`: its mean mass properties, and the mean answer of its air.
+    /// That of the wingbeat `beat` about the steady flight `reference`: its mean mass properties, and the mean
+    /// answer of its air.
     ///
     /// # Errors
     /// What the air reports.
@@ -48,8 +50,8 @@ impl RigidBody {
         })
     }
 
-    /// Rates of the nine components of [`Perturbation`] under the air's `load(state)`, that of a velocity through the air and a
-    /// rate which do not change.
+    /// Rates of the nine components of [`Perturbation`] under the air's `load(state)`, that of a velocity
+    /// through the air and a rate which do not change.
     pub(crate) fn rates(
         &self,
         x: &[f64],

@@ -145,8 +145,8 @@ pub(crate) fn largest(r: &[f64]) -> f64 {
 mod tests {
     use super::*;
 
-    /// A circle of radius 2 and a hyperbola, which counts how often its slopes are asked for; the first coordinate may be
-    /// limited, and the largest that was asked for is kept.
+    /// A circle of radius 2 and a hyperbola, which counts how often its slopes are asked for; the first
+    /// coordinate may be limited, and the largest that was asked for is kept.
     #[derive(Default)]
     struct Curves {
         slopes: usize,

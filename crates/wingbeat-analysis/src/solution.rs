@@ -13,8 +13,8 @@ use crate::unknown::{Unknown, adjusted};
 pub struct TrimSolution {
     /// Whether the residual is within the tolerance.
     pub converged: bool,
-    /// The residuals, [`Residuals::names`](crate::Residuals::names); then the change of every coordinate and speed of a free joint
-    /// over its natural size.
+    /// The residuals, [`Residuals::names`](crate::Residuals::names); then the change of every coordinate and
+    /// speed of a free joint over its natural size.
     pub residual: Vec<f64>,
     /// Largest lateral residual where only those of the plane of symmetry are asked, else 0 \[1\].
     pub lateral: f64,
@@ -41,7 +41,8 @@ pub struct TrimSolution {
 }
 
 impl TrimSolution {
-    /// The point at which the unknowns of `problem` have the values `chosen`, its residuals not known yet; and the setup with them.
+    /// The point at which the unknowns of `problem` have the values `chosen`, its residuals not known yet; and
+    /// the setup with them.
     pub(crate) fn at(
         setup: &FlightSetup,
         problem: &TrimProblem,

@@ -8,10 +8,11 @@
 //!
 //! with B the acceleration per unit of the control, that of the mean rigid body with the added mass of the air
 //! ([`input_matrix`]; of roll and heading a 2 x 2 matrix, for either control does both): each loop, alone and
-//! without latency, has the natural frequency omega and the damping zeta. With iota above 0 it is proportional-integral-
-//! derivative: sums over the looks take back wholly what pulls steadily, and stand still while a command is at its limit.
-//! Drift is braked by leaning against it: the pitch and roll held are `-+ omega_v u / g`. The
-//! place is not held; the regulator ([`crate::regulator`]) holds it, and bears longer latencies.
+//! without latency, has the natural frequency omega and the damping zeta. With iota above 0 it is
+//! proportional-integral- derivative: sums over the looks take back wholly what pulls steadily, and stand still
+//! while a command is at its limit. Drift is braked by leaning against it: the pitch and roll held are `-+
+//! omega_v u / g`. The place is not held; the regulator ([`crate::regulator`]) holds it, and bears longer
+//! latencies.
 
 use wingbeat_flight::control::fits;
 use wingbeat_math::DVec3;

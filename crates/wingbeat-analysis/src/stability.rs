@@ -23,14 +23,14 @@ pub struct LinearModel {
     pub matrix: Vec<f64>,
     /// Derivatives of (X, Y, Z, L, M, N) by (u, v, w, p, q, r), 6 x 6 by rows [SI: N, m, s, rad].
     pub derivatives: [[f64; 6]; 6],
-    /// Added mass of the air: derivatives of (X, Y, Z, L, M, N), reversed, by the rates of (u, v, w, p, q, r) through the air, 6 x
-    /// 6 by rows [SI: N, m, s, rad].
+    /// Added mass of the air: derivatives of (X, Y, Z, L, M, N), reversed, by the rates of (u, v, w, p, q, r)
+    /// through the air, 6 x 6 by rows [SI: N, m, s, rad].
     pub added_mass: [[f64; 6]; 6],
     /// Mean angular momentum of the beating wings seen from the body, level frame [kg m2/s].
     pub momentum: DVec3,
-    /// What the mean loads of the steady body lack to balance: force over the weight, moment over the weight and the wing
-    /// length \[1\]. The free wingbeat is in balance; where this is not small, so much moves within a beat that averages say
-    /// little.
+    /// What the mean loads of the steady body lack to balance: force over the weight, moment over the weight
+    /// and the wing length \[1\]. The free wingbeat is in balance; where this is not small, so much moves
+    /// within a beat that averages say little.
     pub imbalance: [f64; 2],
     /// Modes.
     pub modes: ModeSet,

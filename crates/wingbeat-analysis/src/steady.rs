@@ -72,8 +72,8 @@ impl TrimProblem {
         own.copied().unwrap_or_else(|| Bound::default_of(unknown))
     }
 
-    /// The unknowns whose values are outside the given bounds or turn strokes inside out, and those at a bound that steady flight
-    /// does not determine.
+    /// The unknowns whose values are outside the given bounds or turn strokes inside out, and those at a bound
+    /// that steady flight does not determine.
     pub(crate) fn beyond(&self, unknowns: &[Unknown], values: &[f64]) -> [Vec<Unknown>; 2] {
         // Of relative changes and radians.
         const NEAR: f64 = 1e-3;
@@ -113,8 +113,8 @@ impl TrimProblem {
     }
 }
 
-/// The unknown by which wings stroke the other way round, with an amplitude below nothing: another motion in antiphase, not a
-/// smaller stroke.
+/// The unknown by which wings stroke the other way round, with an amplitude below nothing: another motion in
+/// antiphase, not a smaller stroke.
 pub fn turned_inside_out(unknowns: &[Unknown], values: &[f64]) -> Option<Unknown> {
     let value = |u: Unknown| {
         let at = unknowns.iter().position(|k| *k == u);
@@ -293,7 +293,8 @@ impl Residuals {
     }
 }
 
-/// How many times more than at its end right and left may part by rounding where a search begins, in flight that is not steady.
+/// How many times more than at its end right and left may part by rounding where a search begins, in flight
+/// that is not steady.
 pub(crate) const AT_START: f64 = 10.0;
 
 /// An error if right and left part by more than `rounding` where only the plane of symmetry was asked.
@@ -317,7 +318,8 @@ fn angles(turned: DMat3) -> [f64; 3] {
     ]
 }
 
-/// The same of rotations by any pitch: roll and heading are the tilt of the axis to the right, 0 in the plane of symmetry \[rad\].
+/// The same of rotations by any pitch: roll and heading are the tilt of the axis to the right, 0 in the plane
+/// of symmetry \[rad\].
 fn angles_about_symmetry(turned: DMat3) -> [f64; 3] {
     let right = turned.y_axis;
     let [_, pitch, _] = angles(turned);

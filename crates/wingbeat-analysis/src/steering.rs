@@ -1,7 +1,7 @@
 //! Feedback of departures from a reference flight: a law in the loop of any flight, in any air.
 //!
-//! Once per wingbeat, or in each of equal parts of it, the flyer is sensed; the command formed from it acts some looks later
-//! (the latency). Until the next look the angles of the wings go over smoothly from the old
+//! Once per wingbeat, or in each of equal parts of it, the flyer is sensed; the command formed from it acts
+//! some looks later (the latency). Until the next look the angles of the wings go over smoothly from the old
 //! command to the new one, so that wing inertia does its part and nothing jumps.
 
 use std::collections::VecDeque;
@@ -139,9 +139,10 @@ impl Steering {
         self
     }
 
-    /// Feedback of a flight of `steps_per_beat` steps per wingbeat whose commands act `latency`
-    /// looks later. Its wings are at the looks where they are on the beat that the law was laid out about: they beat from the first instant
-    /// ([`wingbeat_model::Start`]); a [`Design`](crate::design::Design) lays a law out about any start.
+    /// Feedback of a flight of `steps_per_beat` steps per wingbeat whose commands act `latency` looks later.
+    /// Its wings are at the looks where they are on the beat that the law was laid out about: they beat from
+    /// the first instant ([`wingbeat_model::Start`]); a [`Design`](crate::design::Design) lays a law out about
+    /// any start.
     pub fn feedback(self, steps_per_beat: usize, latency: usize) -> Feedback {
         Feedback {
             interval: steps_per_beat / self.orbit.len(),

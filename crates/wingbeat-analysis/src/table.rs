@@ -93,8 +93,8 @@ fn load(table: &DerivativeTable, velocity: DVec3, rate: DVec3) -> MeanLoad {
     }
 }
 
-/// The rigid animal with the mean mass properties of a trimmed flight, and its derivatives: mass
-/// [kg], inertia about the mass centre in body axes [kg m2], table. The table is that of still air, velocities being those
+/// The rigid animal with the mean mass properties of a trimmed flight, and its derivatives: mass [kg], inertia
+/// about the mass centre in body axes [kg m2], table. The table is that of still air, velocities being those
 /// through the air of the trim.
 ///
 /// # Errors

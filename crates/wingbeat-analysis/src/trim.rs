@@ -1,10 +1,10 @@
 //! Trim: steady flight as a periodic orbit of the full model.
 //!
-//! Unknowns are the state at the start of a beat and controls of the wings; equations are that one beat later nothing
-//! has changed but place and heading, which have moved as asked ([`crate::steady`]). Coordinates and speeds of free
-//! joints are unknowns too, and come back to where they were. Newton's method with differences for the Jacobian and a
-//! line search; a failure keeps the best point found. A search with bounds stays inside; only where it finds nothing there, another
-//! one says where beyond them steady flight is.
+//! Unknowns are the state at the start of a beat and controls of the wings; equations are that one beat later
+//! nothing has changed but place and heading, which have moved as asked ([`crate::steady`]). Coordinates and
+//! speeds of free joints are unknowns too, and come back to where they were. Newton's method with differences
+//! for the Jacobian and a line search; a failure keeps the best point found. A search with bounds stays inside;
+//! only where it finds nothing there, another one says where beyond them steady flight is.
 
 use wingbeat_flight::{
     AirModel, FlightSetup, FormulationChoice, IntegratorChoice, MotionMode, PrescribedMotion,
@@ -34,8 +34,8 @@ pub struct Trim {
     pub point: Vec<f64>,
     /// The wingbeat of the adjusted animal.
     pub beat: Beat,
-    /// The adjusted setup, its wings beating from the first instant at the phases of the trimmed beat (state at the start and time
-    /// are those given).
+    /// The adjusted setup, its wings beating from the first instant at the phases of the trimmed beat (state at
+    /// the start and time are those given).
     pub setup: FlightSetup,
 }
 
@@ -126,9 +126,9 @@ impl Trim {
 /// Trims the flight of `setup`.
 ///
 /// # Errors
-/// A setup that [`Beat`] does not cover; unknowns that the problem does not determine, or too few; numbers that stop
-/// being finite at the very start; right and left that part, where only what is in the plane of symmetry is asked. A trim that does
-/// not converge is no error: see [`TrimSolution::converged`].
+/// A setup that [`Beat`] does not cover; unknowns that the problem does not determine, or too few; numbers that
+/// stop being finite at the very start; right and left that part, where only what is in the plane of symmetry
+/// is asked. A trim that does not converge is no error: see [`TrimSolution::converged`].
 pub fn trim(setup: &FlightSetup, problem: &TrimProblem) -> Result<Trim, AnalysisError> {
     if matches!(setup.air, AirModel::None) {
         return Err(AnalysisError::not_covered(

@@ -14,9 +14,10 @@
 //! Neither is the full monodromy of body and wake; the two bracket what the memory does within
 //! a wingbeat.
 //!
-//! Wings that loads bend remember, too, and so do strips of blade elements that leave wakes. In air without wakes in space these have few
-//! enough unknowns, damped ones, and a trim finds the whole periodic orbit, wings and strips included ([`WakeTrim::past`]); its Floquet
-//! modes carry the leading modes of the wings and the states of the strips' wakes along ([`elastic_floquet`]).
+//! Wings that loads bend remember, too, and so do strips of blade elements that leave wakes. In air without
+//! wakes in space these have few enough unknowns, damped ones, and a trim finds the whole periodic orbit, wings
+//! and strips included ([`WakeTrim::past`]); its Floquet modes carry the leading modes of the wings and the
+//! states of the strips' wakes along ([`elastic_floquet`]).
 
 mod differences;
 mod fewer;

@@ -1,12 +1,14 @@
 //! Modes of small vibrations of elastic wings: in vacuum, and with the added mass of the air.
 //!
-//! A wing vibrates in its frame, which is held. In air the added mass of a lattice without wakes joins that of the wing: what a stream and a wake do to frequencies and damping is [`crate::flutter`]'s question. Other wings are held; of a
-//! lattice that computes one half only, the other half vibrates as the mirror image.
+//! A wing vibrates in its frame, which is held. In air the added mass of a lattice without wakes joins that of
+//! the wing: what a stream and a wake do to frequencies and damping is [`crate::flutter`]'s question. Other
+//! wings are held; of a lattice that computes one half only, the other half vibrates as the mirror image.
 //!
-//! Sheets have modes in which nodes turn and nothing moves, of the elements and of no sheet: quarters of panels are lumped at nodes and turn
-//! with them. Among those of solid sheets they are the fastest; of sheets that bend much more easily they lie among the first. A wave of
-//! number k over panels of length d has `(k d)^2 / 12` times as much energy in turns as in displacements, less than as much even for two
-//! panels a wave: where there is more, nothing moves. They are left out, and counted.
+//! Sheets have modes in which nodes turn and nothing moves, of the elements and of no sheet: quarters of panels
+//! are lumped at nodes and turn with them. Among those of solid sheets they are the fastest; of sheets that
+//! bend much more easily they lie among the first. A wave of number k over panels of length d has `(k d)^2 /
+//! 12` times as much energy in turns as in displacements, less than as much even for two panels a wave: where
+//! there is more, nothing moves. They are left out, and counted.
 //!
 //! | symbol | name in code | meaning | unit |
 //! |---|---|---|---|
@@ -67,7 +69,8 @@ impl WingMode {
         }
     }
 
-    /// How alike two shapes are \[1\]: the modal assurance criterion of Allemang & Brown (1982) on the nodes of the mesh.
+    /// How alike two shapes are \[1\]: the modal assurance criterion of Allemang & Brown (1982) on the nodes of
+    /// the mesh.
     pub fn likeness(&self, other: &Self) -> f64 {
         let product = |a: &Self, b: &Self| -> f64 {
             let both = a.displacement.iter().zip(&b.displacement);
@@ -106,7 +109,8 @@ impl Alike {
     }
 }
 
-/// How many times as many modes in vacuum as are asked for those in air are compared with: heavy air changes their order.
+/// How many times as many modes in vacuum as are asked for those in air are compared with: heavy air changes
+/// their order.
 const COMPARED: usize = 4;
 
 /// Growth over the highest frequency that rounding makes of a mode without stiffness \[1\].
@@ -131,7 +135,8 @@ pub struct WingModes {
     pub alike: Vec<Alike>,
     /// How many modes below the last of these were left out in which nodes turn and nothing moves: in vacuum, in air.
     pub left_out: [usize; 2],
-    /// Frequencies of those left out in vacuum that move, too, if less than they turn: waves of the sheet mixed with turns [rad/s].
+    /// Frequencies of those left out in vacuum that move, too, if less than they turn: waves of the sheet mixed
+    /// with turns [rad/s].
     pub mixed: Vec<f64>,
     /// Fastest growth in vacuum of a mode in which nodes turn and nothing moves; 0 if none grows [1/s].
     pub turning_growth: f64,

@@ -24,8 +24,8 @@ fn model(trim: &Trim) -> SharedModel {
     Arc::new(Mutex::new(Model::new(trim).expect("a model")))
 }
 
-/// The map of a beat has the wings' motions themselves blended and tabulated; the flyer blends commands. The same method
-/// in the same steps, so they differ by rounding, which grows over unstable beats.
+/// The map of a beat has the wings' motions themselves blended and tabulated; the flyer blends commands. The
+/// same method in the same steps, so they differ by rounding, which grows over unstable beats.
 #[test]
 fn agrees_a_steered_flyer_with_the_map_of_a_beat() {
     let trim = common::hovering(STEPS);
@@ -136,7 +136,8 @@ fn behaves_an_episode_follows_from_its_seed_alone() {
     }
 }
 
-/// Control steps of half a wingbeat and of a fortieth: where models keep what they know of an instant, its flyer is another one.
+/// Control steps of half a wingbeat and of a fortieth: where models keep what they know of an instant, its
+/// flyer is another one.
 #[test]
 fn exact_episodes_that_take_turns_fly_as_if_alone() {
     for (_, task) in Task::ALL {

@@ -110,9 +110,9 @@ fn matrix(sizes: &[f64], map: impl Fn(&[f64]) -> Vec<f64>) -> Vec<f64> {
     out
 }
 
-/// The closed loop over a wingbeat, flown from small departures of states and commands, is the one the regulator was laid
-/// out on, and so are its eigenvalues: looks once to five times in a wingbeat, latencies of whole looks, actuators
-/// that lag.
+/// The closed loop over a wingbeat, flown from small departures of states and commands, is the one the
+/// regulator was laid out on, and so are its eigenvalues: looks once to five times in a wingbeat, latencies of
+/// whole looks, actuators that lag.
 #[test]
 fn agrees_closed_loop_flown_with_that_of_the_layout() {
     let trim = common::hovering(40);

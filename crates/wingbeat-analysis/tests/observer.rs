@@ -164,8 +164,8 @@ fn matrix(n: usize, sizes: &[f64], map: impl Fn(&[f64]) -> Vec<f64>) -> Vec<f64>
     out
 }
 
-/// Separation: the eigenvalues of the loop closed over the filter are those of regulator and filter, so its characteristic
-/// polynomial is the product of theirs.
+/// Separation: the eigenvalues of the loop closed over the filter are those of regulator and filter, so its
+/// characteristic polynomial is the product of theirs.
 #[test]
 fn exact_eigenvalues_of_the_loop_are_those_of_regulator_and_filter() {
     let trim = common::hovering(40);

@@ -282,7 +282,8 @@ fn agrees_derivatives_and_averaged_modes_with_a_program_from_the_formulas() {
             "{}: derivatives apart by {by_block:.1e}, added mass by {by_block_of_mass:.1e}, averaged modes by {modes:.1e} per beat",
             case.name
         );
-        // Two ways to the mean pitch, good to 1e-10; a feathering that turns quickly in few samples (measured 7.8e-9, 4.0e-8 and 1.8e-10).
+        // Two ways to the mean pitch, good to 1e-10; a feathering that turns quickly in few samples (measured 7.8e-9, 4.0e-8
+        // and 1.8e-10).
         assert!(by_block < 3e-8 && by_block_of_mass < 3e-7 && modes < 5e-10);
     }
 }

@@ -43,7 +43,8 @@ fn refuses_wings_that_differ_before_it_searches() {
     assert!(matches!(found, Err(AnalysisError::Asymmetric { .. })));
 }
 
-/// Programs that take no notice of the ranges are refused by the analysis itself: nothing cancels, nothing is left to Newton's steps.
+/// Programs that take no notice of the ranges are refused by the analysis itself: nothing cancels, nothing is
+/// left to Newton's steps.
 #[test]
 fn refuses_trims_out_of_range_before_they_search() {
     type Change = fn(&mut TrimProblem);

@@ -46,7 +46,8 @@ fn close(a: &[f64], b: &[f64], tolerance: f64) {
     }
 }
 
-/// Analyses know the periodic beat alone: however wings whose deformation is prescribed start, trim, modes and power are the same.
+/// Analyses know the periodic beat alone: however wings whose deformation is prescribed start, trim, modes and
+/// power are the same.
 #[test]
 fn invariant_deforming_wings_are_trimmed_alike_however_they_start() {
     let mut setup = fly();
@@ -121,8 +122,9 @@ fn nodding(amplitude: f64, phase: f64) -> FlightSetup {
     setup
 }
 
-/// A smooth start delays the wings and not the abdomen: what is trimmed is the flight that is flown, in which the abdomen is ahead
-/// by half of the rise. It is the impulsive flight whose abdomen has that phase, up to where the beat begins.
+/// A smooth start delays the wings and not the abdomen: what is trimmed is the flight that is flown, in which
+/// the abdomen is ahead by half of the rise. It is the impulsive flight whose abdomen has that phase, up to
+/// where the beat begins.
 #[test]
 fn agrees_trim_of_a_nodding_abdomen_with_the_phase_that_a_smooth_start_leaves() {
     let found = |setup: FlightSetup| {
@@ -173,8 +175,8 @@ fn exact_beat_is_the_flight_after_its_start() {
     }
 }
 
-/// Place of the mass centre at the end over the wing length, from the release, and the mean velocity of the last beat in wing
-/// lengths per wingbeat, of an animal under a law that looks `parts` times in a wingbeat.
+/// Place of the mass centre at the end over the wing length, from the release, and the mean velocity of the
+/// last beat in wing lengths per wingbeat, of an animal under a law that looks `parts` times in a wingbeat.
 fn steered(setup: FlightSetup, law: LawDesign, parts: usize, start_beats: f64) -> [DVec3; 2] {
     const STEPS: usize = 40;
     const BEATS: usize = 80;
@@ -227,9 +229,10 @@ fn steered(setup: FlightSetup, law: LawDesign, parts: usize, start_beats: f64) -
     [places[BEATS] - start, places[BEATS] - places[BEATS - 1]].map(|x| x / length)
 }
 
-/// Gains, orbit and reference of a controller that is laid out belong to the phase that the wings have at its looks: under a start
-/// that delays them by half a wingbeat, or any part of one, the regulator brings the flyer back to where it was released, as under an
-/// impulsive start. Gains of another phase left it two wing lengths away.
+/// Gains, orbit and reference of a controller that is laid out belong to the phase that the wings have at its
+/// looks: under a start that delays them by half a wingbeat, or any part of one, the regulator brings the flyer
+/// back to where it was released, as under an impulsive start. Gains of another phase left it two wing lengths
+/// away.
 #[test]
 fn invariant_regulated_flight_comes_back_however_the_strokes_start() {
     let law = LawDesign::Regulator(Weights::default());

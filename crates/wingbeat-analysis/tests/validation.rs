@@ -118,7 +118,8 @@ fn limit_an_impossible_trim_reports_the_best_point() {
     assert!(t.solution.error() < untouched.solution.error());
 }
 
-/// A body that tilts in a stream meets it from elsewhere: flight through air that moves is that through air that does not.
+/// A body that tilts in a stream meets it from elsewhere: flight through air that moves is that through air
+/// that does not.
 #[test]
 fn invariant_averaged_modes_in_a_stream_are_those_of_flight_through_still_air() {
     for velocity in [DVec3::new(0.5, 0.0, 0.0), DVec3::new(0.1, 0.0, -0.4)] {
@@ -147,9 +148,9 @@ fn invariant_averaged_modes_in_a_stream_are_those_of_flight_through_still_air() 
     }
 }
 
-/// Averaging is exact where nothing moves within a beat: of bodies a thousand and ten thousand times as heavy, the wings and the weight kept. All
-/// that is of the order of the slow motion counts: the added mass that rates of the velocity meet, the angular momentum of
-/// strokes that draw loops, the wings' own mass.
+/// Averaging is exact where nothing moves within a beat: of bodies a thousand and ten thousand times as heavy,
+/// the wings and the weight kept. All that is of the order of the slow motion counts: the added mass that rates
+/// of the velocity meet, the angular momentum of strokes that draw loops, the wings' own mass.
 #[test]
 fn converges_averaged_modes_of_heavy_bodies_to_floquets() {
     let apart = |heavier: f64| {

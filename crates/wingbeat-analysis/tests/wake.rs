@@ -163,8 +163,8 @@ fn balances_sideslip_trims_in_the_vortex_lattice() {
 
 #[test]
 fn agrees_power_of_a_free_wingbeat_with_that_of_a_carried_body_where_air_forgets() {
-    // One beat of the same orbit, released and carried: the body's own small motion within the beat (a degree, a hundredth
-    // of a wing length) is what they may differ by.
+    // One beat of the same orbit, released and carried: the body's own small motion within the beat (a degree,
+    // a hundredth of a wing length) is what they may differ by.
     let mut setup = fly();
     for wing in &mut setup.animal.wings {
         wing.motion.start = wingbeat_model::Start::Impulsive;

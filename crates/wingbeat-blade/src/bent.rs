@@ -1,10 +1,10 @@
 //! Wings that loads bend: every strip a section through the nodes of two columns of the wing's mesh.
 //!
-//! Three weighted sums of the nodes say how a section lies: its place `p = sum a r`, its chord `d = sum b r` (forward, of length
-//! one at rest), and what lies between its two sides, `s = sum g r`. Chord, normal and span of the section follow, with their
-//! velocities and accelerations; the loads are those of the flat wing in these axes, and go back to the nodes by the same
-//! weights: force, moment and power are the same on both sides. Of what a section does beside moving as a flat one, camber,
-//! they know nothing.
+//! Three weighted sums of the nodes say how a section lies: its place `p = sum a r`, its chord `d = sum b r`
+//! (forward, of length one at rest), and what lies between its two sides, `s = sum g r`. Chord, normal and span
+//! of the section follow, with their velocities and accelerations; the loads are those of the flat wing in
+//! these axes, and go back to the nodes by the same weights: force, moment and power are the same on both
+//! sides. Of what a section does beside moving as a flat one, camber, they know nothing.
 //!
 //! | symbol | name in code | meaning | unit |
 //! |---|---|---|---|
@@ -35,7 +35,8 @@ struct Share {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Section {
     shares: Vec<Share>,
-    /// Place at rest along the chord ahead of the feathering axis, and those of the leading and the trailing edge \[m\].
+    /// Place at rest along the chord ahead of the feathering axis, and those of the leading and the trailing
+    /// edge \[m\].
     x: f64,
     edges: [f64; 2],
     /// 1 where columns go along axis 2, -1 where against it.
@@ -84,8 +85,8 @@ struct Gathered {
 }
 
 impl Section {
-    /// Through the nodes `inner` and `outer` of two columns, each from the leading to the trailing edge, of the mesh `rest`
-    /// \[m\], wing frame.
+    /// Through the nodes `inner` and `outer` of two columns, each from the leading to the trailing edge, of the
+    /// mesh `rest` \[m\], wing frame.
     pub fn new(rest: &[DVec3], inner: &[usize], outer: &[usize]) -> Self {
         let rows: Vec<[usize; 2]> = inner.iter().zip(outer).map(|(a, b)| [*a, *b]).collect();
         let last = rows.len() - 1;
@@ -135,8 +136,8 @@ impl Section {
         })
     }
 
-    /// How it lies and moves as a strip of the `wing` where its nodes move like `nodes` in the `wind`; `rotation` takes wing
-    /// components to N components.
+    /// How it lies and moves as a strip of the `wing` where its nodes move like `nodes` in the `wind`;
+    /// `rotation` takes wing components to N components.
     pub fn state(
         &self,
         wing: &BladeWing,
@@ -243,8 +244,9 @@ impl Gathered {
 /// How the forces on the nodes of a bent wing answer to the motion of its sections.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct SectionAnswer {
-    /// Three ways to move a section: its point on the feathering axis along chord and normal, and feathering. Of each, node by
-    /// node: how the velocity of the node shares in it, and its place; wing components \[1, 1/s, 1/m\].
+    /// Three ways to move a section: its point on the feathering axis along chord and normal, and feathering.
+    /// Of each, node by node: how the velocity of the node shares in it, and its place; wing components \[1,
+    /// 1/s, 1/m\].
     pub ways: [Vec<(usize, [DVec3; 2])>; 3],
     /// Derivatives of the forces along these ways by the velocities along them, by rows \[N s/m, N s, N m s\].
     pub velocity: [[f64; 3]; 3],
@@ -253,8 +255,8 @@ pub struct SectionAnswer {
 }
 
 impl BladeWing {
-    /// Adds to `out` the forces on the nodes \[N\], wing components, of a wing whose `sections` are in these `states`: all of
-    /// [`Self::lagging_load`] and [`Self::acceleration_load`].
+    /// Adds to `out` the forces on the nodes \[N\], wing components, of a wing whose `sections` are in these
+    /// `states`: all of [`Self::lagging_load`] and [`Self::acceleration_load`].
     pub fn bent_forces(
         &self,
         sections: &[Section],
@@ -287,8 +289,8 @@ impl BladeWing {
         }
     }
 
-    /// What the added mass of a strip does, as for the flat wing: momentum `m w n` at mid chord, angular momentum `J q` about the
-    /// span, and their rates but for Munk's couple.
+    /// What the added mass of a strip does, as for the flat wing: momentum `m w n` at mid chord, angular
+    /// momentum `J q` about the span, and their rates but for Munk's couple.
     fn added_load(&self, strip: &Strip, s: &SectionState) -> Gathered {
         let (law, rho, x) = (
             self.settings().added_mass,
@@ -318,8 +320,8 @@ impl BladeWing {
         load
     }
 
-    /// How the forces on the nodes answer to motions of the sections, section by section into `out`, their wakes lagging as `lag` says;
-    /// terms of second order in the rates of turning are left out.
+    /// How the forces on the nodes answer to motions of the sections, section by section into `out`, their
+    /// wakes lagging as `lag` says; terms of second order in the rates of turning are left out.
     pub fn bent_answers(
         &self,
         sections: &[Section],

@@ -4,7 +4,8 @@ use wingbeat_math::DVec3;
 
 use crate::error::{BladeError, require};
 
-/// `F = -1/2 rho S abs(V) (C_along V_along + C_across V_across)` at a point of the body that moves with V through the air.
+/// `F = -1/2 rho S abs(V) (C_along V_along + C_across V_across)` at a point of the body that moves with V
+/// through the air.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BodyDrag {
     /// Reference area S [m2].

@@ -1,7 +1,7 @@
 //! Wings that are deformed, or not flat: every strip a rigid section that lies, moves and turns in the wing frame.
 //!
-//! The loads are those of the flat wing, with the velocity of the section's own point on the
-//! feathering axis and the angular velocity of the section itself, `Omega = w + tau' e_2`, in its own axes; `q = Omega . e2`.
+//! The loads are those of the flat wing, with the velocity of the section's own point on the feathering axis
+//! and the angular velocity of the section itself, `Omega = w + tau' e_2`, in its own axes; `q = Omega . e2`.
 //! Camber is left to the coefficients.
 //!
 //! | symbol | name in code | meaning | unit |
@@ -229,8 +229,8 @@ impl BladeWing {
         }
     }
 
-    /// The part of the added mass of a flat wing that follows from velocities alone, strip by strip in the wind at each: `through(p)` is
-    /// the velocity of the hinge through the air that is at `p`, wing components.
+    /// The part of the added mass of a flat wing that follows from velocities alone, strip by strip in the wind
+    /// at each: `through(p)` is the velocity of the hinge through the air that is at `p`, wing components.
     pub(crate) fn turning_load_in(
         &self,
         motion: &WingFrame,

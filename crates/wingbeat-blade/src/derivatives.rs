@@ -25,8 +25,8 @@ pub struct DerivativeTable {
     pub reference: [f64; 6],
     /// Rows X, Y, Z, L, M, N; columns u, v, w [m/s], p, q, r [rad/s].
     pub derivatives: [[f64; 6]; 6],
-    /// Added mass of the air A: the load is smaller by A times the rates of (u, v, w) through the air and of (p, q, r), symmetric
-    /// [kg, kg m, kg m2].
+    /// Added mass of the air A: the load is smaller by A times the rates of (u, v, w) through the air and of
+    /// (p, q, r), symmetric [kg, kg m, kg m2].
     pub added_mass: [[f64; 6]; 6],
     /// Velocity of the undisturbed air, N components [m/s].
     pub stream: DVec3,
@@ -175,8 +175,8 @@ mod tests {
         about[2][2] = 3.0;
         (about[2][4], about[4][2], about[4][4]) = (-6.0, -6.0, 12.0);
         assert_eq!(table.added_mass_of_body(), Some(about));
-        // A body that goes ahead by 7 m/s through air of 2 m/s, without acceleration, and turns nose up by 0.5 rad/s: its velocity
-        // of 5 m/s through the air changes by -w x v = (0, 0, 2.5) m/s2 in its axes.
+        // A body that goes ahead by 7 m/s through air of 2 m/s, without acceleration, and turns nose up by 0.5
+        // rad/s: its velocity of 5 m/s through the air changes by -w x v = (0, 0, 2.5) m/s2 in its axes.
         table.stream = DVec3::new(2.0, 0.0, 0.0);
         let load = table.load(&WingFrame {
             rotation: DMat3::IDENTITY,

@@ -1,19 +1,20 @@
 //! How the circulation of a section builds up after its downwash has changed: unsteady thin-airfoil theory.
 //!
-//! A section that moves with the speed V sheds what its circulation changes by, and this wake, which leaves it straight behind,
-//! induces a downwash lambda on it. With `s = int V dt / b` the way in half chords b, the circulation follows the downwash
-//! w of the section's own motion at three quarters of its chord as if that were `w - lambda` (Duhamel's integral; phi is Wagner's
-//! function, C Theodorsen's):
+//! A section that moves with the speed V sheds what its circulation changes by, and this wake, which leaves it
+//! straight behind, induces a downwash lambda on it. With `s = int V dt / b` the way in half chords b, the
+//! circulation follows the downwash w of the section's own motion at three quarters of its chord as if that
+//! were `w - lambda` (Duhamel's integral; phi is Wagner's function, C Theodorsen's):
 //!
 //! ```text
 //! w - lambda = int phi(s - s') dw(s')        phi(s) = 1 - sum Re r exp(-p s)
 //! lambda = sum Re r z,  dz/ds = -p z + dw/ds       C(k) = 1 - sum r ik / (p + ik)
 //! ```
 //!
-//! *Peters* has N states of induced flow [Peters, Karunamoorthy & Cao, J. Aircraft 32:313, 1995]:
-//! `A dlambda/ds + lambda_n = c dw/ds`, `lambda = sum b_n lambda_n / 2`, with the binomial weights b_n. Its eigenvectors part
-//! the states: p are the eigenvalues of `A^-1`. *Jones* [NACA Rep. 681, 1940] has two exponentials.
-//! Largest error of C over C for k from 0.05 to 1: Jones 2.3 %; Peters 3.8, 4.3, 1.7 and 1.1 % with 4, 5, 6 and 8 states. Beyond 8 it grows again (5 % at 12).
+//! *Peters* has N states of induced flow [Peters, Karunamoorthy & Cao, J. Aircraft 32:313, 1995]: `A dlambda/ds +
+//! lambda_n = c dw/ds`, `lambda = sum b_n lambda_n / 2`, with the binomial weights b_n. Its eigenvectors part
+//! the states: p are the eigenvalues of `A^-1`. *Jones* [NACA Rep. 681, 1940] has two exponentials. Largest
+//! error of C over C for k from 0.05 to 1: Jones 2.3 %; Peters 3.8, 4.3, 1.7 and 1.1 % with 4, 5, 6 and 8
+//! states. Beyond 8 it grows again (5 % at 12).
 
 use faer::Mat;
 use faer::linalg::solvers::Solve;
@@ -99,13 +100,15 @@ impl Indicial {
         }
     }
 
-    /// Kuessner's function of a sharp gust that meets the leading edge at s = 0: three exponentials fitted to that of von Karman & Sears
-    /// [J. Aeronaut. Sci. 5:379, 1938], within 0.015 for s up to 60. Sears & Sparks' two are 0.08 short at first.
+    /// Kuessner's function of a sharp gust that meets the leading edge at s = 0: three exponentials fitted to
+    /// that of von Karman & Sears [J. Aeronaut. Sci. 5:379, 1938], within 0.015 for s up to 60. Sears & Sparks'
+    /// two are 0.08 short at first.
     pub fn kuessner() -> Self {
         Self::of(&[(0.0675, 0.3), (0.538, 0.544), (16.0, 0.156)])
     }
 
-    /// Peters' theory with `n` states: `lambda = b . x / 2`, `A dx/ds + x = c dw/ds`, parted by the eigenvectors of `A^-1`.
+    /// Peters' theory with `n` states: `lambda = b . x / 2`, `A dx/ds + x = c dw/ds`, parted by the
+    /// eigenvectors of `A^-1`.
     fn peters(n: usize) -> Self {
         let [b, c] = [binomial(n), (1..=n).map(|k| 2.0 / k as f64).collect()];
         let a = induced(&b, &c);
@@ -147,8 +150,8 @@ impl Indicial {
         1.0 - parts.sum::<f64>()
     }
 
-    /// Real and imaginary part of the answer \[1\] to oscillations of the reduced frequency k = omega b / V: of Wagner's function that
-    /// is Theodorsen's.
+    /// Real and imaginary part of the answer \[1\] to oscillations of the reduced frequency k = omega b / V: of
+    /// Wagner's function that is Theodorsen's.
     pub fn answer(&self, k: f64) -> [f64; 2] {
         let conjugate = |p: &Pole| Pole {
             rate: [p.rate[0], -p.rate[1]],

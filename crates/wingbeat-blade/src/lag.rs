@@ -1,13 +1,17 @@
 //! The wakes of strips over a flight: what each remembers, and what its downwash is in a trial motion.
 //!
-//! Within a step the downwash w of a strip goes linearly over its way, of which the mean speed decides: with that the equations of
-//! [`crate::indicial`] are solved exactly, `z1 = exp(-p ds) z0 + (1 - exp(-p ds)) / (p ds) (w1 - w0)`. What the motion at the end of
-//! the step changes in lambda is so part of every trial: second order in the step, stable whatever the step.
+//! Within a step the downwash w of a strip goes linearly over its way, of which the mean speed decides: with
+//! that the equations of [`crate::indicial`] are solved exactly, `z1 = exp(-p ds) z0 + (1 - exp(-p ds)) / (p
+//! ds) (w1 - w0)`. What the motion at the end of the step changes in lambda is so part of every trial: second
+//! order in the step, stable whatever the step.
 //!
-//! The downwash of the wake comes up to the whole strip, along its normal: the strip's coefficients, whatever their law, see
-//! `w - lambda`. The way is that with the speed through the air, `sqrt(u^2 + w^2)`: where the strip turns back or meets the
-//! air broadside on, all of this stays finite and smooth. Where the wind beside the stream changes, what changes comes up by Kuessner's function from when
-//! the edge in front meets it, but for what changes everywhere at once, which is as a motion of the strip ([`crate::LocalWind`]); what the turning of the strip changes of the wind along its normal is part of the strip's own motion, as of the stream.
+//! The downwash of the wake comes up to the whole strip, along its normal: the strip's coefficients, whatever
+//! their law, see `w - lambda`. The way is that with the speed through the air, `sqrt(u^2 + w^2)`: where the
+//! strip turns back or meets the air broadside on, all of this stays finite and smooth. Where the wind beside
+//! the stream changes, what changes comes up by Kuessner's function from when the edge in front meets it, but
+//! for what changes everywhere at once, which is as a motion of the strip ([`crate::LocalWind`]); what the
+//! turning of the strip changes of the wind along its normal is part of the strip's own motion, as of the
+//! stream.
 //!
 //! | symbol | name in code | meaning | unit |
 //! |---|---|---|---|
@@ -221,8 +225,8 @@ impl Lags {
         memory.time = time;
     }
 
-    /// The downwash \[m/s\] to be taken from a strip of chord `chord` \[m\] in the `wind`, and the trial that it belongs to: its motion has the
-    /// downwash `drive` and the `speed`.
+    /// The downwash \[m/s\] to be taken from a strip of chord `chord` \[m\] in the `wind`, and the trial that
+    /// it belongs to: its motion has the downwash `drive` and the `speed`.
     pub fn downwash(
         &self,
         (memory, strip, time): (&WingMemory, usize, f64),
@@ -249,8 +253,8 @@ impl Lags {
         here
     }
 
-    /// The beat after which a memory `after` was found that began with `before`, ended by the states that come back: of the same
-    /// motion, beat after beat.
+    /// The beat after which a memory `after` was found that began with `before`, ended by the states that come
+    /// back: of the same motion, beat after beat.
     pub fn periodic(&self, before: &WingMemory, after: &mut WingMemory) {
         /// Parts of a state that a beat must take away for its periodic value to be known.
         const FELT: f64 = 1e-3;
@@ -292,8 +296,9 @@ impl StripMemory {
         0.5 * (self.speed + speed) * duration / half
     }
 
-    /// By how much the downwash of the motion, and of the wind that is met, has changed in a trial \[m/s\]: of the product of wind and normal
-    /// what the normal changes belongs to the motion, and what changes everywhere at once is a motion of the strip against it.
+    /// By how much the downwash of the motion, and of the wind that is met, has changed in a trial \[m/s\]: of
+    /// the product of wind and normal what the normal changes belongs to the motion, and what changes
+    /// everywhere at once is a motion of the strip against it.
     fn changes(&self, trial: &StripTrial) -> [f64; 2] {
         let normal = match self.normal == DVec3::ZERO {
             true => trial.normal,

@@ -10,8 +10,9 @@
 //!    chord, or other published forms ([`AddedMass`]). What is linear in the accelerations is kept
 //!    apart: whoever integrates the motion can put it on the left-hand side.
 //!
-//! With [`Unsteady`] the circulation of a strip lags behind its motion ([`Indicial`], Wagner's function): the downwash of the
-//! strip's own wake is taken from the normal velocity that 1 and 2 see, and feathering is damped as thin-airfoil theory has it.
+//! With [`Unsteady`] the circulation of a strip lags behind its motion ([`Indicial`], Wagner's function): the
+//! downwash of the strip's own wake is taken from the normal velocity that 1 and 2 see, and feathering is
+//! damped as thin-airfoil theory has it.
 //!
 //! Optional: drag of the body ([`BodyDrag`]). [`DerivativeTable`] is simpler still: the loads on a whole animal, linear
 //! about a reference flight.
@@ -26,12 +27,15 @@
 //! | x0 | `x0` | feathering axis behind the leading edge over the chord | 1 |
 //! | Gamma_rot | - | `C_rot c^2 q` | m2/s |
 //!
-//! A section is taken as symmetric fore and aft: air from the trailing edge (u < 0) gives the
-//! mirrored force, but for the circulation of feathering, which hangs on the feathering axis alone, as in the sources. Velocities along the span are ignored, as in all the sources, but by the moment of
-//! the added momentum. Strips of wings that are not flat have frames of their own ([`PlacedStrip`]). Twist and bending of
-//! a wing place and move its strips ([`SectionMotion`] where they are prescribed, [`Section`] where loads bend the wing).
+//! A section is taken as symmetric fore and aft: air from the trailing edge (u < 0) gives the mirrored force,
+//! but for the circulation of feathering, which hangs on the feathering axis alone, as in the sources.
+//! Velocities along the span are ignored, as in all the sources, but by the moment of the added momentum.
+//! Strips of wings that are not flat have frames of their own ([`PlacedStrip`]). Twist and bending of a wing
+//! place and move its strips ([`SectionMotion`] where they are prescribed, [`Section`] where loads bend the
+//! wing).
 //!
-//! What this crate does not know: wakes of other strips, animals, coordinates; of time no more than the age of a strip's wake.
+//! What this crate does not know: wakes of other strips, animals, coordinates; of time no more than the age of
+//! a strip's wake.
 
 mod bent;
 mod body_drag;

@@ -164,7 +164,8 @@ fn with_law(
         let x_cp = pair.x_leading - pair.chord * behind;
         let mut damping = pair.viscous * (viscous[0] + viscous[1] * q.abs()) * q;
         if is_unsteady {
-            // The force m u q of the added mass acts at 3/4 of the chord: about its middle `-pi/16 rho c^3 u q` [Theodorsen 1935].
+            // The force m u q of the added mass acts at 3/4 of the chord: about its middle `-pi/16 rho c^3 u q`
+            // [Theodorsen 1935].
             damping += pair.couple * u.abs() * q;
         }
         let force = PairForce {

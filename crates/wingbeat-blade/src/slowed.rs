@@ -9,8 +9,9 @@ use crate::settings::BladeSettings;
 /// The wind on a strip whose front is so far from mid chord, over half the chord: 1 is the leading edge.
 pub(crate) type Gust<'a> = dyn Fn(usize, f64) -> StripWind + 'a;
 
-/// Where a section meets the air that moves along its chord with `u` and along its normal with `w` \[m/s\], from mid chord over half the chord:
-/// at the leading edge (1), at the trailing edge where it flies backwards (-1), in the middle where it meets the air broadside on.
+/// Where a section meets the air that moves along its chord with `u` and along its normal with `w` \[m/s\],
+/// from mid chord over half the chord: at the leading edge (1), at the trailing edge where it flies backwards
+/// (-1), in the middle where it meets the air broadside on.
 pub(crate) fn front(u: f64, w: f64) -> f64 {
     match u.hypot(w) {
         0.0 => 1.0,

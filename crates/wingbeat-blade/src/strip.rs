@@ -6,8 +6,8 @@ use wingbeat_math::{DMat3, DVec3};
 
 use crate::error::BladeError;
 
-/// A strip of a flat wing across its span, in the wing frame (origin at the hinge, axis 1 to
-/// the leading edge, axis 2 along the span, axis 3 normal). The feathering axis is x = 0. Of a wing that is not flat each strip
+/// A strip of a flat wing across its span, in the wing frame (origin at the hinge, axis 1 to the leading edge,
+/// axis 2 along the span, axis 3 normal). The feathering axis is x = 0. Of a wing that is not flat each strip
 /// has a frame of its own ([`PlacedStrip`]).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Strip {
@@ -29,7 +29,8 @@ const FLAT: f64 = 1e-9;
 pub struct PlacedStrip {
     /// The strip; `x` counts along its own chord.
     pub strip: Strip,
-    /// Its point on the feathering axis: where the plane through the hinge across its chord meets it \[m\], wing components.
+    /// Its point on the feathering axis: where the plane through the hinge across its chord meets it \[m\],
+    /// wing components.
     pub axis: DVec3,
     /// Directions of chord (forward), span and normal, wing components.
     pub turn: DMat3,
@@ -82,11 +83,11 @@ impl Strip {
         (0..count).map(strip).collect()
     }
 
-    /// The part of a surface between two lines along its chord: their ends at the leading and at the trailing edge \[m\], wing
-    /// frame, root first; `side` +1 right, -1 left.
+    /// The part of a surface between two lines along its chord: their ends at the leading and at the trailing
+    /// edge \[m\], wing frame, root first; `side` +1 right, -1 left.
     ///
-    /// In the plane of axes 1 and 2 chord and width are along these axes. Elsewhere the chord is the line between the middles of
-    /// both edges, and the width is across it.
+    /// In the plane of axes 1 and 2 chord and width are along these axes. Elsewhere the chord is the line
+    /// between the middles of both edges, and the width is across it.
     pub fn between(leading: [DVec3; 2], trailing: [DVec3; 2], side: f64) -> PlacedStrip {
         let [lead, trail] = [leading, trailing].map(|[a, b]| 0.5 * (a + b));
         let chord = (lead - trail).length();

@@ -1,12 +1,14 @@
 //! The wind beside the free stream as the strips of a wing see it: its velocity, and what its changes do.
 //!
-//! A plate across whose chord the wind is the same feels the added mass `m` of its normal velocity w through the air, whoever makes
-//! that change: force `-m w'`, in which the wind has the part `m n . dU/dt`, `dU/dt` the rate at the strip as it moves. What accelerates air beside
-//! that, the pressure of the stream itself (Froude and Krylov's force), is the mass of the air that the body displaces: zero for a plate.
+//! A plate across whose chord the wind is the same feels the added mass `m` of its normal velocity w through
+//! the air, whoever makes that change: force `-m w'`, in which the wind has the part `m n . dU/dt`, `dU/dt` the
+//! rate at the strip as it moves. What accelerates air beside that, the pressure of the stream itself (Froude
+//! and Krylov's force), is the mass of the air that the body displaces: zero for a plate.
 //!
-//! Strips with wakes come into a gust by Kuessner's function, which has the added mass of it. A wind that changes everywhere at
-//! once is not come into: to it a strip answers as to its own motion, by Wagner's function and the added mass [Miles 1956: gusts whose fronts
-//! travel, between both limits]. Gusts with a front, shear and streets are taken as come into, whatever the speed of their front.
+//! Strips with wakes come into a gust by Kuessner's function, which has the added mass of it. A wind that
+//! changes everywhere at once is not come into: to it a strip answers as to its own motion, by Wagner's
+//! function and the added mass [Miles 1956: gusts whose fronts travel, between both limits]. Gusts with a
+//! front, shear and streets are taken as come into, whatever the speed of their front.
 
 use wingbeat_math::DVec3;
 
@@ -17,13 +19,14 @@ pub trait LocalWind {
     /// Its velocity at a point of the wing frame [m/s].
     fn velocity(&self, point: DVec3) -> DVec3;
 
-    /// Rate [m/s2] of that velocity (its components in axes that do not turn) at a point that moves with the velocity `through` [m/s]
-    /// through the free stream.
+    /// Rate [m/s2] of that velocity (its components in axes that do not turn) at a point that moves with the
+    /// velocity `through` [m/s] through the free stream.
     fn rate(&self, _point: DVec3, _through: DVec3) -> DVec3 {
         DVec3::ZERO
     }
 
-    /// Of the part that is the same everywhere: by how much it has changed since the memory of the strips [m/s], and its rate [m/s2].
+    /// Of the part that is the same everywhere: by how much it has changed since the memory of the strips
+    /// [m/s], and its rate [m/s2].
     fn at_once(&self) -> [DVec3; 2] {
         [DVec3::ZERO; 2]
     }

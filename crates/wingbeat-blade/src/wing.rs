@@ -171,7 +171,8 @@ impl BladeWing {
         }
     }
 
-    /// Rate of the `wind` that the added mass feels at a point that moves with `through` [m/s] through the stream, wing components
+    /// Rate of the `wind` that the added mass feels at a point that moves with `through` [m/s] through the
+    /// stream, wing components
     /// [m/s2]: with wakes Kuessner's function has what a strip comes into.
     pub(crate) fn wind_rate(&self, wind: &impl LocalWind, point: DVec3, through: DVec3) -> DVec3 {
         match self.settings.unsteady {
@@ -266,7 +267,8 @@ impl BladeWing {
         }
     }
 
-    /// What the strips would remember if the motion by which they came from `before` to `after` repeated itself for ever.
+    /// What the strips would remember if the motion by which they came from `before` to `after` repeated itself
+    /// for ever.
     #[must_use]
     pub fn periodic(&self, before: &WingMemory, after: &WingMemory) -> WingMemory {
         let mut found = after.clone();

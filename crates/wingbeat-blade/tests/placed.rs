@@ -129,8 +129,8 @@ fn exact_strips_in_the_plane_of_the_wing_are_measured_along_its_axes() {
     assert_eq!(skewed.strip, strip);
 }
 
-/// A section with dihedral and incidence that moves, and is turned about axis 2 of the wing frame, is a flat strip in a frame that
-/// moves and turns so; the power is that of its load on this motion.
+/// A section with dihedral and incidence that moves, and is turned about axis 2 of the wing frame, is a flat
+/// strip in a frame that moves and turns so; the power is that of its load on this motion.
 #[test]
 fn agrees_twist_of_a_section_with_dihedral_with_a_frame_that_turns() {
     let strip = Strip {

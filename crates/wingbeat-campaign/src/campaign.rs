@@ -123,8 +123,9 @@ impl Campaign {
         )
     }
 
-    /// SHA-256 of what is done at point `i`: version, case, tasks, numbers that are kept, values of the point and what is in
-    /// the files that they name, and in those that commands of other programs name. Which files of it are kept is no part.
+    /// SHA-256 of what is done at point `i`: version, case, tasks, numbers that are kept, values of the point
+    /// and what is in the files that they name, and in those that commands of other programs name. Which files
+    /// of it are kept is no part.
     pub fn hash(&self, i: usize) -> [u8; 32] {
         let mut hash = self.digest.clone();
         for line in self.file.plan.overrides(i) {
@@ -146,8 +147,8 @@ impl Campaign {
         changed.map(|(path, _)| path).collect()
     }
 
-    /// SHA-256 of the whole plan, which blocks of points belong to: which points there are and in which order, and what is
-    /// kept of them.
+    /// SHA-256 of the whole plan, which blocks of points belong to: which points there are and in which order,
+    /// and what is kept of them.
     pub fn plan_hash(&self) -> [u8; 32] {
         let raw = &self.file.raw;
         let mut hash = self.digest.clone();
@@ -163,8 +164,8 @@ impl Campaign {
         hash.finalize().into()
     }
 
-    /// Whether point `i` has a result directory of its own while it is flown: it keeps files, or its air has wakes in space
-    /// and takes long.
+    /// Whether point `i` has a result directory of its own while it is flown: it keeps files, or its air has
+    /// wakes in space and takes long.
     pub fn has_directory(&self, i: usize, setup: &FlightSetup) -> bool {
         let runs = self.file.raw.tasks.contains(&Task::Run);
         runs && (self.keeps_files(i) || setup.air.keeps_wake())

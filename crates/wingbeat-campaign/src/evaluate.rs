@@ -236,7 +236,8 @@ pub fn of_power(power: &Power, numbers: &[Number], values: &mut [f64]) {
     }
 }
 
-/// Useful power over the power of the wings; none where this is not positive: air that drives the wings is not propulsion.
+/// Useful power over the power of the wings; none where this is not positive: air that drives the wings is not
+/// propulsion.
 fn efficiency(useful: f64, power: f64) -> f64 {
     if power > 0.0 {
         useful / power

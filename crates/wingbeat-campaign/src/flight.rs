@@ -73,7 +73,8 @@ pub fn in_memory(case: &LoadedCase, watch: Watch) -> Result<Flown, Halt> {
 /// Flies a case in the result directory `path`, which may hold a part of it already.
 ///
 /// # Errors
-/// Why it has no end; where it was asked to stop, its state is saved. [`IoError::Busy`] where another process writes there.
+/// Why it has no end; where it was asked to stop, its state is saved. [`IoError::Busy`] where another process
+/// writes there.
 pub fn in_directory(path: &Path, case: &LoadedCase, watch: Watch) -> Result<Flown, Halt> {
     let history = path.join("history.csv");
     if is_locked(&history) {

@@ -1,13 +1,13 @@
 //! Leases: who flies which block of points.
 //!
-//! A lease of block B is the file `B.0`, which only one process can make (`O_EXCL`). It holds who made it and which point
-//! is being flown; its time of change is the heartbeat. The lease of a dead process is taken over by making `B.1`, then
-//! `B.2`, ..., which again only one process can: whoever has the highest number has the block. A block all of whose
-//! points are done has the file `B.done`.
+//! A lease of block B is the file `B.0`, which only one process can make (`O_EXCL`). It holds who made it and
+//! which point is being flown; its time of change is the heartbeat. The lease of a dead process is taken over
+//! by making `B.1`, then `B.2`, ..., which again only one process can: whoever has the highest number has the
+//! block. A block all of whose points are done has the file `B.done`.
 //!
-//! A process of the same machine is dead when there is no process with its number and start time; one of another machine
-//! when its heartbeat is [`STALE`] old by the clock of the file system. Whoever wakes up after that finds that its lease
-//! was taken over and lets it go; what it has flown meanwhile is the same to the bit.
+//! A process of the same machine is dead when there is no process with its number and start time; one of
+//! another machine when its heartbeat is [`STALE`] old by the clock of the file system. Whoever wakes up after
+//! that finds that its lease was taken over and lets it go; what it has flown meanwhile is the same to the bit.
 
 use std::fs::{self, File, OpenOptions};
 use std::io::{ErrorKind, Read as _, Seek as _, SeekFrom, Write as _};
@@ -251,7 +251,8 @@ impl Leases {
         Ok(now.duration_since(changed).unwrap_or_default())
     }
 
-    /// The file whose time is that of the file system; processes of two machines or containers may have the same number.
+    /// The file whose time is that of the file system; processes of two machines or containers may have the
+    /// same number.
     fn clock(&self) -> PathBuf {
         let machine = &sha256(self.own.machine.as_bytes())[..8];
         let name = format!("clock.{machine}.{}", self.own.number);
@@ -395,7 +396,8 @@ mod tests {
         fs::remove_dir_all(&leases.folder).unwrap();
     }
 
-    /// Leases are let go one after the other: who asks for the block in between neither has it nor keeps the others from it.
+    /// Leases are let go one after the other: who asks for the block in between neither has it nor keeps the
+    /// others from it.
     #[test]
     fn behaves_a_block_that_is_being_let_go_is_not_lost() {
         let leases = leases("between");
@@ -416,8 +418,8 @@ mod tests {
         fs::remove_dir_all(&leases.folder).unwrap();
     }
 
-    /// The file system sets the time of a heartbeat: an old lease is as young as a file written just then. The lease stays
-    /// what it is while its points are written between heartbeats.
+    /// The file system sets the time of a heartbeat: an old lease is as young as a file written just then. The
+    /// lease stays what it is while its points are written between heartbeats.
     #[test]
     fn behaves_a_heartbeat_has_the_time_of_the_file_system() {
         let leases = leases("heart");

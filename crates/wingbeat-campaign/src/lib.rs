@@ -1,12 +1,13 @@
 //! Campaigns: thousands of flights from one file, flown by any number of workers that share a directory.
 //!
-//! The chapter in order: `raw` is the file as it is written; `axes` turns it into a `plan` (`checks` what its words say of
-//! each other, `places` where its keys stand), what is drawn by `sample`; `cases` puts values on top of the case; `file` holds
-//! all that is read; `number` knows what may be kept, `trial` tries points and says what is refused, `named` knows the files that values name;
-//! `campaign` joins them: point i -> values -> case -> hash, a pure function of the file. `point` does what is to be done
-//! at a point (`trimming`, `flight`, `evaluate`), `store` keeps its result, `lease` says who flies which points, `worker`
-//! goes from block to block. `rows`, `status`, [`merge`] and [`page`] read what is there; `scripts` writes what other
-//! engines need, `cost` tells what a campaign will take.
+//! The chapter in order: `raw` is the file as it is written; `axes` turns it into a `plan` (`checks` what its
+//! words say of each other, `places` where its keys stand), what is drawn by `sample`; `cases` puts values on
+//! top of the case; `file` holds all that is read; `number` knows what may be kept, `trial` tries points and
+//! says what is refused, `named` knows the files that values name; `campaign` joins them: point i -> values ->
+//! case -> hash, a pure function of the file. `point` does what is to be done at a point (`trimming`, `flight`,
+//! `evaluate`), `store` keeps its result, `lease` says who flies which points, `worker` goes from block to
+//! block. `rows`, `status`, [`merge`] and [`page`] read what is there; `scripts` writes what other engines
+//! need, `cost` tells what a campaign will take.
 //!
 //! What it does not know: processes, command lines, how pages look.
 #![warn(missing_docs)]

@@ -1,5 +1,6 @@
-//! Files that values of varied keys name, as those of motion tables and meshes, and those that the commands of other programs
-//! name: what is in them belongs to a point as its values do, so a file that has changed is another point.
+//! Files that values of varied keys name, as those of motion tables and meshes, and those that the commands of
+//! other programs name: what is in them belongs to a point as its values do, so a file that has changed is
+//! another point.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -15,8 +16,8 @@ pub(crate) type Contents = BTreeMap<String, [u8; 32]>;
 /// SHA-256 of files by their paths; nothing of those that are none.
 pub(crate) type Programs = BTreeMap<PathBuf, Option<[u8; 32]>>;
 
-/// The files that values of the plan name; `folder` is what their paths are relative to. One that cannot be read is left
-/// out: the case that names it is refused.
+/// The files that values of the plan name; `folder` is what their paths are relative to. One that cannot be
+/// read is left out: the case that names it is refused.
 pub(crate) fn contents(plan: &Plan, base: &LoadedCase, folder: &Path) -> Contents {
     let mut found = Contents::new();
     for line in lines(plan) {
@@ -37,8 +38,9 @@ fn lines(plan: &Plan) -> impl Iterator<Item = String> {
     values.flat_map(|(key, values)| values.iter().map(|value| pair(key, value)))
 }
 
-/// SHA-256 of the files that `KEY=VALUE` names, of the one of `base` that it chooses a column of, and of those that are words
-/// of the command of a program; `folder` is what paths of files are relative to. Nothing where no file can be read.
+/// SHA-256 of the files that `KEY=VALUE` names, of the one of `base` that it chooses a column of, and of those
+/// that are words of the command of a program; `folder` is what paths of files are relative to. Nothing where
+/// no file can be read.
 pub fn content(line: &str, base: Option<&LoadedCase>, folder: &Path) -> Option<[u8; 32]> {
     let may_name = NAMES.iter().any(|name| line.contains(name));
     may_name.then(|| of_files(named_by(line, base, folder)))?
@@ -76,8 +78,8 @@ pub(crate) fn programs(plan: &Plan, base: &LoadedCase, folder: &Path) -> Program
         .collect()
 }
 
-/// Names of keys in whose values files are named: a file, a column of the file beside, the command of a program. It is started
-/// in the working folder.
+/// Names of keys in whose values files are named: a file, a column of the file beside, the command of a
+/// program. It is started in the working folder.
 const NAMES: [&str; 6] = [
     "file",
     "phase_column",

@@ -1,7 +1,7 @@
 //! The table as `NetCDF` (version 4, which is HDF5): the numbers over the axes of the plan.
 //!
-//! Every axis is a dimension with its values as coordinate; keys that vary along with another, those of a table and what
-//! is drawn are coordinates along the dimension of their axis.
+//! Every axis is a dimension with its values as coordinate; keys that vary along with another, those of a table
+//! and what is drawn are coordinates along the dimension of their axis.
 
 use std::path::Path;
 

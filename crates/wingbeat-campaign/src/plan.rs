@@ -1,7 +1,7 @@
 //! The points of a campaign: from the number of a point to the values of its keys.
 //!
-//! Axes multiply, the last one running fastest; beside them runs the axis of samples, fastest of all. The same samples are
-//! drawn at every point of the grid, so that differences along the grid are not those of chance.
+//! Axes multiply, the last one running fastest; beside them runs the axis of samples, fastest of all. The same
+//! samples are drawn at every point of the grid, so that differences along the grid are not those of chance.
 
 use crate::sample::Sampler;
 use crate::value::Value;

@@ -46,7 +46,8 @@ const DRAWN: usize = 2;
 /// What is kept beside any of them.
 const ALWAYS: [&str; 2] = ["case.toml", "manifest.json"];
 
-/// Whether the files that point `i` keeps are there, of figures and frames their folders: a short flight has none in them.
+/// Whether the files that point `i` keeps are there, of figures and frames their folders: a short flight has
+/// none in them.
 pub fn has_files(campaign: &Campaign, i: usize, hash: &str, store: &Store) -> bool {
     if !campaign.keeps_files(i) {
         return true;
@@ -69,8 +70,8 @@ pub fn has_files(campaign: &Campaign, i: usize, hash: &str, store: &Store) -> bo
     names.all(|name| place.join(name).exists())
 }
 
-/// Does what is to be done at point `i`, whose hash is `hash`; with a `store`, flights that take long or keep files have
-/// a directory there.
+/// Does what is to be done at point `i`, whose hash is `hash`; with a `store`, flights that take long or keep
+/// files have a directory there.
 pub fn fly(
     campaign: &Campaign,
     i: usize,

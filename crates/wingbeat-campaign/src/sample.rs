@@ -2,8 +2,8 @@
 //! any order and more of them leave the first ones as they are (a Latin hypercube apart, whose parts are as many as its
 //! samples). A Sobol sequence has a dimension in place of the key: how many keys are drawn before it in the file.
 //!
-//! Random numbers are SHA-256 of (seed, key, s), read as a fraction. Values are rounded to 12 digits, which hides the last
-//! bits in which mathematical libraries of different systems differ.
+//! Random numbers are SHA-256 of (seed, key, s), read as a fraction. Values are rounded to 12 digits, which
+//! hides the last bits in which mathematical libraries of different systems differ.
 
 use sha2::{Digest, Sha256};
 use statrs::function::erf::erfc_inv;

@@ -11,8 +11,8 @@
 //! points.csv, .parquet, .nc, failed.csv, campaign.html   what `merge` and `view` write
 //! ```
 //!
-//! Results are not put onto the disk one by one (`fsync`): a power failure may lose or damage those of the last seconds.
-//! Their checksums tell, and they are flown again.
+//! Results are not put onto the disk one by one (`fsync`): a power failure may lose or damage those of the last
+//! seconds. Their checksums tell, and they are flown again.
 
 use std::collections::HashMap;
 use std::fs;

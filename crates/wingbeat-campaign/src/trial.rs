@@ -193,7 +193,8 @@ impl CampaignFile {
     /// The numbers that are kept.
     ///
     /// # Errors
-    /// None; one that there is not, or not of these flights; `mean_beats` that has no effect, or is more than any point flies.
+    /// None; one that there is not, or not of these flights; `mean_beats` that has no effect, or is more than
+    /// any point flies.
     pub fn kept(&self) -> Result<Vec<Number>, IoError> {
         if self.raw.keep.is_empty() {
             return Err(self.fault(
@@ -268,8 +269,8 @@ impl CampaignFile {
         Err(self.fault(place, problem, "with output.history_every = 1", &remedy))
     }
 
-    /// An error if means are asked for and none is kept, or no point that is tried has as many whole wingbeats as they are
-    /// taken over, and none that is not would have more.
+    /// An error if means are asked for and none is kept, or no point that is tried has as many whole wingbeats
+    /// as they are taken over, and none that is not would have more.
     fn check_beats(&self, numbers: &[Number]) -> Result<(), IoError> {
         if self.raw.mean_beats.is_some() && !numbers.iter().any(|n| n.source.is_mean()) {
             let problem = "this has no effect: no mean over wingbeats is kept".to_owned();

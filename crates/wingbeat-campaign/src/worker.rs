@@ -1,5 +1,5 @@
-//! A worker: takes blocks of points, flies them, keeps their results; any number of workers share a directory, without a
-//! coordinator.
+//! A worker: takes blocks of points, flies them, keeps their results; any number of workers share a directory,
+//! without a coordinator.
 
 use std::io::ErrorKind;
 use std::ops::Range;
@@ -300,8 +300,8 @@ pub fn blocks(range: &Range<usize>, block: usize) -> Range<usize> {
     }
 }
 
-/// Before work begins: damaged results are removed, and so are those of flights that lack the files that are kept of them,
-/// and blocks that lack results are no longer done. How many points of the range are done.
+/// Before work begins: damaged results are removed, and so are those of flights that lack the files that are
+/// kept of them, and blocks that lack results are no longer done. How many points of the range are done.
 ///
 /// # Errors
 /// A directory that cannot be read or written.

@@ -28,8 +28,8 @@ pub struct FittedTable {
 /// More than this is no noise of measured angles [deg]: video has 1 to 2.
 const NOISE_DEG: f64 = 3.0;
 
-/// A sample farther off than so many times the root mean square is none of the others' kind; of two hundred with normal noise the
-/// farthest is at 3.
+/// A sample farther off than so many times the root mean square is none of the others' kind; of two hundred
+/// with normal noise the farthest is at 3.
 const OUTLIER: f64 = 5.0;
 
 /// Samples of a single beat do not go on for longer, rounding aside \[wingbeats\].

@@ -1,10 +1,10 @@
 //! Case files: from text to a validated setup, and back to text with everything filled in.
 //!
-//! The way of a case: text -> `source` (document, positions of keys, overrides) -> `decode`
-//! (raw types of [`raw`], unknown keys refused) -> [`keys`] (every value in its range) -> `files`
-//! (meshes and tables read in) -> `resolve` (keys that follow from others) -> [`keys`] (every key has
-//! an effect) -> `build` -> [`wingbeat_flight::FlightSetup`], or an error that says what is wrong,
-//! where and what to do. [`presets`] are ordinary case files that come with the program, [`insect`] writes them for other animals.
+//! The way of a case: text -> `source` (document, positions of keys, overrides) -> `decode` (raw types of
+//! [`raw`], unknown keys refused) -> [`keys`] (every value in its range) -> `files` (meshes and tables read in) ->
+//! `resolve` (keys that follow from others) -> [`keys`] (every key has an effect) -> `build` ->
+//! [`wingbeat_flight::FlightSetup`], or an error that says what is wrong, where and what to do. [`presets`] are
+//! ordinary case files that come with the program, [`insect`] writes them for other animals.
 //!
 //! Names in cases carry units; numbers are SI and radians on the other side of this border.
 //!

@@ -206,8 +206,8 @@ impl LoadedCase {
         lean.try_into().expect("a case without idle keys is a case")
     }
 
-    /// Refuses what a model of the air of one's own in place of that of the case would lose: streams, gusts, streets, shear
-    /// and the ground, and keys of the air that were set on top.
+    /// Refuses what a model of the air of one's own in place of that of the case would lose: streams, gusts,
+    /// streets, shear and the ground, and keys of the air that were set on top.
     ///
     /// # Errors
     /// The first such key.

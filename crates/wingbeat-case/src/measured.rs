@@ -14,8 +14,8 @@ const HALF_A_TURN: f64 = 3.2;
 /// A sample that stands this far from both neighbours, alone in its value, was hardly measured \[deg\].
 const LEAP_DEG: f64 = 10.0;
 
-/// What a fit leaves of one phase of a surface counts beside the others from so many times their root mean square on, and beside the
-/// wing from this part of its length on.
+/// What a fit leaves of one phase of a surface counts beside the others from so many times their root mean
+/// square on, and beside the wing from this part of its length on.
 const OUTLIER: f64 = 5.0;
 const SMALL: f64 = 0.02;
 
@@ -103,7 +103,8 @@ fn turn(key: &str, rows: &[[f64; 2]]) -> Option<String> {
     ))
 }
 
-/// Rows that held zero, which stands for the angle `zero`, in the midst of other angles, as frames do in which nothing was found.
+/// Rows that held zero, which stands for the angle `zero`, in the midst of other angles, as frames do in which
+/// nothing was found.
 fn lost(key: &str, rows: &[[f64; 2]], zero: f64) -> Option<String> {
     let mut from = 1;
     while from + 1 < rows.len() {
@@ -134,8 +135,8 @@ const UNITS: [(f64, &str); 4] = [
     (1e-3, ": were they divided by 1000 once too often?"),
 ];
 
-/// A surface much larger or smaller than the wing at rest, or far from its hinge: of other units, or from another origin. Its
-/// points are for an animal of this `scale`.
+/// A surface much larger or smaller than the wing at rest, or far from its hinge: of other units, or from
+/// another origin. Its points are for an animal of this `scale`.
 fn extents(key: &str, surface: &SurfaceCase, wing: &Wing, scale: f64) -> Option<String> {
     let sizes = surface.nodes_m.iter().map(|rows| size(rows));
     let sizes: Vec<[f64; 3]> = sizes.collect::<Option<_>>()?;

@@ -72,10 +72,10 @@ pub(crate) fn air(case: &mut AirCase) {
     }
 }
 
-/// The quaternion form where joints close loops, and of a held root with free joints, the momentum form else; Hamming's method with air,
-/// order eight without. What moves freely in a wake, as wings on passive hinges do, weighs little beside the air that
-/// moves with it: backward differences, which bear that, and the vibrations of elastic wings on such joints, too. Elastic
-/// wings remember their shape, as air remembers its wakes.
+/// The quaternion form where joints close loops, and of a held root with free joints, the momentum form else;
+/// Hamming's method with air, order eight without. What moves freely in a wake, as wings on passive hinges do,
+/// weighs little beside the air that moves with it: backward differences, which bear that, and the vibrations
+/// of elastic wings on such joints, too. Elastic wings remember their shape, as air remembers its wakes.
 fn dynamics(case: &mut Case) {
     let children: Vec<&str> = case.joint.values().map(|j| j.child.as_str()).collect();
     let again = |k: usize| children[..k].contains(&children[k]);

@@ -63,7 +63,8 @@ const OF_HAWKMOTH: &str = "published model code that cites Sun (2014) and Kim et
 const OUTLINE_OF_BOMBUS: &str = "outline of a Bombus wing pair, from a museum image";
 const AS_THE_FLY: &str = "estimated: in the proportion of Drosophila melanogaster";
 
-/// The species in the order of their mass; masses are those with wings. The parts of the fruit fly are those of the preset `fruit-fly-blade`.
+/// The species in the order of their mass; masses are those with wings. The parts of the fruit fly are those of
+/// the preset `fruit-fly-blade`.
 pub const SPECIES: [Species; 9] = [
     Species {
         name: "fruit-fly",

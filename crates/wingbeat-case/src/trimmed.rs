@@ -63,8 +63,8 @@ pub fn trimmed_case(case: &LoadedCase, trim: &Trim) -> String {
     with_start(case, raw, flight, &trim.solution)
 }
 
-/// Whether the case of a trimmed flight goes without the feedback of `case`: it is laid out for flights that are alike on the right and
-/// on the left, and right and left were trimmed apart.
+/// Whether the case of a trimmed flight goes without the feedback of `case`: it is laid out for flights that
+/// are alike on the right and on the left, and right and left were trimmed apart.
 pub fn lacks_feedback(case: &LoadedCase, trimmed: &TrimSolution) -> bool {
     let control = case.raw.control.as_ref();
     let is_laid_out = control.is_some_and(|c| LAWS.contains(&c.controller));
@@ -87,13 +87,14 @@ fn hold(raw: &mut Case, velocity: DVec3) {
     (control.forward_m_s, control.climb_m_s) = (rounded(velocity.x), rounded(-velocity.z));
 }
 
-/// Wingbeats of the rise of the beat and of the hold in which elastic wings and wakes of strips come into their motion. The clock of the
-/// wings lags by half of the rise: a whole wingbeat, so that the release is at the beginning of one.
+/// Wingbeats of the rise of the beat and of the hold in which elastic wings and wakes of strips come into their
+/// motion. The clock of the wings lags by half of the rise: a whole wingbeat, so that the release is at the
+/// beginning of one.
 const RISE: f64 = 2.0;
 const HELD_WITH_WINGS: f64 = 5.0;
 
-/// The same for a flight in air with memory, or with elastic wings: held while the wake grows, or the wings come into their
-/// motion, then released.
+/// The same for a flight in air with memory, or with elastic wings: held while the wake grows, or the wings
+/// come into their motion, then released.
 pub fn wake_trimmed_case(case: &LoadedCase, trim: &WakeTrim) -> String {
     let mut raw = adjusted(case, &trim.solution);
     if trim.solution.unknowns.iter().any(|u| u.is_lateral()) {
@@ -153,8 +154,8 @@ fn adjusted(case: &LoadedCase, by: &TrimSolution) -> Case {
     raw
 }
 
-/// Phases of the wings as in the setup that was trimmed: where joints are driven in time, the beat begins at the phase that
-/// wings have whose start has delayed them.
+/// Phases of the wings as in the setup that was trimmed: where joints are driven in time, the beat begins at
+/// the phase that wings have whose start has delayed them.
 fn lead(raw: &mut Case, case: &LoadedCase, trimmed: &FlightSetup) {
     let wings = |setup: &FlightSetup| setup.animal.wings.first().map_or(0.0, |w| w.motion.phase);
     let lead = wings(trimmed) - wings(&case.setup);

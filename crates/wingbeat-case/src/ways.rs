@@ -8,7 +8,8 @@ use crate::loaded::LoadedCase;
 /// Fastest speed on a way over its mean: of the polynomial by which it is flown ([`wingbeat_math::smoothstep7`]).
 const FASTEST: f64 = 35.0 / 16.0;
 
-/// Speed over the mean speed of the wing tips that no flyer that flaps reaches: insects fly at up to 1, cruising birds at up to 2.5.
+/// Speed over the mean speed of the wing tips that no flyer that flaps reaches: insects fly at up to 1,
+/// cruising birds at up to 2.5.
 const SWIFT: f64 = 3.0;
 
 impl LoadedCase {

@@ -69,7 +69,8 @@ fn refuses_phases_in_other_units_by_the_line() {
     }
 }
 
-/// Times in place of phases of angles that harmonics are fitted to: by their span, the name of their column or what the fit leaves.
+/// Times in place of phases of angles that harmonics are fitted to: by their span, the name of their column or
+/// what the fit leaves.
 #[test]
 fn refuses_times_in_place_of_phases_with_harmonics() {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("times");
@@ -157,7 +158,8 @@ fn exact_angles_of_a_file_are_in_the_unit_that_their_column_says() {
     assert!(said.contains("both radians and degrees"), "{said}");
 }
 
-/// Signs of angles on a tethered animal: both wings, or a left one with the signs of a right one; and samples that scatter.
+/// Signs of angles on a tethered animal: both wings, or a left one with the signs of a right one; and samples
+/// that scatter.
 #[test]
 fn behaves_signs_and_noise_of_measured_angles_are_doubted_on_tethers_too() {
     let doubts = |set: &[String]| {
@@ -193,8 +195,8 @@ fn behaves_signs_and_noise_of_measured_angles_are_doubted_on_tethers_too() {
     }
 }
 
-/// A table in which a sample of 200 is wrong by a whole turn; the harmonics of a fit, what it leaves, and fits that the samples do not
-/// determine.
+/// A table in which a sample of 200 is wrong by a whole turn; the harmonics of a fit, what it leaves, and fits
+/// that the samples do not determine.
 #[test]
 fn behaves_tables_of_angles_can_be_fitted() {
     let stroke = |k: usize| 70.0 * (std::f64::consts::TAU * k as f64 / 200.0).cos();

@@ -49,7 +49,8 @@ fn flown(set: &[&str]) -> Vec<Record> {
     records
 }
 
-/// The angular velocity of the start is that of the release: until then a held body does not turn, and its joints move as without it.
+/// The angular velocity of the start is that of the release: until then a held body does not turn, and its
+/// joints move as without it.
 #[test]
 fn exact_held_body_stands_still_until_its_release() {
     let still = flown(&[]);
@@ -81,7 +82,8 @@ fn refuses_forms_that_no_held_body_with_free_joints_is_integrated_in() {
     load(&["flight={mode=\"tethered\"}"]).unwrap();
 }
 
-/// A mass on a damper that takes it back a hundred times as fast as the steps are, and the same freely: plain passes would lead away.
+/// A mass on a damper that takes it back a hundred times as fast as the steps are, and the same freely: plain
+/// passes would lead away.
 #[test]
 fn exact_return_against_a_stiff_damper() {
     const SLIDE: &str = "format = 1

@@ -1,5 +1,5 @@
-//! Wings on passive hinges in the lattice, and flyers that are light as a whole: the air that wings carry along weighs more than
-//! what carries them.
+//! Wings on passive hinges in the lattice, and flyers that are light as a whole: the air that wings carry along
+//! weighs more than what carries them.
 
 use wingbeat_case::LoadedCase;
 use wingbeat_flight::{FlightError, FlightSetup, Record, Simulation};
@@ -17,7 +17,8 @@ fn setup(set: &[&str]) -> FlightSetup {
     LoadedCase::find("robobee", &all).expect("a case").setup
 }
 
-/// A pair of driven wings on a body of so much inertia in pitch \[kg m2\], with half a beat held: in pitch the air weighs more.
+/// A pair of driven wings on a body of so much inertia in pitch \[kg m2\], with half a beat held: in pitch the
+/// air weighs more.
 fn light_flyer(pitch: &str, set: &[&str]) -> FlightSetup {
     let own = [
         "flight.mode=free",
@@ -88,13 +89,14 @@ fn limit_wings_on_passive_hinges_fly_by_either_integrator() {
                 "{steps} by {integrator}: {rows} in a row, {most} passes, {:.3} deg",
                 pitch(&flown)
             );
-            // Unstable ones turn back in all of the last steps, by plain iteration in 25 passes where they converge at all.
+            // Unstable ones turn back in all of the last steps, by plain iteration in 25 passes where they
+            // converge at all.
             assert!(rows < 5 && most <= 10, "{rows} in a row, {most} passes");
             ends.push(pitch(&flown));
         }
     }
-    // Both are of order four; what they leave apart is of the order of their errors. Measured 0.006 and 0.001 deg; half a beat later 0.1 deg, as
-    // wakes close to the wing part flights.
+    // Both are of order four; what they leave apart is of the order of their errors. Measured 0.006 and 0.001
+    // deg; half a beat later 0.1 deg, as wakes close to the wing part flights.
     let [coarse, fine] = [ends[0] - ends[1], ends[2] - ends[3]].map(f64::abs);
     assert!(coarse < 0.05 && fine < 0.01, "{ends:?}");
 }
@@ -121,8 +123,8 @@ fn limit_a_wing_of_a_hundredth_of_the_mass_flies() {
     }
 }
 
-/// Passes to 1e-10, wings of a tenth and of 1/250 of `rho b c^2`: what passes have shown speeds up the next ones. One more than
-/// when the wing felt but half of what waits on its trailing edge: the air damps more.
+/// Passes to 1e-10, wings of a tenth and of 1/250 of `rho b c^2`: what passes have shown speeds up the next
+/// ones. One more than when the wing felt but half of what waits on its trailing edge: the air damps more.
 #[test]
 fn limit_passes_are_few_whatever_a_wing_on_a_hinge_weighs() {
     for (mass, integrator, allowed) in [("2.2e-8", "bdf", 7), ("8.9e-10", "hamming", 7)] {
@@ -144,13 +146,13 @@ fn agrees_half_of_the_air_with_both_halves_around_light_hinged_wings() {
     let set = |mirror: &'static str| ["wing.right.mass_kg=2.2e-8", mirror, "time.beats=1"];
     let [half, whole] = ["air.mirror=true", "air.mirror=false"].map(|m| pitch(&robot(&set(m))));
     println!("{half} and {whole} deg");
-    // What the wings do to each other's added mass is a rate with one half and a difference over steps with both. Measured 4e-4 to 1.6e-3, by
-    // the shape of the wings.
+    // What the wings do to each other's added mass is a rate with one half and a difference over steps with
+    // both. Measured 4e-4 to 1.6e-3, by the shape of the wings.
     assert!((half - whole).abs() < 3e-3, "{half} and {whole} deg");
 }
 
-/// A robot that is carried through still air, and one that is held in a stream: rates that differences over steps tell of are those
-/// of velocities through the air, or its hinges would differ by 0.09 deg.
+/// A robot that is carried through still air, and one that is held in a stream: rates that differences over
+/// steps tell of are those of velocities through the air, or its hinges would differ by 0.09 deg.
 #[test]
 fn invariant_wings_on_hinges_in_a_stream_are_those_carried_through_still_air() {
     let set = |way: &'static str| ["flight.mode=tethered", way, "time.beats=1.5"];
@@ -202,8 +204,9 @@ fn is_light(pitch: f64, set: &[&str]) -> bool {
     !flight.state().carried.is_empty()
 }
 
-/// Flat wings carry `1 / cos^2 phi` times the air in pitch that wings at a stroke angle phi do: 1.22 times at mid stroke of 25 deg. A flyer
-/// between is light wherever in its beat it starts, as one whose wings rest flat is, and not as one whose wings rest raised.
+/// Flat wings carry `1 / cos^2 phi` times the air in pitch that wings at a stroke angle phi do: 1.22 times at
+/// mid stroke of 25 deg. A flyer between is light wherever in its beat it starts, as one whose wings rest flat
+/// is, and not as one whose wings rest raised.
 #[test]
 fn invariant_whether_a_flyer_is_light_where_its_beat_starts() {
     let raised = "wing.right.motion.phi={constant_deg=-25}";
@@ -234,8 +237,9 @@ fn invariant_whether_a_flyer_is_light_where_its_beat_starts() {
     assert!((ratio - 1.0).abs() < 0.1, "{ratio}");
 }
 
-/// Wings of beams on a body that is light in pitch fly, where passes that know no more than differences over steps end in an error at the
-/// release; momentum is kept, and they end where rigid ones do but for what bends and what differences over steps leave.
+/// Wings of beams on a body that is light in pitch fly, where passes that know no more than differences over
+/// steps end in an error at the release; momentum is kept, and they end where rigid ones do but for what bends
+/// and what differences over steps leave.
 #[test]
 fn conserves_momentum_of_a_light_flyer_with_elastic_wings() {
     let own = [
@@ -319,7 +323,8 @@ fn order_of_the_energy_of_elastic_wings_on_passive_hinges() {
     );
 }
 
-/// A wing of half a metre on a hinge along its quarter chord, where its axis and its masses lie, so that it does not flutter.
+/// A wing of half a metre on a hinge along its quarter chord, where its axis and its masses lie, so that it
+/// does not flutter.
 fn slender(set: &[&str]) -> FlightSetup {
     let text = r#"
         format = 1

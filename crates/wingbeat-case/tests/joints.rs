@@ -55,8 +55,8 @@ const ARTICULATED: [(&str, usize, usize); 4] = [
 #[test]
 fn balances_energy_of_every_preset_alone() {
     for preset in presets::PRESETS {
-        // The integrator that a case without air has of its own; elastic wings remember their shape from step to step: their
-        // energy closes at second order, which has its own tests.
+        // The integrator that a case without air has of its own; elastic wings remember their shape from step
+        // to step: their energy closes at second order, which has its own tests.
         if is_elastic(preset.name) {
             continue;
         }
@@ -81,8 +81,8 @@ fn balances_energy_of_every_preset_alone() {
     }
 }
 
-/// The abdomen hangs on a spring that nothing drives: the law of the spring against Newton's and Euler's equations of all bodies behind
-/// the hinge.
+/// The abdomen hangs on a spring that nothing drives: the law of the spring against Newton's and Euler's
+/// equations of all bodies behind the hinge.
 #[test]
 fn agrees_power_of_springs_with_that_of_the_reactions_at_their_hinge() {
     let records = fly(

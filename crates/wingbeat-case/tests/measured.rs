@@ -281,8 +281,8 @@ fn behaves_wings_that_fly_with_the_trailing_edge_ahead_are_named() {
     assert!(said.contains("ahead"), "{said}");
 }
 
-/// Angles over seconds that count the other way from another zero, in rows and in a file in radians, fly as the same angles in this
-/// program's convention.
+/// Angles over seconds that count the other way from another zero, in rows and in a file in radians, fly as the
+/// same angles in this program's convention.
 #[test]
 fn exact_tables_in_other_conventions_are_converted() {
     let here = Path::new(env!("CARGO_TARGET_TMPDIR")).join("conventions");

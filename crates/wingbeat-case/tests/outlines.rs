@@ -38,7 +38,8 @@ const EDGES: &str = "leading_m=[[0, 0.1e-3], [1e-3, 0.3e-3], [2.5e-3, 0]], trail
 const IN_MM: &str =
     "# from a picture\n,x_mm,y_mm\n1,0,0.1\n2,1,0.3\n3,2.5,0\n4,1.5,-0.6\n5,0,-0.1\n";
 
-/// The same in pixels of 5 um that are counted downwards, the hinge at (100, 200), the span along the columns; around the other way.
+/// The same in pixels of 5 um that are counted downwards, the hinge at (100, 200), the span along the columns;
+/// around the other way.
 const IN_PIXELS: &str = "X;Y\n120;200\n220;500\n100;700\n40;400\n80;200\n";
 
 #[test]

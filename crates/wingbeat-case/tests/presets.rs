@@ -386,7 +386,8 @@ fn invariant_every_preset_flies_to_its_end_symmetric_ones_symmetrically() {
     assert!(symmetric > 20, "{symmetric}");
 }
 
-/// A delta's edges are swept by more than 45 deg; insects' wings are not, nor is anything said where leading edges shed.
+/// A delta's edges are swept by more than 45 deg; insects' wings are not, nor is anything said where leading
+/// edges shed.
 #[test]
 fn behaves_vortex_lift_is_doubted_at_swept_edges() {
     let wing = |name: &str, swept: &str, choice: &str| {

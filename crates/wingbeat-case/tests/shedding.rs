@@ -7,7 +7,8 @@ use wingbeat_case::{LoadedCase, presets::PRESETS};
 use wingbeat_flight::{AirModel, Simulation};
 use wingbeat_math::DVec3;
 
-/// Hovering strokes are alike back and forth, or nearly so; those of the tethered dragonfly, slowed and turned, are not.
+/// Hovering strokes are alike back and forth, or nearly so; those of the tethered dragonfly, slowed and turned,
+/// are not.
 #[test]
 fn behaves_one_sided_leading_edges_are_told_of_dragonflies_and_not_of_hovering_flight() {
     for preset in PRESETS {

@@ -172,8 +172,8 @@ fn agrees_lift_beside_stiff_hinges_with_that_of_short_steps() {
     assert!((coarse / fine - 1.0).abs() < 1e-4, "{coarse} {fine}");
 }
 
-/// A wing that a tether revolves meets air at its tip's speed, one that is pitched about its span in a stream at that of the stream, and
-/// one wing alone may span both sides of the body.
+/// A wing that a tether revolves meets air at its tip's speed, one that is pitched about its span in a stream
+/// at that of the stream, and one wing alone may span both sides of the body.
 #[test]
 fn behaves_wings_on_tethers_have_the_speed_of_their_tips() {
     let text = "format = 1

@@ -53,8 +53,8 @@ fn exact_roll_of_a_body_that_carries_air_along() {
     assert!((found / wanted - 1.0).abs() < 1e-9, "{found} {wanted}");
 }
 
-/// `u' = -q w`, `(m + A) w' = m q u`: the velocity through the air goes round an ellipse; by every formulation, in still air
-/// and carried along by a stream.
+/// `u' = -q w`, `(m + A) w' = m q u`: the velocity through the air goes round an ellipse; by every formulation,
+/// in still air and carried along by a stream.
 #[test]
 fn exact_turn_of_a_body_that_carries_air_along() {
     const M: f64 = 0.0018;

@@ -162,8 +162,8 @@ fn refuses_springs_of_spherical_joints_past_half_a_turn() {
     );
 }
 
-/// A body that only yaws, beyond half a turn and back, is said to yaw: the other triple of Euler angles, half a turn of pitch and
-/// of roll off, is the same attitude and jumps there.
+/// A body that only yaws, beyond half a turn and back, is said to yaw: the other triple of Euler angles, half a
+/// turn of pitch and of roll off, is the same attitude and jumps there.
 #[test]
 fn exact_yaw_goes_on_beyond_a_quarter_turn() {
     let at = |start: &str| {
@@ -186,8 +186,9 @@ fn exact_yaw_goes_on_beyond_a_quarter_turn() {
     }
 }
 
-/// A tether that starts smoothly: at rest at first, by velocities and accelerations that are derivatives of the motion, late by half of the
-/// rise from then on; what drives it is the change of the momentum of the whole flyer.
+/// A tether that starts smoothly: at rest at first, by velocities and accelerations that are derivatives of the
+/// motion, late by half of the rise from then on; what drives it is the change of the momentum of the whole
+/// flyer.
 #[test]
 fn exact_tether_starts_from_rest() {
     let mode = "flight={ mode = \"tethered\", velocity_m_s = [2, 0, 0], tether = { z = { frequency_hz = 9, sine_m = [0.01] }, yaw = { rate_deg_s = 700 }, start_s = 0.05 } }";

@@ -118,7 +118,8 @@ fn behaves_roots_on_bodies_are_carried_through_or_named() {
     }
 }
 
-/// What lies in the way of the circulation: thin bodies, hinges of their own, roots that bend away, that sit high, wakes that end within the body.
+/// What lies in the way of the circulation: thin bodies, hinges of their own, roots that bend away, that sit
+/// high, wakes that end within the body.
 #[test]
 fn behaves_what_is_in_the_way_through_a_body_is_named() {
     let carried = |keys: &[&str]| {
@@ -174,8 +175,8 @@ fn behaves_what_is_in_the_way_through_a_body_is_named() {
     assert_eq!(carried(&["air.max_wake_rows=40"]), (1, String::new()));
 }
 
-/// Slender-body theory: wings on a cylinder have K_W times their lift when put together, the cylinder K_B times \[NACA Report
-/// 1307\]; r is its radius, s half the span.
+/// Slender-body theory: wings on a cylinder have K_W times their lift when put together, the cylinder K_B times
+/// \[NACA Report 1307\]; r is its radius, s half the span.
 #[test]
 fn agrees_lift_of_wings_on_a_body_with_slender_body_theory() {
     for (r_over_s, wings, body) in [(0.2, 1.162, 0.278), (0.3, 1.253, 0.437)] {
@@ -202,8 +203,8 @@ fn agrees_lift_of_wings_on_a_body_with_slender_body_theory() {
     }
 }
 
-/// Two ways to the mean force of a beat: what acts on wings, body and what leads through it, and the rate of the impulse of all vorticity.
-/// Attached wings beat by 20 deg at 5 Hz.
+/// Two ways to the mean force of a beat: what acts on wings, body and what leads through it, and the rate of
+/// the impulse of all vorticity. Attached wings beat by 20 deg at 5 Hz.
 #[test]
 fn agrees_force_on_wings_and_body_with_the_rate_of_the_impulse() {
     let case = Case {
@@ -226,8 +227,8 @@ fn agrees_force_on_wings_and_body_with_the_rate_of_the_impulse() {
     assert!(apart < 0.03, "{apart}");
 }
 
-/// Wings that shed from leading edges, too, for half a beat: both sides computed, with all sums direct and with trees, and one side with its mirror
-/// image.
+/// Wings that shed from leading edges, too, for half a beat: both sides computed, with all sums direct and with
+/// trees, and one side with its mirror image.
 #[test]
 fn invariant_left_is_right_and_one_side_with_its_image_is_both() {
     let case = Case {

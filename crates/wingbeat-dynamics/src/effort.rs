@@ -8,9 +8,10 @@
 //! Q = A^T f + m
 //! ```
 //!
-//! with f_k of what acts along theta_k: springs `-k_k (theta_k - rest_k)`, stops, actuators that follow; their power
-//! `f . theta'` is the loss of the energy stored, whatever the stiffness of each component. m_k is what acts about axis k
-//! of the child: dampers `-c_k w_k` and given moments. Equal springs without rest exert `-k theta`.
+//! with f_k of what acts along theta_k: springs `-k_k (theta_k - rest_k)`, stops, actuators that follow; their
+//! power `f . theta'` is the loss of the energy stored, whatever the stiffness of each component. m_k is what
+//! acts about axis k of the child: dampers `-c_k w_k` and given moments. Equal springs without rest exert `-k
+//! theta`.
 
 use wingbeat_math::DVec3;
 use wingbeat_math::rotation_jacobian::{Curve, inverse_right_jacobian};
@@ -29,8 +30,8 @@ pub struct Passive {
 }
 
 impl Mechanism {
-    /// What springs, dampers and stops of each joint do at time `t` \[s\], in the order of the joints; `coordinates` are
-    /// those of [`Self::coordinates`], with their rates.
+    /// What springs, dampers and stops of each joint do at time `t` \[s\], in the order of the joints;
+    /// `coordinates` are those of [`Self::coordinates`], with their rates.
     pub fn passive<'a>(
         &'a self,
         t: f64,

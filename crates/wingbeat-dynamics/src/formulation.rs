@@ -23,8 +23,8 @@ pub trait Formulation: Send + Sync {
         false
     }
 
-    /// Whether angles of joints are coordinates of its own, so that whole turns count; else they are those of the bodies'
-    /// attitudes, in (-pi, pi].
+    /// Whether angles of joints are coordinates of its own, so that whole turns count; else they are those of
+    /// the bodies' attitudes, in (-pi, pi].
     fn counts_turns(&self) -> bool {
         false
     }
@@ -140,8 +140,8 @@ pub trait Formulation: Send + Sync {
         self.rates(t, y, loads, ws, dy)
     }
 
-    /// Leaves of the rates `dy` of the state `y` those of a motion that is its own image in `mirror`; the Euler form, which has no free
-    /// joints, leaves them as they are.
+    /// Leaves of the rates `dy` of the state `y` those of a motion that is its own image in `mirror`; the Euler
+    /// form, which has no free joints, leaves them as they are.
     fn symmetrise(&self, _mirror: &MirrorSymmetry, _y: &[f64], _dy: &mut [f64]) {}
 
     /// Natural size of every component of y, for norms of differences.

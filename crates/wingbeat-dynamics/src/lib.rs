@@ -1,9 +1,9 @@
 //! Constrained multibody dynamics of flapping flight (seed sec. 3 and 4).
 //!
-//! A [`System`] is a tree of rigid bodies: a free root (the central body) and bodies that hang on
-//! it by hinges whose rotation is prescribed in time (the wings), and joints that close loops. Given the external loads as one
-//! [`Wrench`] per body, three [`Formulation`]s of the same mechanics answer how it moves and what
-//! its hinges carry:
+//! A [`System`] is a tree of rigid bodies: a free root (the central body) and bodies that hang on it by hinges
+//! whose rotation is prescribed in time (the wings), and joints that close loops. Given the external loads as
+//! one [`Wrench`] per body, three [`Formulation`]s of the same mechanics answer how it moves and what its
+//! hinges carry:
 //!
 //! - [`MomentumForm`], the default: mass centre, attitude quaternion and the two momenta of the
 //!   whole, 13 numbers. Constraints and momenta hold by construction.
@@ -18,9 +18,9 @@
 //!
 //! [`tethered`] answers the inverse question: what a support of the root carries.
 //!
-//! The chapter, in reading order: [`System`], `configuration` (where the bodies are, seen from the
-//! root), [`MomentumForm`], `free` (the equations of free joints), `inverse` (reactions), `budget` (energy, momenta), then the
-//! seed's form in [`euler`] and that of mechanisms in `mechanism`.
+//! The chapter, in reading order: [`System`], `configuration` (where the bodies are, seen from the root),
+//! [`MomentumForm`], `free` (the equations of free joints), `inverse` (reactions), `budget` (energy, momenta),
+//! then the seed's form in [`euler`] and that of mechanisms in `mechanism`.
 //!
 //! | symbol | name in code | meaning | unit | frame | seed |
 //! |---|---|---|---|---|---|

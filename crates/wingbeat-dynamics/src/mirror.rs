@@ -1,12 +1,12 @@
 //! Motions that are their own mirror image, and keep to it.
 //!
-//! In a flow of which one half is computed, bodies that are mirror images of each other feel loads that are: neither answers to what
-//! parts it from the other, and where the air weighs more than they do, roundings that part them grow without bound. So the rates
-//! of the state are those of a motion that is its own image: of each pair one body leads, and of what is alone only what the mirror
-//! leaves as it is counts.
+//! In a flow of which one half is computed, bodies that are mirror images of each other feel loads that are:
+//! neither answers to what parts it from the other, and where the air weighs more than they do, roundings that
+//! part them grow without bound. So the rates of the state are those of a motion that is its own image: of each
+//! pair one body leads, and of what is alone only what the mirror leaves as it is counts.
 //!
-//! With the normal n of the plane in N and e the axis 2 of the bodies, as quaternions without real part, the image of the
-//! attitude q is `n q e`, up to its sign.
+//! With the normal n of the plane in N and e the axis 2 of the bodies, as quaternions without real part, the
+//! image of the attitude q is `n q e`, up to its sign.
 
 use wingbeat_math::{DQuat, DVec3};
 
@@ -70,7 +70,8 @@ impl MirrorSymmetry {
         (q - self.attitude(q)) * 0.5
     }
 
-    /// Rates of the free coordinates and speeds of `system` of which the joints of each pair have the same, but for signs.
+    /// Rates of the free coordinates and speeds of `system` of which the joints of each pair have the same, but
+    /// for signs.
     pub(crate) fn lead_joints(&self, system: &System, dq: &mut [f64], du: &mut [f64]) {
         let joint = |body: usize| system.hinges().iter().position(|h| h.child == body);
         for &[a, b] in &self.pairs {
@@ -87,7 +88,8 @@ impl MirrorSymmetry {
     }
 }
 
-/// By what the coordinates and speeds of a joint become those of its image; none where the axes of both are no images of each other.
+/// By what the coordinates and speeds of a joint become those of its image; none where the axes of both are no
+/// images of each other.
 fn signs(joint: &Joint, image: &Joint) -> Option<[f64; 4]> {
     let mirrored = |v: DVec3| DVec3::new(v.x, -v.y, v.z);
     let sign = |a: DVec3, b: DVec3| {

@@ -26,7 +26,8 @@ pub struct Workspace {
     pub(crate) turning: Turning,
     /// Added masses last met, where no joint is free.
     pub(crate) carried: Carried,
-    /// What bodies that change their shape do otherwise than rigid ones; the whole with that, and the inverse of its inertia.
+    /// What bodies that change their shape do otherwise than rigid ones; the whole with that, and the inverse
+    /// of its inertia.
     pub(crate) shapes: Vec<ShapeMass>,
     pub(crate) shaped: Composite,
     pub(crate) shaped_turning: Turning,

@@ -44,8 +44,8 @@ pub fn system_of(setup: &FlightSetup) -> Result<System, DynamicsError> {
     system_with(setup, &own_motion)
 }
 
-/// What looks like a slip of units in a setup ([`System::warnings`]); nothing where masses change no flight, as of bodies that
-/// are held, without joints and weight.
+/// What looks like a slip of units in a setup ([`System::warnings`]); nothing where masses change no flight, as
+/// of bodies that are held, without joints and weight.
 pub fn doubtful_masses(setup: &FlightSetup) -> Vec<String> {
     let is_held = matches!(setup.mode, MotionMode::Tethered(_)) && setup.joints.is_empty();
     if setup.animal.wings.is_empty() || is_held && setup.gravity == DVec3::ZERO {

@@ -1,17 +1,19 @@
-//! The air that wings on free joints carry along, and that of all wings of a light flyer, as part of the inertia of the bodies.
+//! The air that wings on free joints carry along, and that of all wings of a light flyer, as part of the
+//! inertia of the bodies.
 //!
-//! The loads of a lattice hold the rate of the circulation as a difference over steps, and in it the added mass of a wing:
-//! `-A D q`, q the velocity of the wing's origin and its angular velocity in wing components, D the difference. Where a wing
-//! weighs less than the air that goes with it, passes that bring bodies and air to agree lead away from each other, and a
-//! method that weighs rates of several steps lets velocities alternate from step to step. So the rate itself takes the
-//! place of the difference; it is unknown and joins the inertia of the bodies ([`AddedMass`]):
+//! The loads of a lattice hold the rate of the circulation as a difference over steps, and in it the added mass
+//! of a wing: `-A D q`, q the velocity of the wing's origin and its angular velocity in wing components, D the
+//! difference. Where a wing weighs less than the air that goes with it, passes that bring bodies and air to
+//! agree lead away from each other, and a method that weighs rates of several steps lets velocities alternate
+//! from step to step. So the rate itself takes the place of the difference; it is unknown and joins the inertia
+//! of the bodies ([`AddedMass`]):
 //!
 //! ```text
 //! L = L_lattice + A D q - A q'        q' = (R^T a - w x v, alpha)
 //! ```
 //!
-//! Where one half of the air is computed, the loads of a wing hold the rates of its image: of both D q the mean is taken out, or
-//! what parts the two wings by rounding would feed itself.
+//! Where one half of the air is computed, the loads of a wing hold the rates of its image: of both D q the mean
+//! is taken out, or what parts the two wings by rounding would feed itself.
 //!
 //! The two differ by the error of D, of second order in the step whatever A is. That A is the lattice's own, from
 //! its influence matrix, leaves next to nothing of the difference.
@@ -29,14 +31,16 @@ pub struct CarriedAir {
     wings: Vec<usize>,
     /// Where one half of the air is computed: pairs of places in `wings` that are mirror images of each other.
     pairs: Vec<[usize; 2]>,
-    /// Velocity of the undisturbed air, N components \[m/s\]: rates are those of velocities through it, as the lattice's are.
+    /// Velocity of the undisturbed air, N components \[m/s\]: rates are those of velocities through it, as the
+    /// lattice's are.
     stream: DVec3,
 }
 
 /// What is remembered of such a wing.
 #[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct CarriedState {
-    /// Velocities of its origin through the undisturbed air \[m/s\] in the last two accepted steps, newest first, wing components.
+    /// Velocities of its origin through the undisturbed air \[m/s\] in the last two accepted steps, newest
+    /// first, wing components.
     linear: [DVec3; 2],
     /// Angular velocities \[rad/s\] in these steps, wing components.
     angular: [DVec3; 2],
@@ -114,8 +118,8 @@ impl CarriedAir {
         vec![CarriedState::default(); self.wings.len()]
     }
 
-    /// Takes the added masses of the wings out of `loads`, N components, which the air said last. What the wings carry along
-    /// stays as at the first instant of the step.
+    /// Takes the added masses of the wings out of `loads`, N components, which the air said last. What the
+    /// wings carry along stays as at the first instant of the step.
     ///
     /// # Errors
     /// What the air reports.

@@ -21,7 +21,8 @@ pub use crate::setup::{ControlModel, Feedback};
 /// see a change of command.
 pub const MIN_INTERVAL: usize = 4;
 
-/// The share of the way to a command that actuators go within `time`, in units of their time constant (infinity: no lag).
+/// The share of the way to a command that actuators go within `time`, in units of their time constant
+/// (infinity: no lag).
 pub fn share(time: f64) -> f64 {
     -(-time).exp_m1()
 }
@@ -138,8 +139,8 @@ pub struct ControlState {
     pub memory: Vec<f64>,
 }
 
-/// What wings go over to from the commands `now`: the `command` joins those under way, the oldest of these is due, and actuators
-/// that lag go this `share` of the way to it.
+/// What wings go over to from the commands `now`: the `command` joins those under way, the oldest of these is
+/// due, and actuators that lag go this `share` of the way to it.
 pub fn due(
     queue: &mut VecDeque<Vec<Adjustment>>,
     command: Vec<Adjustment>,

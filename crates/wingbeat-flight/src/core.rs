@@ -286,7 +286,8 @@ impl FlightSetup {
 }
 
 impl FlightSetup {
-    /// Pitch, yaw and roll of the root where its free flight begins, be it released then or not; tethered all along, the means over its motion \[rad\].
+    /// Pitch, yaw and roll of the root where its free flight begins, be it released then or not; tethered all
+    /// along, the means over its motion \[rad\].
     pub fn angles_at_release(&self) -> DVec3 {
         match &self.mode {
             MotionMode::Tethered(motion) => {

@@ -1,9 +1,9 @@
 //! Wings whose prescribed motion moves them with the trailing edge ahead.
 //!
-//! The air past a section, weighted by its dynamic pressure, goes from the leading to the trailing edge in both strokes of every wing that
-//! flies, hovering or not: the mean of the cosine of the angle of attack is above 0. In hover angles in another convention
-//! (a rotation angle counted from the stroke plane, a sign) turn it round in one of the strokes, and the lift, which a plate has both
-//! ways round, hardly tells.
+//! The air past a section, weighted by its dynamic pressure, goes from the leading to the trailing edge in both
+//! strokes of every wing that flies, hovering or not: the mean of the cosine of the angle of attack is above 0.
+//! In hover angles in another convention (a rotation angle counted from the stroke plane, a sign) turn it round
+//! in one of the strokes, and the lift, which a plate has both ways round, hardly tells.
 
 use std::ops::AddAssign;
 
@@ -15,7 +15,8 @@ use crate::setup::FlightSetup;
 /// Instants of a beat that are looked at.
 const INSTANTS: usize = 100;
 
-/// Mean cosine of the angle of attack below which the trailing edge is ahead \[1\]: plates that stroke broadside have 0.
+/// Mean cosine of the angle of attack below which the trailing edge is ahead \[1\]: plates that stroke
+/// broadside have 0.
 const BACKWARDS: f64 = -0.2;
 
 /// Part of the dynamic pressure of a beat that a stroke has at least to count \[1\].
@@ -45,8 +46,8 @@ impl AddAssign<(f64, f64, f64)> for Stroke {
 }
 
 impl FlightSetup {
-    /// Says which wings move with the trailing edge ahead in one of their strokes, and what angles do so. Wings that do not beat, or have
-    /// joints of their own, are left out.
+    /// Says which wings move with the trailing edge ahead in one of their strokes, and what angles do so. Wings
+    /// that do not beat, or have joints of their own, are left out.
     pub fn trailing_edges_ahead(&self) -> Vec<String> {
         let has_joint = |w: usize| self.joints.iter().any(|j| j.child == w + 1);
         let mut found: Vec<(String, Vec<&str>)> = vec![];

@@ -50,8 +50,8 @@ pub struct Equations {
     pub applied: Vec<AppliedLoad>,
     /// Springs between points.
     pub springs: Vec<PointSpring>,
-    /// The mirror that the motion keeps to, where one half of the air is computed and wings hang on free joints, or the flyer is light as a
-    /// whole.
+    /// The mirror that the motion keeps to, where one half of the air is computed and wings hang on free
+    /// joints, or the flyer is light as a whole.
     pub mirror: Option<Mirrored>,
     /// Time step h [s].
     pub step: f64,
@@ -223,8 +223,8 @@ impl Equations {
         Ok(())
     }
 
-    /// How often a state from which a stage begins is evaluated: loads on elastic wings that follow accelerations need to know
-    /// these, each time better.
+    /// How often a state from which a stage begins is evaluated: loads on elastic wings that follow
+    /// accelerations need to know these, each time better.
     pub fn entries(&self) -> usize {
         match !self.elastic.is_empty() && self.air.follows_accelerations() {
             true => 4,

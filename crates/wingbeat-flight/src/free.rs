@@ -32,8 +32,8 @@ pub struct FreeFlight {
 pub struct FreeFlightScratch(Scratch);
 
 impl FreeFlightScratch {
-    /// Forgets what it knows of the last evaluation: to be called where laws of the wings have changed in between, so that
-    /// the same time means another configuration.
+    /// Forgets what it knows of the last evaluation: to be called where laws of the wings have changed in
+    /// between, so that the same time means another configuration.
     pub fn forget(&mut self) {
         self.0.forget();
     }
@@ -72,8 +72,8 @@ impl FreeFlight {
         Self::of(setup, form, step)
     }
 
-    /// The same `setup` as this flight's, to be asked at any time as [`Self::at_any_time`] has it, with wings that move by
-    /// another `law`: both fly in the same air, which is not built again.
+    /// The same `setup` as this flight's, to be asked at any time as [`Self::at_any_time`] has it, with wings
+    /// that move by another `law`: both fly in the same air, which is not built again.
     ///
     /// # Errors
     /// As [`Self::at_any_time`].

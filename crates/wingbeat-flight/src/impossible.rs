@@ -6,8 +6,8 @@ use crate::air::{check_joined, wing_pairs};
 use crate::setup::{AirModel, FlightSetup};
 
 impl FlightSetup {
-    /// Says which wings pass through each other in their prescribed motion ([`crossings`]), and what to do about it; wings with
-    /// joints of their own, whose motion is not known beforehand, are left out.
+    /// Says which wings pass through each other in their prescribed motion ([`crossings`]), and what to do
+    /// about it; wings with joints of their own, whose motion is not known beforehand, are left out.
     pub fn crossing_wings(&self) -> Vec<String> {
         let joined = self.joined_pairs();
         let remedy = |c: &Crossing| match joined
@@ -28,8 +28,8 @@ impl FlightSetup {
         crossings(&self.animal, &self.prescribed_wings(), &self.joined_pairs())
     }
 
-    /// Counts how often wings pass through each other as they are flown, where that is not known beforehand: under feedback, or
-    /// with wings on joints of their own.
+    /// Counts how often wings pass through each other as they are flown, where that is not known beforehand:
+    /// under feedback, or with wings on joints of their own.
     pub fn flown_crossings(&self) -> Option<FlownCrossings> {
         let wings = self.animal.wings.len();
         let is_open = self.feedback.is_some() || self.prescribed_wings().len() < wings;
@@ -53,8 +53,9 @@ impl FlightSetup {
         format!("wings `{a}` and `{b}` pass through each other in {part:.0} % of the {time}")
     }
 
-    /// Says which wings are inside which parts of the body in their prescribed motion where the lattice has both as surfaces
-    /// ([`inside`]), and what to do about it; wings with joints of their own are left out, and so are parts of segments.
+    /// Says which wings are inside which parts of the body in their prescribed motion where the lattice has
+    /// both as surfaces ([`inside`]), and what to do about it; wings with joints of their own are left out, and
+    /// so are parts of segments.
     pub fn wings_inside_parts(&self) -> Vec<String> {
         if !matches!(&self.air, AirModel::VortexLattice(air) if air.body_surfaces) {
             return vec![];

@@ -38,23 +38,25 @@ pub struct Shape {
     pub acceleration: Vec<DVec3>,
 }
 
-/// How the normal forces of the panels of a wing answer to the motion of the nodes of its mesh, in frozen wakes; of blade
-/// elements, how the forces of each section along three ways to move it do ([`wingbeat_blade::SectionAnswer`]).
+/// How the normal forces of the panels of a wing answer to the motion of the nodes of its mesh, in frozen
+/// wakes; of blade elements, how the forces of each section along three ways to move it do
+/// ([`wingbeat_blade::SectionAnswer`]).
 #[derive(Clone, Debug, Default)]
 pub struct WingResponse {
-    /// Derivative of the normal forces by the normal velocities of the panels \[N s/m\] or by their accelerations \[kg\], row by
-    /// row.
+    /// Derivative of the normal forces by the normal velocities of the panels \[N s/m\] or by their
+    /// accelerations \[kg\], row by row.
     pub matrix: Vec<f64>,
     /// Derivative of the forces by accelerations \[kg\] where the air answers to them at once; else empty.
     pub inertia: Vec<f64>,
-    /// Panel by panel: how a node of the mesh (its number among the wing's) shares in the panel's normal force \[1\], and how
-    /// the panel's normal velocity changes with the node's velocity \[1\] and place \[1/s\]; N components.
+    /// Panel by panel: how a node of the mesh (its number among the wing's) shares in the panel's normal force
+    /// \[1\], and how the panel's normal velocity changes with the node's velocity \[1\] and place \[1/s\]; N
+    /// components.
     pub panels: Vec<Vec<(usize, [DVec3; 2])>>,
 }
 
 /// The air that a rigid wing carries along, as loads hold it in which rates are differences over steps: of them
-/// `-A (w0 q + w1 q1 + w2 q2)`, with q, q1 and q2 the velocity of the wing's origin and its angular velocity \[m/s, rad/s\] now and in
-/// the last two accepted steps, wing components.
+/// `-A (w0 q + w1 q1 + w2 q2)`, with q, q1 and q2 the velocity of the wing's origin and its angular velocity
+/// \[m/s, rad/s\] now and in the last two accepted steps, wing components.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WingInertia {
     /// A: rows force and moment about the origin, columns acceleration of the origin and angular acceleration, wing
@@ -79,8 +81,8 @@ pub struct AirScratch {
     pub(crate) strips: StripScratch,
 }
 
-/// Room for blade elements on a wing that loads bend: its nodes, wing components, its sections, and the forces on the nodes wing
-/// by wing \[N\].
+/// Room for blade elements on a wing that loads bend: its nodes, wing components, its sections, and the forces
+/// on the nodes wing by wing \[N\].
 #[derive(Debug, Default)]
 pub(crate) struct BentScratch {
     pub position: Vec<DVec3>,
@@ -188,8 +190,8 @@ pub trait Air: fmt::Debug + Send + Sync {
         }
     }
 
-    /// Forces on the nodes of the mesh of wing number `wing` \[N\], N components, into `out`: what the loads last asked for do
-    /// to it, the same force, moment and power.
+    /// Forces on the nodes of the mesh of wing number `wing` \[N\], N components, into `out`: what the loads
+    /// last asked for do to it, the same force, moment and power.
     ///
     /// # Errors
     /// A model that knows no wings that bend.
@@ -207,8 +209,8 @@ pub trait Air: fmt::Debug + Send + Sync {
         })
     }
 
-    /// How the loads on a wing that bends answer to the motion of its nodes, at the instant last asked for, into `out`: for the
-    /// left-hand side of a step. False if they hardly do.
+    /// How the loads on a wing that bends answer to the motion of its nodes, at the instant last asked for,
+    /// into `out`: for the left-hand side of a step. False if they hardly do.
     ///
     /// # Errors
     /// What the model reports.
@@ -223,8 +225,8 @@ pub trait Air: fmt::Debug + Send + Sync {
         Ok(false)
     }
 
-    /// The added mass of the rigid wing number `wing` that the loads last asked for hold as a difference over steps; none if
-    /// they hold none.
+    /// The added mass of the rigid wing number `wing` that the loads last asked for hold as a difference over
+    /// steps; none if they hold none.
     ///
     /// # Errors
     /// What the model reports.

@@ -1,11 +1,11 @@
 //! Coupled flight: multibody dynamics and unsteady air, integrated together.
 //!
-//! The chapter in order: [`setup`] says what a flight is made of; [`joints`] and `bodies` map the
-//! animal to the multibody system; `interface` is what is asked of the air, whose models stand in [`air`];
-//! `equations` is the coupled right-hand side;
-//! `stages` and `core` choose between free, tethered and held; [`simulation`] integrates all of it
-//! with Hamming's predictor-corrector (or, without a wake, another method of `solver`), the wake frozen during corrector passes (seed sec. 4 and
-//! 5); `recorder` turns every accepted step into a [`Record`].
+//! The chapter in order: [`setup`] says what a flight is made of; [`joints`] and `bodies` map the animal to the
+//! multibody system; `interface` is what is asked of the air, whose models stand in [`air`]; `equations` is the
+//! coupled right-hand side; `stages` and `core` choose between free, tethered and held; [`simulation`]
+//! integrates all of it with Hamming's predictor-corrector (or, without a wake, another method of `solver`),
+//! the wake frozen during corrector passes (seed sec. 4 and 5); `recorder` turns every accepted step into a
+//! [`Record`].
 //!
 //! Stated orders: bodies and balances fourth (Hamming's method); the air of the benchmark
 //! discretisation first (explicit Euler wake, backward circulation rate); so a coupled flight

@@ -1,10 +1,11 @@
 //! Whether a flyer as a whole is light beside the air that its wings carry along.
 //!
-//! The wings together have the added mass `A = sum J^T A_w J`, the bodies the inertia `M = sum J^T M_b J`, J from the
-//! acceleration of the root's origin and its angular acceleration to those of a body, all joints as they stand. The largest mu of
-//! `A x = mu M x` says how passes that bring both to agree go and how far `hamming` is stable (docs/dynamics.md): the flyer is
-//! light where `mu > LIMIT`, so where `LIMIT M - A` is not positive definite. Postures change over the wingbeat: that of the start and
-//! those at [`PHASES`] of a wingbeat at its full rate are looked at, and the worst counts. Free joints stay as they are at the start,
+//! The wings together have the added mass `A = sum J^T A_w J`, the bodies the inertia `M = sum J^T M_b J`, J
+//! from the acceleration of the root's origin and its angular acceleration to those of a body, all joints as
+//! they stand. The largest mu of `A x = mu M x` says how passes that bring both to agree go and how far
+//! `hamming` is stable (docs/dynamics.md): the flyer is light where `mu > LIMIT`, so where `LIMIT M - A` is not
+//! positive definite. Postures change over the wingbeat: that of the start and those at [`PHASES`] of a
+//! wingbeat at its full rate are looked at, and the worst counts. Free joints stay as they are at the start,
 //! wings that bend as they are at rest.
 
 use wingbeat_dynamics::{BodyMotion, System, Workspace, Wrench, tethered_motions};
@@ -15,23 +16,26 @@ use crate::error::FlightError;
 use crate::interface::{Air, Instant};
 use crate::setup::FlightSetup;
 
-/// Added mass over mass above which the rate of the circulation joins the inertia of the bodies \[1\]: `hamming` is stable to
-/// 0.36, and passes converge by a factor of 0.2 to 0.25 there.
+/// Added mass over mass above which the rate of the circulation joins the inertia of the bodies \[1\]:
+/// `hamming` is stable to 0.36, and passes converge by a factor of 0.2 to 0.25 there.
 const LIMIT: f64 = 0.3;
 
-/// Phases of the wingbeat at which the posture is looked at: between neighbours strokes of 90 deg turn by 35 deg at most.
+/// Phases of the wingbeat at which the posture is looked at: between neighbours strokes of 90 deg turn by 35
+/// deg at most.
 const PHASES: usize = 8;
 
 type Matrix = [[f64; 6]; 6];
 
-/// Directions of the root (origin, then turn) in which a flyer moves: those of symmetric flight where one half is computed.
+/// Directions of the root (origin, then turn) in which a flyer moves: those of symmetric flight where one half
+/// is computed.
 const ALL: &[usize] = &[0, 1, 2, 3, 4, 5];
 const SYMMETRIC: &[usize] = &[0, 2, 4];
 
 /// Whether the flyer of `setup` is light in `air` at the start or at any phase of its wingbeat.
 ///
 /// # Errors
-/// What the air reports at the start; a posture of the wingbeat that it does not take is not looked at: the flight says so when it comes to it.
+/// What the air reports at the start; a posture of the wingbeat that it does not take is not looked at: the
+/// flight says so when it comes to it.
 pub fn is_light(
     setup: &FlightSetup,
     system: &System,
@@ -45,7 +49,8 @@ pub fn is_light(
     Ok(beat.any(|t| is_light_at(t, setup, system, air, is_symmetric).unwrap_or(false)))
 }
 
-/// Times at which the posture is looked at beside the start \[s\]: over a wingbeat at its full rate, of the slowest wing; none where none beats.
+/// Times at which the posture is looked at beside the start \[s\]: over a wingbeat at its full rate, of the
+/// slowest wing; none where none beats.
 fn phases(setup: &FlightSetup) -> impl Iterator<Item = f64> {
     let motions = setup.animal.wings.iter().map(|w| &w.motion);
     let rise = |m: &WingMotion| 2.0 * m.start.delay();
@@ -98,7 +103,8 @@ fn is_light_at(
     }))
 }
 
-/// Force and moment about the origin of a body by accelerations of the origin and angular accelerations, body components.
+/// Force and moment about the origin of a body by accelerations of the origin and angular accelerations, body
+/// components.
 pub fn rigid_mass(of: &MassProperties) -> Matrix {
     let (m, s) = (of.mass, tilde(of.first_moment));
     let entry = |i: usize, j: usize| match (i < 3, j < 3) {

@@ -5,8 +5,8 @@ use wingbeat_dynamics::MirrorSymmetry;
 use crate::core::Core;
 use crate::error::FlightError;
 
-/// What may part a motion from its mirror image within a step, over the natural sizes of the state \[1\]: rounding is less, and a
-/// load on one side is more.
+/// What may part a motion from its mirror image within a step, over the natural sizes of the state \[1\]:
+/// rounding is less, and a load on one side is more.
 const ROUNDING: f64 = 1e-9;
 
 /// The mirror, and what rates are measured by.
@@ -24,7 +24,8 @@ impl Mirrored {
         Self { symmetry, sizes }
     }
 
-    /// Leaves of the rates `dy` of the state `y` of `core` at time `t` \[s\] those of a motion that is its own mirror image. `before` is scratch.
+    /// Leaves of the rates `dy` of the state `y` of `core` at time `t` \[s\] those of a motion that is its own
+    /// mirror image. `before` is scratch.
     ///
     /// # Errors
     /// [`FlightError::Asymmetric`]: what is taken away is more than rounding.

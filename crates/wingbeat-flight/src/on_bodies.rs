@@ -8,17 +8,19 @@ use crate::setup::{AirModel, AirOptions, FlightSetup};
 /// Distance of two roots over their chord below which there is no room for a body's panels between them.
 const CLOSE: f64 = 0.25;
 
-/// Length along the chord of panels of a body beside a root, in chords of the root, above which the lattice has too few to say how the lift
-/// parts between wing and body.
+/// Length along the chord of panels of a body beside a root, in chords of the root, above which the lattice has
+/// too few to say how the lift parts between wing and body.
 const COARSE: f64 = 0.6;
 
-/// Distance of the roots from the middle of a part, over half their distance, above which their lift hangs on its panels.
+/// Distance of the roots from the middle of a part, over half their distance, above which their lift hangs on
+/// its panels.
 const OFF_MIDDLE: f64 = 0.25;
 
 impl FlightSetup {
-    /// Says which wings have their roots on which parts of the body where the lattice has both as surfaces ([`roots_on_parts`]), and either
-    /// it does not carry their circulation through the part ([`Self::carried_pairs`]), so that the lift is low, or what lies in its way
-    /// (docs/wings.md, "Wings on a body"). Wings inside parts are left out.
+    /// Says which wings have their roots on which parts of the body where the lattice has both as surfaces
+    /// ([`roots_on_parts`]), and either it does not carry their circulation through the part
+    /// ([`Self::carried_pairs`]), so that the lift is low, or what lies in its way (docs/wings.md, "Wings on a
+    /// body"). Wings inside parts are left out.
     pub fn roots_on_bodies(&self) -> Vec<String> {
         let air = match &self.air {
             AirModel::VortexLattice(air) if air.body_surfaces => air,
@@ -107,9 +109,10 @@ impl FlightSetup {
         ways.any(|way| way < pair.part_length)
     }
 
-    /// Pairs of wings, each the mirror image of the other, whose circulation the lattice carries through the part of the body on which
-    /// both roots lie ([`pairs_on_parts`]): where bodies are surfaces of `air` and roots shed nothing; not those that are joined or inside
-    /// parts or too close to each other, nor those with joints of their own.
+    /// Pairs of wings, each the mirror image of the other, whose circulation the lattice carries through the
+    /// part of the body on which both roots lie ([`pairs_on_parts`]): where bodies are surfaces of `air` and
+    /// roots shed nothing; not those that are joined or inside parts or too close to each other, nor those with
+    /// joints of their own.
     pub fn carried_pairs(&self, air: &AirOptions) -> Vec<PairOnPart> {
         if !air.body_surfaces || air.lattice.shedding.root {
             return vec![];

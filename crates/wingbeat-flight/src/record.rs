@@ -174,15 +174,16 @@ impl Record {
         -self.air_force().dot(down)
     }
 
-    /// Power at each hinge [W]: of its actuators, springs, dampers and stops and, for wings, of what deforms them against
-    /// the air. Wings first, then segments.
+    /// Power at each hinge [W]: of its actuators, springs, dampers and stops and, for wings, of what deforms
+    /// them against the air. Wings first, then segments.
     pub fn hinge_powers(&self) -> impl Iterator<Item = f64> {
         let deforming = self.deformation_power.iter().copied();
         let deforming = deforming.chain(std::iter::repeat(0.0));
         self.hinges.iter().zip(deforming).map(|(h, d)| h.power + d)
     }
 
-    /// Puts in what springs, dampers and stops of all joints do, by their coordinates; `work` is what they did up to the record before.
+    /// Puts in what springs, dampers and stops of all joints do, by their coordinates; `work` is what they did
+    /// up to the record before.
     pub fn count_passive(&mut self, mechanism: &Mechanism, work: &mut PassiveWork) {
         let mut sum = Passive::default();
         for joint in mechanism.passive(self.time, &self.joints) {
@@ -207,8 +208,8 @@ impl Record {
     }
 }
 
-/// The impulse of a force since time 0, counted step by step with the trapezoidal rule: over whole beats of a periodic force
-/// it errs by no more than harmonics beyond half the steps in a beat.
+/// The impulse of a force since time 0, counted step by step with the trapezoidal rule: over whole beats of a
+/// periodic force it errs by no more than harmonics beyond half the steps in a beat.
 #[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct AirImpulse {
     time: f64,
@@ -226,8 +227,8 @@ impl AirImpulse {
     }
 }
 
-/// The work of springs, dampers and stops, counted step by step: what is stored by its difference, what is dissipated by the
-/// trapezoidal rule.
+/// The work of springs, dampers and stops, counted step by step: what is stored by its difference, what is
+/// dissipated by the trapezoidal rule.
 #[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct PassiveWork {
     /// Time \[s\], energy stored \[J\], power dissipated \[W\].
@@ -236,7 +237,8 @@ pub struct PassiveWork {
 }
 
 impl PassiveWork {
-    /// Counts on to `time` [s], where all joints together do `now`; returns the work up to there [J]. The first call sets the start.
+    /// Counts on to `time` [s], where all joints together do `now`; returns the work up to there [J]. The first
+    /// call sets the start.
     fn count(&mut self, time: f64, now: &Passive) -> f64 {
         if let Some([before, stored, dissipation]) = self.last {
             let dissipated = 0.5 * (time - before) * (dissipation + now.dissipation);

@@ -65,8 +65,9 @@ impl Ledger {
 }
 
 impl Ledger {
-    /// A jump of the motion that nothing in the flight makes, as when a root is released with another velocity: the balances go on as
-    /// if it had been there from the start. The books were opened `before` and `after` it.
+    /// A jump of the motion that nothing in the flight makes, as when a root is released with another velocity:
+    /// the balances go on as if it had been there from the start. The books were opened `before` and `after`
+    /// it.
     pub fn count_jump(&mut self, before: &Self, after: &Self) {
         self.energy += after.energy - before.energy;
         self.relative_energy += after.relative_energy - before.relative_energy;
@@ -274,8 +275,8 @@ fn note_coordinates(bodies: &[Body], motions: &[BodyMotion], ledger: &mut Ledger
     smallest
 }
 
-/// The angles of the attitude `eta` that come nearest to `before`: with whole turns more or less, and of the two triples
-/// (a, b, c) and (a + pi, pi - b, c + pi), which are one attitude.
+/// The angles of the attitude `eta` that come nearest to `before`: with whole turns more or less, and of the
+/// two triples (a, b, c) and (a + pi, pi - b, c + pi), which are one attitude.
 fn without_jumps(eta: DVec3, before: DVec3) -> DVec3 {
     let nearest = |eta: DVec3| eta + TAU * ((before - eta) / TAU).round();
     let one = nearest(eta);

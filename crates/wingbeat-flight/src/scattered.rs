@@ -5,8 +5,9 @@ use wingbeat_model::{AngleLaw, Wing};
 
 use crate::setup::FlightSetup;
 
-/// Steps for each sample of a table below which a flight does not follow a spline through samples that scatter: a camera's noise of a
-/// degree in 200 samples needs twice as many steps for its lift to come within a per cent.
+/// Steps for each sample of a table below which a flight does not follow a spline through samples that scatter:
+/// a camera's noise of a degree in 200 samples needs twice as many steps for its lift to come within a per
+/// cent.
 const STEPS: f64 = 2.0;
 
 impl FlightSetup {

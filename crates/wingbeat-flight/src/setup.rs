@@ -120,8 +120,8 @@ pub trait ControlModel: fmt::Debug + Send + Sync {
         false
     }
 
-    /// Mean velocity of the straight flight that it holds from the release on, N components [m/s]; none if it holds no place, or one
-    /// that it does not tell.
+    /// Mean velocity of the straight flight that it holds from the release on, N components [m/s]; none if it
+    /// holds no place, or one that it does not tell.
     fn velocity(&self) -> Option<DVec3> {
         None
     }

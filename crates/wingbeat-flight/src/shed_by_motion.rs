@@ -1,10 +1,11 @@
-//! What the prescribed motion tells of shedding: leading edges that shed more vorticity of one sign than of the other, tips
-//! of attached wings.
+//! What the prescribed motion tells of shedding: leading edges that shed more vorticity of one sign than of the
+//! other, tips of attached wings.
 //!
-//! While the flow has left a leading edge, vorticity leaves it at a rate that goes with the square of the speed past the section and with
-//! the suction beyond what the edge holds. Strokes that are alike back and forth shed as much of either sign; those of
-//! forward flight, or in a stream, do not. What is left over joins the circulation of wing and wake in every beat. Where
-//! the root holds, lattice and wakes are not closed there, and it changes the lift (docs/separated-flow.md, "Roots of four wings").
+//! While the flow has left a leading edge, vorticity leaves it at a rate that goes with the square of the speed
+//! past the section and with the suction beyond what the edge holds. Strokes that are alike back and forth shed
+//! as much of either sign; those of forward flight, or in a stream, do not. What is left over joins the
+//! circulation of wing and wake in every beat. Where the root holds, lattice and wakes are not closed there,
+//! and it changes the lift (docs/separated-flow.md, "Roots of four wings").
 //!
 //! | symbol | name in code | meaning | unit |
 //! |---|---|---|---|
@@ -29,21 +30,24 @@ const ROUNDING: f64 = 1e-9;
 /// Instants of a beat that are looked at.
 const INSTANTS: usize = 100;
 
-/// Sweep of a leading edge from root to tip \[rad\] from which on vortex lift is known to fail: a delta of an aspect ratio of 4 has it.
+/// Sweep of a leading edge from root to tip \[rad\] from which on vortex lift is known to fail: a delta of an
+/// aspect ratio of 4 has it.
 const SWEPT: f64 = PI / 4.0;
 
 /// Suction parameter below which flow stays attached where leading edges shed nothing: what they hold by default.
 const ATTACHED: f64 = 0.15;
 
-/// Part that is left over of one sign from which on it is said. Hovering presets have 0 to 0.02; strokes of four
-/// dragonflies, whose lift changes by 10 to 40 % in ten beats or with free roots, have 0.21 to 0.90 in one pair at least.
+/// Part that is left over of one sign from which on it is said. Hovering presets have 0 to 0.02; strokes of
+/// four dragonflies, whose lift changes by 10 to 40 % in ten beats or with free roots, have 0.21 to 0.90 in one
+/// pair at least.
 const ONE_SIDED: f64 = 0.1;
 
 impl FlightSetup {
     /// Says which wings shed vorticity of one sign from their leading edges in their prescribed motion
-    /// ([`Self::one_sided_part`]) where roots hold, or where leading edges shed by the suction of the step before, and what to do about it.
-    /// Wings with joints of their own, whose motion is not known beforehand, are left out; of wings joined at their roots, or whose circulation goes
-    /// on through a body, no root holds.
+    /// ([`Self::one_sided_part`]) where roots hold, or where leading edges shed by the suction of the step
+    /// before, and what to do about it. Wings with joints of their own, whose motion is not known beforehand,
+    /// are left out; of wings joined at their roots, or whose circulation goes on through a body, no root
+    /// holds.
     pub fn one_sided_leading_edges(&self) -> Option<String> {
         let AirModel::VortexLattice(air) = &self.air else {
             return None;
@@ -88,9 +92,9 @@ impl FlightSetup {
         ))
     }
 
-    /// Says which wings meet the air at such small angles throughout their prescribed motion that the flow stays attached, while
-    /// their tips shed: wakes that go along the tip, with the cores of wakes, in place of the sharp edge there
-    /// (docs/wings.md, "Side edges"). Wings with joints of their own are left out.
+    /// Says which wings meet the air at such small angles throughout their prescribed motion that the flow
+    /// stays attached, while their tips shed: wakes that go along the tip, with the cores of wakes, in place of
+    /// the sharp edge there (docs/wings.md, "Side edges"). Wings with joints of their own are left out.
     pub fn tips_of_attached_wings(&self) -> Option<String> {
         let AirModel::VortexLattice(air) = &self.air else {
             return None;
@@ -116,8 +120,8 @@ impl FlightSetup {
         })
     }
 
-    /// Says which wings with vortex lift have leading edges so swept that their vortex is carried along the edge, which the law does
-    /// not know (docs/separated-flow.md, "Vortex lift without free vorticity").
+    /// Says which wings with vortex lift have leading edges so swept that their vortex is carried along the
+    /// edge, which the law does not know (docs/separated-flow.md, "Vortex lift without free vorticity").
     pub fn vortex_lift_of_swept_edges(&self) -> Option<String> {
         let AirModel::VortexLattice(air) = &self.air else {
             return None;
@@ -164,9 +168,10 @@ impl FlightSetup {
         moving.peek().is_some() && moving.all(|s| s.suction.abs() <= held)
     }
 
-    /// Part of the vorticity that the leading edge of wing `w` sheds in a beat of its prescribed motion, or in a period of its tether or all of
-    /// the flight where the wing does not beat, that is left over of one sign \[1\]: none in strokes that are alike back and forth, 1 if all has one sign; 0 in other
-    /// models of the air than lattices. The body goes on with the velocity and the attitude with which it starts.
+    /// Part of the vorticity that the leading edge of wing `w` sheds in a beat of its prescribed motion, or in
+    /// a period of its tether or all of the flight where the wing does not beat, that is left over of one sign
+    /// \[1\]: none in strokes that are alike back and forth, 1 if all has one sign; 0 in other models of the
+    /// air than lattices. The body goes on with the velocity and the attitude with which it starts.
     pub fn one_sided_part(&self, w: usize) -> f64 {
         let wing = &self.animal.wings[w];
         let AirModel::VortexLattice(air) = &self.air else {

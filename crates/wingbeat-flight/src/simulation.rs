@@ -62,8 +62,8 @@ impl Simulation {
         Self::begun(setup, None, None)
     }
 
-    /// The same, the elastic wings bent and moving as in `wings` at the start, in their order: to go on with a beat that begins
-    /// where another one ended.
+    /// The same, the elastic wings bent and moving as in `wings` at the start, in their order: to go on with a
+    /// beat that begins where another one ended.
     ///
     /// # Errors
     /// As [`Self::new`]; wings that are not those of the setup.

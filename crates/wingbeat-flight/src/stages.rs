@@ -91,8 +91,9 @@ pub fn stages(setup: &FlightSetup, law: &WingLaw<'_>) -> Result<Vec<Stage>, Flig
     })
 }
 
-/// Pass from which those before speed the next ones up: `at_once` where air is carried along, or springs and dampers of joints may act faster than
-/// the steps; else in a wake where plain passes lead nowhere, as where one half of the air is computed and the form does not keep to the mirror: least squares raise what parts the
+/// Pass from which those before speed the next ones up: `at_once` where air is carried along, or springs and
+/// dampers of joints may act faster than the steps; else in a wake where plain passes lead nowhere, as where
+/// one half of the air is computed and the form does not keep to the mirror: least squares raise what parts the
 /// halves by rounding.
 fn accelerated_from(setup: &FlightSetup, at_once: bool) -> Option<usize> {
     let parts_halves =
@@ -126,9 +127,9 @@ fn is_light_as_a_whole(
     }
 }
 
-/// The wings whose air joins the inertia of the bodies: of a flyer that is light as a whole all, else those on free joints. What
-/// bends has its answer to accelerations from the elastic side; where any wing bends, rigid wings on free joints are left to
-/// the passes, too.
+/// The wings whose air joins the inertia of the bodies: of a flyer that is light as a whole all, else those on
+/// free joints. What bends has its answer to accelerations from the elastic side; where any wing bends, rigid
+/// wings on free joints are left to the passes, too.
 fn carried(
     setup: &FlightSetup,
     (system, is_light): (&System, bool),
@@ -212,8 +213,9 @@ fn formulation(setup: &FlightSetup, system: System) -> Result<Box<dyn Formulatio
     })
 }
 
-/// How a free flight of `system` repeats itself from step to step, if that is known beforehand: in the momentum form, in air
-/// without a wake in space, whose flights are many beats long and cost little else, by a method that keeps to the time grid.
+/// How a free flight of `system` repeats itself from step to step, if that is known beforehand: in the momentum
+/// form, in air without a wake in space, whose flights are many beats long and cost little else, by a method
+/// that keeps to the time grid.
 pub fn cycle(setup: &FlightSetup, system: &System) -> Option<Cycle> {
     let known = setup.formulation == FormulationChoice::Momentum
         && matches!(setup.mode, MotionMode::Free(_))

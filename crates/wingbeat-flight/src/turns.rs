@@ -42,8 +42,9 @@ pub fn check(mechanism: &Mechanism, time: f64, joints: &[[f64; 2]]) -> Result<()
     }
 }
 
-/// An error if a spherical joint that has a spring, stop or follower has turned past half a turn since the angles `last` recorded:
-/// its rotation vector goes over into the opposite one there, and what acts along it with it.
+/// An error if a spherical joint that has a spring, stop or follower has turned past half a turn since the
+/// angles `last` recorded: its rotation vector goes over into the opposite one there, and what acts along it
+/// with it.
 ///
 /// # Errors
 /// [`FlightError::TurnedPast`].

@@ -66,8 +66,8 @@ fn exact_steady_gust_on_blade_elements_is_a_stream() {
     assert!(gap < 1e-10 * drift, "{gap:e} of {drift:e} m");
 }
 
-/// Loads of blade elements on the bodies of `setup` that move like `motions` at time `t` \[s\], and those of their added mass if all
-/// accelerate alike by `acc` \[m/s2\] and do not turn the faster.
+/// Loads of blade elements on the bodies of `setup` that move like `motions` at time `t` \[s\], and those of
+/// their added mass if all accelerate alike by `acc` \[m/s2\] and do not turn the faster.
 fn loads(setup: &FlightSetup, t: f64, motions: &[BodyMotion], acc: DVec3) -> Vec<Wrench> {
     let AirModel::BladeElement(options) = &setup.air else {
         panic!("blade elements");

@@ -1,5 +1,5 @@
-//! Steps allocate nothing once a flight is under way: in blade elements, with and without feedback, of rigid wings and of
-//! those that bend.
+//! Steps allocate nothing once a flight is under way: in blade elements, with and without feedback, of rigid
+//! wings and of those that bend.
 
 mod common;
 

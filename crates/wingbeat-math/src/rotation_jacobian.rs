@@ -1,10 +1,10 @@
 //! How the rotation vector of a body moves with its angular velocity.
 //!
-//! With theta the rotation vector of a rotation and w its angular velocity in the turned axes,
-//! `theta' = A(theta) w`, `A(theta) = 1 + tilde(theta) / 2 + c(theta^2) tilde(theta)^2`, the inverse of the right
-//! Jacobian of rotations (Barfoot, State Estimation for Robotics, 2017, eq. 7.76). What acts along theta with f, of power
-//! `f . theta'`, is the moment `A^T f` in the turned axes. A has an inverse up to a full turn; turns count up to half a
-//! turn here.
+//! With theta the rotation vector of a rotation and w its angular velocity in the turned axes, `theta' =
+//! A(theta) w`, `A(theta) = 1 + tilde(theta) / 2 + c(theta^2) tilde(theta)^2`, the inverse of the right
+//! Jacobian of rotations (Barfoot, State Estimation for Robotics, 2017, eq. 7.76). What acts along theta with
+//! f, of power `f . theta'`, is the moment `A^T f` in the turned axes. A has an inverse up to a full turn;
+//! turns count up to half a turn here.
 
 use glam::{DMat3, DVec3};
 

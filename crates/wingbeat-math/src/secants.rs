@@ -50,8 +50,8 @@ impl Default for Secants {
 }
 
 impl Secants {
-    /// No passes yet; columns of which others leave less than the part `dependent` \[1\] are left out: what they are multiplied by
-    /// raises the rounding in them by as much.
+    /// No passes yet; columns of which others leave less than the part `dependent` \[1\] are left out: what
+    /// they are multiplied by raises the rounding in them by as much.
     pub fn leaving_out(dependent: f64) -> Self {
         Self {
             dependent,
@@ -85,8 +85,8 @@ impl Secants {
         }
     }
 
-    /// Leaves in `shown` what the newest passes have shown, `most` of them at most: those whose corrections differ by at least the
-    /// part `telling` \[1\] of the largest difference.
+    /// Leaves in `shown` what the newest passes have shown, `most` of them at most: those whose corrections
+    /// differ by at least the part `telling` \[1\] of the largest difference.
     pub fn keep(&self, telling: f64, most: usize, shown: &mut Vec<Shown>) {
         let both = self.corrections.iter().zip(&self.sums);
         let least = telling * self.corrections.iter().map(|d| norm(d)).fold(0.0, f64::max);
@@ -96,8 +96,8 @@ impl Secants {
         shown.reverse();
     }
 
-    /// The change of the unknowns for the correction `f`, in its place. The norm of least squares takes the numbers as they are:
-    /// they are to be of one size.
+    /// The change of the unknowns for the correction `f`, in its place. The norm of least squares takes the
+    /// numbers as they are: they are to be of one size.
     pub fn accelerate(&mut self, f: &mut [f64]) {
         self.remember(f);
         self.combine(f);

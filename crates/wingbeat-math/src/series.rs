@@ -42,8 +42,9 @@ impl DriftingFourier {
     }
 }
 
-/// `x` and its first two derivatives, `rest`, with the harmonics `a_k cos(k w t) + b_k sin(k w t)`, k = 1, 2, ... on top:
-/// `base` is w [rad/s], `coefficients` are a and b, and `turn` gives sine and cosine of `k w t`, asked for k in order.
+/// `x` and its first two derivatives, `rest`, with the harmonics `a_k cos(k w t) + b_k sin(k w t)`, k = 1, 2,
+/// ... on top: `base` is w [rad/s], `coefficients` are a and b, and `turn` gives sine and cosine of `k w t`,
+/// asked for k in order.
 pub fn with_harmonics(
     rest: [f64; 3],
     base: f64,

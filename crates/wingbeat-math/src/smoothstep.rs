@@ -10,8 +10,8 @@ pub fn smoothstep(z: f64) -> f64 {
     z * z * (3.0 - 2.0 * z)
 }
 
-/// The smoothstep of degree seven from 0 at `start` to 1 `duration` later, three times continuously differentiable; constant
-/// before and beyond: value, rate, acceleration at time `t`.
+/// The smoothstep of degree seven from 0 at `start` to 1 `duration` later, three times continuously
+/// differentiable; constant before and beyond: value, rate, acceleration at time `t`.
 ///
 /// ```
 /// let [value, rate, acceleration] = wingbeat_math::smoothstep7(3.0, 2.0, 2.0);

@@ -431,8 +431,8 @@ fn growth_under_added_mass(mut method: Implicit, mu: f64, order: usize) -> f64 {
     (late / early).powf(1.0 / 50.0)
 }
 
-/// Plain passes diverge from mu = 25 / 18; those that least squares speed up agree at once, in later steps by what the first have
-/// shown.
+/// Plain passes diverge from mu = 25 / 18; those that least squares speed up agree at once, in later steps by
+/// what the first have shown.
 #[test]
 fn limit_accelerated_passes_agree_whatever_the_added_mass() {
     let convergence = Convergence {

@@ -40,8 +40,8 @@ fn growth_of_a_vibration(mut method: Bdf, w: f64) -> f64 {
     (grown / 40.0).exp()
 }
 
-/// Roots of the characteristic polynomial of `y' = i w y`: of order four 1.0137 and 1.106 at 0.6 and 1. That of order two damps all
-/// vibrations, the fastest as is asked.
+/// Roots of the characteristic polynomial of `y' = i w y`: of order four 1.0137 and 1.106 at 0.6 and 1. That of
+/// order two damps all vibrations, the fastest as is asked.
 #[test]
 fn exact_growth_of_vibrations_by_bdf() {
     let method = Bdf::new(1.0, CONVERGENCE, vec![1.0; 2]);

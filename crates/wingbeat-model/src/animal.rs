@@ -166,8 +166,8 @@ impl Animal {
         self.body.mass + wings.sum::<f64>() + segments.sum::<f64>()
     }
 
-    /// Centre of the volume that the parts of the central body enclose, without parts its mass centre \[m\], body frame. What is
-    /// rounding beside the size of the parts is zero.
+    /// Centre of the volume that the parts of the central body enclose, without parts its mass centre \[m\],
+    /// body frame. What is rounding beside the size of the parts is zero.
     pub fn body_centre(&self) -> DVec3 {
         /// Part of the size of the parts that moving the origin leaves as rounding.
         const ROUNDING: f64 = 1e-12;

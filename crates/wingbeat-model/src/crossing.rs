@@ -23,9 +23,10 @@ pub struct Crossing {
     pub part: f64,
 }
 
-/// Which of `wings` of the animal pass through each other once their motion has started: at 100 instants of a beat, in ten
-/// beats where frequencies differ, shapes at rest, on at most 8 x 16 panels. Pairs that are `joined` at their roots have the
-/// edge there midway, as in the lattice, unless their roots part by more than [`root_gap`].
+/// Which of `wings` of the animal pass through each other once their motion has started: at 100 instants of a
+/// beat, in ten beats where frequencies differ, shapes at rest, on at most 8 x 16 panels. Pairs that are
+/// `joined` at their roots have the edge there midway, as in the lattice, unless their roots part by more than
+/// [`root_gap`].
 pub fn crossings(animal: &Animal, wings: &[usize], joined: &[[usize; 2]]) -> Vec<Crossing> {
     let pairs = |(k, &a)| wings[k + 1..].iter().map(move |&b| [a, b]);
     let pairs = wings.iter().enumerate().flat_map(pairs);
@@ -363,8 +364,9 @@ mod tests {
         assert_eq!(crossings(&two, &[], &[]), []);
     }
 
-    /// Wings that share their roots and feather while flapped pass through each other by a sliver beside the roots, which joined
-    /// ones do not have; those that feather beyond half a panel do, and so do joined wings that meet elsewhere.
+    /// Wings that share their roots and feather while flapped pass through each other by a sliver beside the
+    /// roots, which joined ones do not have; those that feather beyond half a panel do, and so do joined wings
+    /// that meet elsewhere.
     #[test]
     fn behaves_joined_wings_that_feather_do_not_cross_within_half_a_panel() {
         let feathering = |phi: f64, psi: f64| {

@@ -1,5 +1,5 @@
-//! Wings inside parts of the body: no animal's are, and a vortex lattice that has both as surfaces says nothing of the air
-//! there, nor of the forces on either.
+//! Wings inside parts of the body: no animal's are, and a vortex lattice that has both as surfaces says nothing
+//! of the air there, nor of the forces on either.
 
 use std::f64::consts::PI;
 
@@ -22,8 +22,9 @@ pub struct Inside {
     pub time: f64,
 }
 
-/// Which of `wings` of the animal are inside parts of the central body once their motion has started: at 100 instants of a beat,
-/// shapes at rest, on at most 8 x 16 panels, deeper than 3 % of the way from the middle of the part to its surface.
+/// Which of `wings` of the animal are inside parts of the central body once their motion has started: at 100
+/// instants of a beat, shapes at rest, on at most 8 x 16 panels, deeper than 3 % of the way from the middle of
+/// the part to its surface.
 pub fn inside(animal: &Animal, wings: &[usize]) -> Vec<Inside> {
     let solids: Vec<Solid> = animal.parts.iter().map(|p| Solid::new(&p.mesh)).collect();
     let of_wing = |&wing: &usize| {
@@ -73,8 +74,8 @@ impl Solid {
         met.count() as f64 / instants as f64
     }
 
-    /// Whether a node of the sheet is inside, or a line between two passes through the surface, the sheet drawn away from the
-    /// middle by the skin that does not count.
+    /// Whether a node of the sheet is inside, or a line between two passes through the surface, the sheet drawn
+    /// away from the middle by the skin that does not count.
     fn holds(&self, sheet: &Sheet, mut nodes: Vec<DVec3>) -> bool {
         let [low, high] = self.bounds;
         let middle = 0.5 * (low + high);
@@ -110,8 +111,8 @@ mod tests {
     use crate::{MassInput, Planform, Revolution, Side, Wing, WingMotion, WingShape};
     use wingbeat_math::MassProperties;
 
-    /// A spheroid of length 2 and diameter 1 and wings of length 3 and chord 0.4 that flap about the axis of their chord, hinged at
-    /// this place beside its middle.
+    /// A spheroid of length 2 and diameter 1 and wings of length 3 and chord 0.4 that flap about the axis of
+    /// their chord, hinged at this place beside its middle.
     fn animal(hinge: DVec3, amplitude: f64) -> Animal {
         let planform = Planform::Outline {
             leading: vec![(0.0, 0.2), (3.0, 0.2)],
@@ -139,7 +140,8 @@ mod tests {
             segments: vec![],
         }
     }
-    /// Half a span above the axis the wings reach the body where 0.8 cos(phi) falls below its radius less the skin: 53 of 80 deg.
+    /// Half a span above the axis the wings reach the body where 0.8 cos(phi) falls below its radius less the
+    /// skin: 53 of 80 deg.
     #[test]
     fn exact_time_for_which_a_wing_is_inside() {
         let amplitude = 80f64.to_radians();

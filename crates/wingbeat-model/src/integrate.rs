@@ -199,8 +199,8 @@ fn validated(name: &str, p: MassProperties) -> Result<MassProperties, ModelError
     Ok(p)
 }
 
-/// Where the last row of a table of strips may lie, over the length of the wing: middles of few strips end before the tip, and
-/// measured wings differ a little from their outlines.
+/// Where the last row of a table of strips may lie, over the length of the wing: middles of few strips end
+/// before the tip, and measured wings differ a little from their outlines.
 const LAST_ROW: std::ops::RangeInclusive<f64> = 0.5..=1.1;
 
 /// `tip`: distance of the tip from the hinge along the span \[m\].

@@ -17,11 +17,11 @@
 //! | body pitch in hover | 47.5 deg | flybody's convention for the conventional flight posture |
 //! | wing motion | [`fry_hover`] | Fry, Sayaman & Dickinson 2005 |
 //!
-//! Fry's flies beat at 218 Hz with R = 2.39 mm; forces scale as R^4 f^2, and 200 Hz with
-//! R = 2.5 mm carries the same within one per cent. Not published and chosen here: lengths and
-//! radii of the three parts (ellipsoids with gaps of 0.02 mm, sized so that each has near the
-//! density of water, the thorax slimmer so that the wings pass it at stroke reversal), the root offset of 0.05 R, the part 0.25 of the chord ahead of the hinge
-//! axis, the least chord at root and tip (0.15 of the largest).
+//! Fry's flies beat at 218 Hz with R = 2.39 mm; forces scale as R^4 f^2, and 200 Hz with R = 2.5 mm carries the
+//! same within one per cent. Not published and chosen here: lengths and radii of the three parts (ellipsoids
+//! with gaps of 0.02 mm, sized so that each has near the density of water, the thorax slimmer so that the wings
+//! pass it at stroke reversal), the root offset of 0.05 R, the part 0.25 of the chord ahead of the hinge axis,
+//! the least chord at root and tip (0.15 of the largest).
 
 use crate::animal::{Animal, BodyPart, Wing};
 use crate::build::{BodyMass, fit_body_length};

@@ -1,5 +1,5 @@
-//! Wings whose roots lie on parts of the body: where they meet no air passes and circulation goes on, which a vortex lattice of
-//! both does not know.
+//! Wings whose roots lie on parts of the body: where they meet no air passes and circulation goes on, which a
+//! vortex lattice of both does not know.
 
 use crate::animal::{Animal, Wing};
 use crate::deformation::DeformingMesh;
@@ -8,9 +8,9 @@ use crate::mesh::{GridMesh, QuadMesh};
 use crate::motion::{Start, WingMotion};
 use wingbeat_math::{DVec3, RotationLaw};
 
-/// How near a node of the root is to a part that it lies on, over the chord of the root: panels of a part lie within its surface, by
-/// 0.04 chords of a bird's or an aeroplane's wing on eight panels around. A little more than a round number: roots that stand off by
-/// just that are told on both sides of the body.
+/// How near a node of the root is to a part that it lies on, over the chord of the root: panels of a part lie
+/// within its surface, by 0.04 chords of a bird's or an aeroplane's wing on eight panels around. A little more
+/// than a round number: roots that stand off by just that are told on both sides of the body.
 const NEAR: f64 = 0.1 + 1e-9;
 /// Part of the chord of the root along which it lies on a part: petioles and hinges touch theirs in a place.
 const ALONG: f64 = 0.75;
@@ -26,8 +26,9 @@ pub struct RootOnPart {
     pub part: usize,
 }
 
-/// Which of `wings` of the animal have their roots on parts of the central body: along three quarters of the chord of the root
-/// within a tenth of it from panels of the part, or inside, at each of 20 instants of a beat, with prescribed shapes, elastic ones at rest.
+/// Which of `wings` of the animal have their roots on parts of the central body: along three quarters of the
+/// chord of the root within a tenth of it from panels of the part, or inside, at each of 20 instants of a beat,
+/// with prescribed shapes, elastic ones at rest.
 pub fn roots_on_parts(animal: &Animal, wings: &[usize]) -> Vec<RootOnPart> {
     let skins: Vec<Skin> = animal.parts.iter().map(|p| Skin::new(&p.mesh)).collect();
     let of_wing = |&wing: &usize| {
@@ -46,10 +47,12 @@ pub struct PairOnPart {
     pub wings: [usize; 2],
     /// The part, among those of the central body.
     pub part: usize,
-    /// From the middle between the two roots towards that of the part, normal to the mean chord of the roots [m], body components: so far
-    /// the way leads off the straight one to stay clear of the surface. Zero where that would lead out of the part.
+    /// From the middle between the two roots towards that of the part, normal to the mean chord of the roots
+    /// [m], body components: so far the way leads off the straight one to stay clear of the surface. Zero where
+    /// that would lead out of the part.
     pub aside: DVec3,
-    /// How far the middle between the roots is from that of the part, normal to the chord, over half the distance of the roots \[1\].
+    /// How far the middle between the roots is from that of the part, normal to the chord, over half the
+    /// distance of the roots \[1\].
     pub off_middle: f64,
     /// Distance of the roots over their chord \[1\].
     pub apart_chords: f64,
@@ -59,7 +62,8 @@ pub struct PairOnPart {
     pub panel_chords: f64,
 }
 
-/// Which of these `pairs` of wings, with as many panels along both chords, have both roots on one part ([`roots_on_parts`]).
+/// Which of these `pairs` of wings, with as many panels along both chords, have both roots on one part
+/// ([`roots_on_parts`]).
 pub fn pairs_on_parts(animal: &Animal, pairs: &[[usize; 2]]) -> Vec<PairOnPart> {
     let wings: Vec<usize> = pairs.iter().flatten().copied().collect();
     let found = roots_on_parts(animal, &wings);
@@ -232,8 +236,8 @@ mod tests {
     use crate::{MassInput, Planform, Revolution, Side, WingShape};
     use wingbeat_math::MassProperties;
 
-    /// A trunk of length 1.6 and diameter 0.2 and wings of chord 0.2 at its middle whose roots are this far from its axis \[m\], that
-    /// flap and feather by these angles \[rad\].
+    /// A trunk of length 1.6 and diameter 0.2 and wings of chord 0.2 at its middle whose roots are this far
+    /// from its axis \[m\], that flap and feather by these angles \[rad\].
     fn animal(aside: f64, [flap, feather]: [f64; 2]) -> Animal {
         let planform = Planform::Outline {
             leading: vec![(0.0, 0.1), (0.4, 0.1)],
@@ -292,7 +296,8 @@ mod tests {
         assert_eq!(roots_on_parts(&animal(0.1, [0.0; 2]), &[]), []);
     }
 
-    /// Roots 0.05 above the axis of the trunk: the way leads down to it. At its ends, which reach beyond the roots, it would lead out.
+    /// Roots 0.05 above the axis of the trunk: the way leads down to it. At its ends, which reach beyond the
+    /// roots, it would lead out.
     #[test]
     fn behaves_the_way_through_a_part_keeps_to_its_middle() {
         let on = |x: f64, z: f64| {

@@ -342,8 +342,8 @@ impl Fleet {
         Ok(terminated.iter().chain(truncated.iter()).any(|x| *x))
     }
 
-    /// What the linear-quadratic regulator would do now, into `actions`; it remembers, so once per step. False where it does not
-    /// fit: controls within a wingbeat, a delay.
+    /// What the linear-quadratic regulator would do now, into `actions`; it remembers, so once per step. False
+    /// where it does not fit: controls within a wingbeat, a delay.
     fn regulate(&self, mut actions: PyReadwriteArray2<'_, f32>) -> PyResult<bool> {
         let limits = &self.course.limits;
         let sizes = limits.sizes();

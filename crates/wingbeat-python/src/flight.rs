@@ -107,7 +107,8 @@ impl Flight {
         )
     }
 
-    /// The hash of what is in the files that the commands of its programs name, in hexadecimal digits; empty where none are.
+    /// The hash of what is in the files that the commands of its programs name, in hexadecimal digits; empty
+    /// where none are.
     fn hash_of_programs(&self) -> String {
         hexadecimal(named::of_programs(&self.case))
     }
@@ -271,8 +272,8 @@ impl Flight {
         let found = mechanics::trim(py, &self.flight, problem, case);
         found.map_err(|e| self.pending.take().unwrap_or(e))
     }
-    /// The same in air with a memory, its steps those of the case: the body is held for `held_beats` wingbeats while its
-    /// wake grows; trimmed is what has residuals within `tolerance`.
+    /// The same in air with a memory, its steps those of the case: the body is held for `held_beats` wingbeats
+    /// while its wake grows; trimmed is what has residuals within `tolerance`.
     fn trim_with_wake(
         &self,
         py: Python<'_>,
@@ -301,8 +302,9 @@ impl Flight {
     }
 }
 
-/// The hash of what is in the files that a key set to another value names (`line` is `KEY=VALUE`), in hexadecimal digits;
-/// empty where none are. `base` is the flight on which it is set: paths are relative to its folder.
+/// The hash of what is in the files that a key set to another value names (`line` is `KEY=VALUE`), in
+/// hexadecimal digits; empty where none are. `base` is the flight on which it is set: paths are relative to its
+/// folder.
 #[pyfunction]
 #[pyo3(signature = (line, base))]
 pub fn hash_of_files(line: &str, base: Option<&Flight>) -> String {

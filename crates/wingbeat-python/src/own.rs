@@ -1,6 +1,7 @@
 //! Parts of a flight that are written in Python: controllers, models of the air.
 //!
-//! An exception in one of them ends the flight; it is kept in its [`PendingException`] and raised when the flight has stopped.
+//! An exception in one of them ends the flight; it is kept in its [`PendingException`] and raised when the
+//! flight has stopped.
 
 use std::fmt;
 use std::sync::{Arc, Mutex, PoisonError};

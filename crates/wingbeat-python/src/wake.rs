@@ -65,8 +65,8 @@ impl WakeTrim {
         Ok(powers(&power))
     }
 
-    /// Monodromy matrix of the free wingbeat by rows, and Floquet's modes; held fixed when the body is disturbed: the wake of
-    /// the trimmed flight (`given`), or the disturbance during the hold (`carried`).
+    /// Monodromy matrix of the free wingbeat by rows, and Floquet's modes; held fixed when the body is
+    /// disturbed: the wake of the trimmed flight (`given`), or the disturbance during the hold (`carried`).
     fn stability<'py>(
         &self,
         py: Python<'py>,

@@ -1,10 +1,10 @@
 //! The registry of the columns of history.csv: the one place that says what each column holds, how
 //! it is named, in which unit and frame, and where it stands in a [`Record`].
 //!
-//! `table` holds the quantities; everything else follows from it: the header, the numbers of a row, the
-//! record read back from a row and units and frames of the exports. Nobody else
-//! writes names of columns. Who reads a history by itself, without its case or record by record, finds families of columns by the
-//! beginnings and ends of their names: total force and driving power ([`crate::summary::air_force`],
+//! `table` holds the quantities; everything else follows from it: the header, the numbers of a row, the record
+//! read back from a row and units and frames of the exports. Nobody else writes names of columns. Who reads a
+//! history by itself, without its case or record by record, finds families of columns by the beginnings and
+//! ends of their names: total force and driving power ([`crate::summary::air_force`],
 //! [`crate::summary::driving_power`]), angles of joints in the figures.
 
 use std::path::Path;

@@ -300,8 +300,8 @@ impl Mesh {
         list
     }
 
-    /// Circulation of the ring in row `r` beyond the side edge of a sheet at column `c` of its nodes (0 or the last), in
-    /// the sense of this sheet \[m2/s\]: that of the sheet whose edge is the same line (`joined`, as
+    /// Circulation of the ring in row `r` beyond the side edge of a sheet at column `c` of its nodes (0 or the
+    /// last), in the sense of this sheet \[m2/s\]: that of the sheet whose edge is the same line (`joined`, as
     /// [`Mesh::joined_edges`] lists them); 0 beyond an edge of its own, and where the other sheet ends before.
     pub fn ring_beyond(
         &self,

@@ -184,8 +184,8 @@ fn lock(file: &File, path: &Path) -> Result<(), IoError> {
     }
 }
 
-/// Whether another program has the lock and keeps it: one that is just being started may hold a copy for an instant. File systems
-/// without locks are written to all the same.
+/// Whether another program has the lock and keeps it: one that is just being started may hold a copy for an
+/// instant. File systems without locks are written to all the same.
 fn stays_locked(file: &File) -> bool {
     for _ in 0..LOCK_TRIES {
         if !matches!(file.try_lock(), Err(TryLockError::WouldBlock)) {

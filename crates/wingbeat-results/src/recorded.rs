@@ -30,8 +30,8 @@ impl RecordedFlight {
         Ok(Self { flight, writer })
     }
 
-    /// At the checkpoint with this header, from whose state `flight` goes on ([`Simulation::resume`]): what was written later
-    /// is cut off.
+    /// At the checkpoint with this header, from whose state `flight` goes on ([`Simulation::resume`]): what was
+    /// written later is cut off.
     ///
     /// # Errors
     /// A file that cannot be changed; a frame that was removed.
@@ -56,8 +56,9 @@ impl RecordedFlight {
         self.writer.dir()
     }
 
-    /// Makes and writes the steps to the end, or as long as `each` lets it, which sees the flight as it is and after every step,
-    /// once that is written. A checkpoint is saved where one is due and where `each` stops the flight.
+    /// Makes and writes the steps to the end, or as long as `each` lets it, which sees the flight as it is and
+    /// after every step, once that is written. A checkpoint is saved where one is due and where `each` stops
+    /// the flight.
     ///
     /// # Errors
     /// Those of `each`, after which no checkpoint is saved; a step that fails; a file that cannot be written.

@@ -27,9 +27,9 @@ pub struct Records {
 }
 
 impl Records {
-    /// Opens the history of a flight. Numbers that results of older versions lack are not numbers
-    /// (NaN), but the impulse of the air and the work of springs, dampers and stops, which are counted from the rows, and the impulse
-    /// of the inviscid force, which is taken for that of the whole.
+    /// Opens the history of a flight. Numbers that results of older versions lack are not numbers (NaN), but
+    /// the impulse of the air and the work of springs, dampers and stops, which are counted from the rows, and
+    /// the impulse of the inviscid force, which is taken for that of the whole.
     ///
     /// # Errors
     /// A file that cannot be read or is not a history; a column that is missing or belongs to

@@ -40,8 +40,9 @@ use wingbeat_case::LoadedCase;
 pub use words::prefix;
 
 impl Summary {
-    /// From the history of a run, read row by row. A thinned history does not hold every step: there it is the summary beside it, if
-    /// one of these steps was written, or it says that its verdict goes no farther than the rows.
+    /// From the history of a run, read row by row. A thinned history does not hold every step: there it is the
+    /// summary beside it, if one of these steps was written, or it says that its verdict goes no farther than
+    /// the rows.
     ///
     /// # Errors
     /// A history that cannot be read.
@@ -151,8 +152,8 @@ fn joint_residual(s: &EachStep) -> f64 {
     }
 }
 
-/// Largest residual over the largest of what is in play. Elastic wings that fly freely gain or lose energy of their own, however much
-/// a fall has: there works count, and what the parts turn over among themselves.
+/// Largest residual over the largest of what is in play. Elastic wings that fly freely gain or lose energy of
+/// their own, however much a fall has: there works count, and what the parts turn over among themselves.
 fn energy_residual(setup: &FlightSetup, s: &EachStep) -> f64 {
     let all = energy_scale(s);
     let is_free = matches!(setup.mode, MotionMode::Free(_));
@@ -181,9 +182,10 @@ fn works(s: &EachStep) -> f64 {
     works.map(|w| w.most).into_iter().fold(0.0, larger)
 }
 
-/// Largest residual over the largest of what is in play: the momentum, the impulse of the weight, and
-/// the momentum that the kinetic energy stands for where that of the parts cancels. A support bears the weight of a tethered animal:
-/// there that impulse counts over a wingbeat, lest every flight be a good one if it is but long.
+/// Largest residual over the largest of what is in play: the momentum, the impulse of the weight, and the
+/// momentum that the kinetic energy stands for where that of the parts cancels. A support bears the weight of a
+/// tethered animal: there that impulse counts over a wingbeat, lest every flight be a good one if it is but
+/// long.
 fn momentum_residual(setup: &FlightSetup, s: &EachStep, time: f64) -> f64 {
     let mass = setup.animal.mass();
     let time = match (&setup.mode, setup.time.period) {

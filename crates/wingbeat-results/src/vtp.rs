@@ -3,8 +3,9 @@
 //!
 //! A frame ends with a comment that holds its checksum.
 //!
-//! Points are written in picture axes (n1, -n2, -n3): x forward, y to the left, z up. Circulations of surfaces and wakes
-//! are right-handed about the corners of their panels in order: a vortex ring along them with this circulation is the flow's.
+//! Points are written in picture axes (n1, -n2, -n3): x forward, y to the left, z up. Circulations of surfaces
+//! and wakes are right-handed about the corners of their panels in order: a vortex ring along them with this
+//! circulation is the flow's.
 
 use std::fmt::Write as _;
 
@@ -16,8 +17,8 @@ use wingbeat_math::DVec3;
 use super::manifest::sha256;
 use super::poses::picture;
 
-/// What a frame says of its circulations. Frames without it are of older versions, in which those of surfaces (not of wakes)
-/// are left-handed: positive when their lift is along the panel normal.
+/// What a frame says of its circulations. Frames without it are of older versions, in which those of surfaces
+/// (not of wakes) are left-handed: positive when their lift is along the panel normal.
 pub(super) const RIGHT_HANDED: &str = "circulations right-handed about the corners";
 
 /// Begins the last line of a frame, which holds the hash of everything before it.

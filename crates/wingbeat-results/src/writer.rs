@@ -273,8 +273,8 @@ impl RunWriter {
     /// manifest.
     ///
     /// # Errors
-    /// A file that cannot be written. One that `draw` cannot read ([`IoError::Damaged`]): of a flight at its end all else is written
-    /// nevertheless, for no flying on mends it.
+    /// A file that cannot be written. One that `draw` cannot read ([`IoError::Damaged`]): of a flight at its
+    /// end all else is written nevertheless, for no flying on mends it.
     pub fn finish(
         mut self,
         outcome: Outcome,

@@ -119,7 +119,8 @@ fn numbers(record: &Record) -> usize {
         passive_work: _,
     } = record;
     let lists = coordinates.len() + rates.len() + multipliers.len() + deformation_power.len();
-    // Tip (3), twist, four sections (3), elastic energy and its power, that of the air, passes of each; what all have dissipated.
+    // Tip (3), twist, four sections (3), elastic energy and its power, that of the air, passes of each; what
+    // all have dissipated.
     let elastic = 20 * elastic.len() + usize::from(!elastic.is_empty());
     let steered = looks.len() * commands.len().min(1);
     let feedback = 8 * commands.len() + steered + 8 * reference.len();
@@ -384,8 +385,8 @@ fn agrees_thinned_histories_with_whole_ones() {
     assert_eq!(columns.iter().filter(folded).count(), 7);
 }
 
-/// Where no frames are written wings are drawn bent as the history says of four sections: nearly where the lattice has them, beams that
-/// twist and sheets that camber.
+/// Where no frames are written wings are drawn bent as the history says of four sections: nearly where the
+/// lattice has them, beams that twist and sheets that camber.
 #[test]
 fn agrees_bent_wings_of_rows_with_the_lattice() {
     // Measured 0.011 and 0.007: what lies between the sections, and shortening.
@@ -415,7 +416,8 @@ fn agrees_bent_wings_of_rows_with_the_lattice() {
     }
 }
 
-/// A frame that cannot be read for the page costs the page alone: the flight is at its end, and flying on would not mend it.
+/// A frame that cannot be read for the page costs the page alone: the flight is at its end, and flying on would
+/// not mend it.
 #[test]
 fn behaves_a_damaged_frame_leaves_a_finished_result() {
     let scratch = Scratch::new("damaged");

@@ -40,8 +40,8 @@ fn agrees_lift_by_all_loads_with_that_by_impulse_in_attached_hover() {
     }
 }
 
-/// Where roots shed, too, first and last column of a wake are one line. With cores that differ and vorticity that cancels there this wing had 0.92
-/// and 0.83 of its lift by impulse in the last two beats.
+/// Where roots shed, too, first and last column of a wake are one line. With cores that differ and vorticity
+/// that cancels there this wing had 0.92 and 0.83 of its lift by impulse in the last two beats.
 #[test]
 fn agrees_lift_with_that_by_impulse_of_a_wing_that_sheds_all_around_in_hover() {
     let summary = flown(&preset(
@@ -69,7 +69,8 @@ fn behaves_air_without_vortices_has_no_inviscid_lift() {
     assert!(means.inviscid_lift_newton.is_none() && means.lift_by_impulse_newton.is_none());
 }
 
-/// Vortex lift is a law of forces on an attached lattice: the inviscid force is that of attached flow, the one flown is less.
+/// Vortex lift is a law of forces on an attached lattice: the inviscid force is that of attached flow, the one
+/// flown is less.
 #[test]
 fn agrees_lift_with_that_by_impulse_beside_vortex_lift() {
     let set = ["air.leading_edge=vortex_lift", "time.beats=3"];

@@ -5,8 +5,8 @@ use wingbeat_flight::Simulation;
 use wingbeat_results::summary::Verdict;
 use wingbeat_results::{Outcome, Summary};
 
-/// A wing on a spring alone keeps `T + k q^2 / 2`. By backward differences of order four it gains, which the balance of energy, whose
-/// work of free joints is the energy of their motion, does not show.
+/// A wing on a spring alone keeps `T + k q^2 / 2`. By backward differences of order four it gains, which the
+/// balance of energy, whose work of free joints is the energy of their motion, does not show.
 #[test]
 fn exact_energy_that_a_passive_hinge_gains() {
     let stiffness = 1e-4;

@@ -74,8 +74,8 @@ fn conserves_momentum_without_weight_without_an_alarm() {
     assert!(!says(&summary, "balance"), "{:?}", summary.warnings);
 }
 
-/// The momentum of a tethered animal is prescribed: what is open there is how ill the steps follow the motion. In 20 steps a beat 8e-3,
-/// in 10 some per cent, in 4, in which lift is 11 % off, 0.3.
+/// The momentum of a tethered animal is prescribed: what is open there is how ill the steps follow the motion.
+/// In 20 steps a beat 8e-3, in 10 some per cent, in 4, in which lift is 11 % off, 0.3.
 #[test]
 fn behaves_the_momentum_of_tethered_flights_tells_of_strokes_that_steps_do_not_follow() {
     for (steps, verdict) in [
@@ -120,7 +120,8 @@ fn behaves_impossible_motions_and_lifts_are_named_without_a_lattice() {
     ));
 }
 
-/// A stroke as a camera sees it, with noise of a degree, in fewer steps than samples; a fit of its harmonics is good again.
+/// A stroke as a camera sees it, with noise of a degree, in fewer steps than samples; a fit of its harmonics is
+/// good again.
 #[test]
 fn behaves_noise_in_angles_is_named_and_a_fit_takes_it_out() {
     let wave = |x: f64| 70.0 * (std::f64::consts::TAU * x).cos();
@@ -265,7 +266,8 @@ fn behaves_flights_under_feedback_say_how_far_they_were_from_what_they_hold() {
     assert_eq!(lost.verdict, Verdict::Amber);
 }
 
-/// Leading edges that shed one sign more than the other while roots hold: with strokes unlike back and forth, not in hover.
+/// Leading edges that shed one sign more than the other while roots hold: with strokes unlike back and forth,
+/// not in hover.
 #[test]
 fn behaves_summaries_tell_of_leading_edges_that_shed_one_sign() {
     let shed = r#"air.shed=["trailing", "tip", "leading"]"#;
@@ -277,8 +279,8 @@ fn behaves_summaries_tell_of_leading_edges_that_shed_one_sign() {
     }
 }
 
-/// Wings whose roots are inside the trunk, with and without it in the air.
-/// What has left edges that shed by the step before alternates; where all motion is prescribed nothing is wrong with that.
+/// Wings whose roots are inside the trunk, with and without it in the air. What has left edges that shed by the
+/// step before alternates; where all motion is prescribed nothing is wrong with that.
 #[test]
 fn behaves_alternating_forces_of_prescribed_motion_are_no_fault() {
     let text = r#"
@@ -376,7 +378,8 @@ fn behaves_wings_that_push_the_body_down_are_named() {
     }
 }
 
-/// Flights in finer steps go from red to green: the residual of a fourth-order method falls with them. A hawkmoth's wings meet.
+/// Flights in finer steps go from red to green: the residual of a fourth-order method falls with them. A
+/// hawkmoth's wings meet.
 #[test]
 fn behaves_the_verdict_follows_the_balances() {
     for (steps, verdict, reason) in [
@@ -468,8 +471,8 @@ fn behaves_feedback_of_a_held_body_is_not_judged() {
 
 #[test]
 fn behaves_elastic_wings_that_gain_energy_in_a_fall_are_red() {
-    // Two wings of 1 kg on a body of half a kilogram, let go: after four beats a tenth of what they turn over is added to it, a
-    // thousandth of what the fall has.
+    // Two wings of 1 kg on a body of half a kilogram, let go: after four beats a tenth of what they turn over
+    // is added to it, a thousandth of what the fall has.
     let text = "format = 1
 gravity_m_s2 = [0, 0, 1.0]
 motion.frequency_hz = 1.0

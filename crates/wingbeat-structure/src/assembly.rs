@@ -83,9 +83,9 @@ impl Assembly {
         }
     }
 
-    /// Adds the tangent of all elements, and that of strain-rate damping where there is some; `turn` maps increments of the
-    /// attitude of a node to rotations in its axes. Stresses are those of `at`, or ahead from a configuration by six numbers
-    /// a node ([`crate::Element::tangent_ahead`]).
+    /// Adds the tangent of all elements, and that of strain-rate damping where there is some; `turn` maps
+    /// increments of the attitude of a node to rotations in its axes. Stresses are those of `at`, or ahead from
+    /// a configuration by six numbers a node ([`crate::Element::tangent_ahead`]).
     pub fn tangent(
         &mut self,
         structure: &Structure,

@@ -1,13 +1,13 @@
 //! Geometrically exact beams of two nodes.
 //!
-//! The section frames at both ends, seen one from the other, are joined by a screw d (the logarithm on SE(3)); strains
-//! are constant along the element, `(d - d_0) / L`: stretch, two shears, twist and two curvatures in section axes
-//! [Sonneville, Cardona & Bruls, Comput. Methods Appl. Mech. Engrg 268:451, 2014]. A beam bent to an arc or wound to a
-//! helix is represented exactly, rigid motion strains nothing, and nothing locks. One element turns by less than half a turn
-//! from end to end.
+//! The section frames at both ends, seen one from the other, are joined by a screw d (the logarithm on SE(3));
+//! strains are constant along the element, `(d - d_0) / L`: stretch, two shears, twist and two curvatures in
+//! section axes [Sonneville, Cardona & Bruls, Comput. Methods Appl. Mech. Engrg 268:451, 2014]. A beam bent to
+//! an arc or wound to a helix is represented exactly, rigid motion strains nothing, and nothing locks. One
+//! element turns by less than half a turn from end to end.
 //!
-//! The transverse stiffness carries the residual bending flexibility: a straight element in small displacements is exact
-//! for loads at its nodes, with shear (Timoshenko) or, where GA is large, without (Euler-Bernoulli).
+//! The transverse stiffness carries the residual bending flexibility: a straight element in small displacements
+//! is exact for loads at its nodes, with shear (Timoshenko) or, where GA is large, without (Euler-Bernoulli).
 //!
 //! Mass is lumped at the two points of Gauss of the element, each rigid with its nearer node: mass, first moment and
 //! inertia of a straight element are exact. Frequencies then converge at second order: of a uniform cantilever of N
@@ -61,8 +61,8 @@ pub struct Beam {
 }
 
 impl Beam {
-    /// Beam between two nodes of the rest configuration, straight from node to node; axis 2 of its section lies in the plane
-    /// of the beam and of the direction `towards` (W components).
+    /// Beam between two nodes of the rest configuration, straight from node to node; axis 2 of its section lies
+    /// in the plane of the beam and of the direction `towards` (W components).
     ///
     /// # Errors
     /// [`StructureError`]: a node that is not there, coinciding nodes, `towards` along the beam, a stiffness that is not
@@ -80,8 +80,8 @@ impl Beam {
         Self::between(rest, nodes, ends, section)
     }
 
-    /// Beam between two given ends, joined rigidly to two nodes of the rest configuration. The beam at rest is the arc or
-    /// helix between the ends: initial curvature and twist are part of it.
+    /// Beam between two given ends, joined rigidly to two nodes of the rest configuration. The beam at rest is
+    /// the arc or helix between the ends: initial curvature and twist are part of it.
     ///
     /// # Errors
     /// As [`Self::straight`].
@@ -121,8 +121,8 @@ impl Beam {
         self.rest.u.length()
     }
 
-    /// Strains [1, 1/m] (stretch, two shears, twist, two curvatures) and the forces and moments of the section [N, N m] that
-    /// work on them, in section axes at mid-length.
+    /// Strains [1, 1/m] (stretch, two shears, twist, two curvatures) and the forces and moments of the section
+    /// [N, N m] that work on them, in section axes at mid-length.
     pub fn strain(&self, at: &Configuration) -> ([f64; 6], [f64; 6]) {
         let (_, screw) = screw_between(at, self.nodes, &self.offsets);
         let change = self.change(&screw);
@@ -157,7 +157,8 @@ impl Beam {
         ]
     }
 
-    /// The tangent with the section frames `rotations` and the screw between them, the force of the screw being `force`.
+    /// The tangent with the section frames `rotations` and the screw between them, the force of the screw being
+    /// `force`.
     fn add_tangent(
         &self,
         (rotations, screw): (&[DQuat; 2], &Screw),

@@ -43,7 +43,8 @@ impl StructureBuilder {
         self
     }
 
-    /// Holds numbers of a node at their rest values in W: three of the place (W axes), three of the attitude (node axes).
+    /// Holds numbers of a node at their rest values in W: three of the place (W axes), three of the attitude
+    /// (node axes).
     #[must_use]
     pub fn hold(mut self, node: usize, held: [bool; NODE]) -> Self {
         self.held.push((node, held));

@@ -38,9 +38,9 @@ pub trait Element: std::fmt::Debug + Send + Sync {
         false
     }
 
-    /// Fills `out.tangent` with the matrix that strain-rate damping multiplies: symmetric, positive semidefinite, and blind
-    /// to rigid motion if energy is to be dissipated by nothing else than deformation. Unless an element says better, the
-    /// symmetric part of its tangent, which is all of this at rest.
+    /// Fills `out.tangent` with the matrix that strain-rate damping multiplies: symmetric, positive
+    /// semidefinite, and blind to rigid motion if energy is to be dissipated by nothing else than deformation.
+    /// Unless an element says better, the symmetric part of its tangent, which is all of this at rest.
     fn dissipation(&self, at: &Configuration, out: &mut ElementForces) {
         self.internal(at, true, out);
         let n = out.force.len();
@@ -51,11 +51,12 @@ pub trait Element: std::fmt::Debug + Send + Sync {
         }
     }
 
-    /// Adds to `tangent` (by rows) `factor` times the derivative of the damping force `C v` by the six numbers of the nodes, C the
-    /// matrix of [`Self::dissipation`], the six rates v of each node held: damping forces turn with the element, and so do
-    /// its rates of strain. The force that turns is that of rates of strain linear in v from the configuration `before`: `at`
-    /// itself, or one that v was foreseen from, as in [`Self::tangent_ahead`]. Unless an element says better, nothing:
-    /// Newton's iteration then needs more passes.
+    /// Adds to `tangent` (by rows) `factor` times the derivative of the damping force `C v` by the six numbers
+    /// of the nodes, C the matrix of [`Self::dissipation`], the six rates v of each node held: damping forces
+    /// turn with the element, and so do its rates of strain. The force that turns is that of rates of strain
+    /// linear in v from the configuration `before`: `at` itself, or one that v was foreseen from, as in
+    /// [`Self::tangent_ahead`]. Unless an element says better, nothing: Newton's iteration then needs more
+    /// passes.
     fn add_dissipation_tangent(
         &self,
         (_at, _before): (&Configuration, &Configuration),
@@ -65,11 +66,11 @@ pub trait Element: std::fmt::Debug + Send + Sync {
     ) {
     }
 
-    /// Fills `out.tangent` with the tangent in the configuration `at`, its stresses replaced by those that strains linear in the
-    /// `increment` (six numbers of each of its nodes) from the configuration `before` would have. Thin elements that turn are
-    /// stretched at second order by increments that strain nothing at first; with that stress in the tangent Newton's
-    /// iteration goes astray [Magisano, Leonetti & Garcea 2017, Comput. Methods Appl. Mech. Engrg 313:986]. Unless an element
-    /// says better, its tangent.
+    /// Fills `out.tangent` with the tangent in the configuration `at`, its stresses replaced by those that
+    /// strains linear in the `increment` (six numbers of each of its nodes) from the configuration `before`
+    /// would have. Thin elements that turn are stretched at second order by increments that strain nothing at
+    /// first; with that stress in the tangent Newton's iteration goes astray [Magisano, Leonetti & Garcea 2017,
+    /// Comput. Methods Appl. Mech. Engrg 313:986]. Unless an element says better, its tangent.
     fn tangent_ahead(
         &self,
         at: &Configuration,

@@ -24,8 +24,8 @@ pub struct Follower {
 }
 
 impl Follower {
-    /// A point that lies at `x` \[m\] (W components) in the configuration `rest` and is carried by these nodes with these
-    /// weights, which are scaled so that their sum is 1.
+    /// A point that lies at `x` \[m\] (W components) in the configuration `rest` and is carried by these nodes
+    /// with these weights, which are scaled so that their sum is 1.
     pub fn new(x: DVec3, nodes: &[(usize, f64)], rest: &Configuration) -> Self {
         let total: f64 = nodes.iter().map(|n| n.1).sum();
         let share = |&(node, weight): &(usize, f64)| Share {
@@ -74,8 +74,8 @@ impl Follower {
         self.shares.iter().map(part).sum()
     }
 
-    /// Adds a force on the point \[N\], W components, to the loads of the nodes: force in W components, moment about the
-    /// node in node components, six numbers a node.
+    /// Adds a force on the point \[N\], W components, to the loads of the nodes: force in W components, moment
+    /// about the node in node components, six numbers a node.
     pub fn add_force(&self, at: &Configuration, force: DVec3, loads: &mut [f64]) {
         for s in &self.shares {
             let part = s.weight * force;

@@ -1,9 +1,9 @@
 //! Inertial force and moment of a node, a small rigid body in a frame that moves.
 //!
-//! Place u, velocity v and acceleration v' relative to W in W components, attitude R (node to W), relative angular velocity
-//! Omega in node components. Absolute angular velocity `w = R^T w_W + Omega`, its derivative
-//! `w' = R^T w_W' - Omega x R^T w_W + Omega'`; with mass m, first moment S and inertia J about the node,
-//! `F = m a + R (w' x S + w x (w x S))`, `M = S x R^T a + J w' + w x J w`.
+//! Place u, velocity v and acceleration v' relative to W in W components, attitude R (node to W), relative
+//! angular velocity Omega in node components. Absolute angular velocity `w = R^T w_W + Omega`, its derivative
+//! `w' = R^T w_W' - Omega x R^T w_W + Omega'`; with mass m, first moment S and inertia J about the node, `F = m
+//! a + R (w' x S + w x (w x S))`, `M = S x R^T a + J w' + w x J w`.
 
 use wingbeat_math::{DMat3, DVec3, MassProperties, tilde};
 

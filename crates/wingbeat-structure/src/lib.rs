@@ -1,8 +1,9 @@
 //! Elastic bodies: nodes with mass, elements with stiffness, on a frame that moves.
 //!
-//! An elastic body has nodes, each with a place and an attitude in the frame W of the body that carries it, and elements
-//! (geometrically exact beams, shells) between them. Elements know strain energy, internal force and tangent; mass is
-//! lumped at nodes, each a small rigid body, so that inertia is exact rigid-body dynamics node by node.
+//! An elastic body has nodes, each with a place and an attitude in the frame W of the body that carries it, and
+//! elements (geometrically exact beams, shells) between them. Elements know strain energy, internal force and
+//! tangent; mass is lumped at nodes, each a small rigid body, so that inertia is exact rigid-body dynamics node
+//! by node.
 //!
 //! | symbol | name in code | meaning |
 //! |---|---|---|

@@ -2,8 +2,8 @@
 
 use wingbeat_math::{DenseLu, LuError};
 
-/// A square matrix, banded or dense, and room for its factors. Rows and columns are scaled before factorisation, so that
-/// metres and radians, and stiff and soft directions, weigh alike.
+/// A square matrix, banded or dense, and room for its factors. Rows and columns are scaled before
+/// factorisation, so that metres and radians, and stiff and soft directions, weigh alike.
 pub(crate) struct Matrix {
     n: usize,
     /// Largest distance of an entry from the diagonal.

@@ -19,7 +19,8 @@ use crate::structure::{HELD, Structure};
 pub struct Mode {
     /// Square of the angular frequency [rad2/s2]; negative if the state is unstable.
     pub square: f64,
-    /// Six numbers a node (dx \[m\] in W, dtheta \[rad\] in node components) for a modal mass of 1 kg: `shape^T M shape = 1`.
+    /// Six numbers a node (dx \[m\] in W, dtheta \[rad\] in node components) for a modal mass of 1 kg: `shape^T
+    /// M shape = 1`.
     pub shape: Vec<f64>,
 }
 
@@ -40,10 +41,10 @@ impl Mode {
     }
 }
 
-/// Modes about an equilibrium in a frame that moves steadily, of rising frequency: stiffness of the deformed state with
-/// centrifugal stiffening and softening; Coriolis forces, which couple modes of a turning body, are left out. `added` is
-/// mass that moves along, by rows of 6 N x 6 N numbers, N nodes, force in W and moment in node components by acceleration
-/// (added mass of the air), to be symmetric.
+/// Modes about an equilibrium in a frame that moves steadily, of rising frequency: stiffness of the deformed
+/// state with centrifugal stiffening and softening; Coriolis forces, which couple modes of a turning body, are
+/// left out. `added` is mass that moves along, by rows of 6 N x 6 N numbers, N nodes, force in W and moment in
+/// node components by acceleration (added mass of the air), to be symmetric.
 ///
 /// The matrices of this eigenproblem are dense: up to some 600 unknowns are solved within seconds.
 ///
@@ -88,9 +89,10 @@ const LARGE: f64 = 2.5e8;
 const PASSES: usize = 60;
 const CONVERGED: f64 = 1e-8;
 
-/// Angular frequency \[rad/s\] of the slowest vibration about rest, by inverse iteration with the banded stiffness and Rayleigh's
-/// quotient; 0 where a push grows. With `turns` nodes have all their inertia; without, as for sheets, that of their turns counts in the quotient alone:
-/// motions in which nodes turn and nothing moves are of the elements and of no sheet. None of a body so large that this takes long.
+/// Angular frequency \[rad/s\] of the slowest vibration about rest, by inverse iteration with the banded
+/// stiffness and Rayleigh's quotient; 0 where a push grows. With `turns` nodes have all their inertia; without,
+/// as for sheets, that of their turns counts in the quotient alone: motions in which nodes turn and nothing
+/// moves are of the elements and of no sheet. None of a body so large that this takes long.
 ///
 /// # Errors
 /// [`StructureError::Singular`], [`StructureError::Modes`]: a body that is not held, stiffnesses that differ by more than rounding.
@@ -200,8 +202,8 @@ fn symmetric(n: usize, rows: &[f64]) -> Mat<f64> {
     Mat::from_fn(n, n, |i, j| 0.5 * (rows[i * n + j] + rows[j * n + i]))
 }
 
-/// Shifts tried, over the smallest ratio of the diagonals of stiffness and mass: small ones for frequencies of all sizes, large ones
-/// where modes grow fast, as those of a sheet that buckles.
+/// Shifts tried, over the smallest ratio of the diagonals of stiffness and mass: small ones for frequencies of
+/// all sizes, large ones where modes grow fast, as those of a sheet that buckles.
 const SHIFTS: [f64; 16] = [
     1e-8, 1e-6, 1e-4, 1e-2, 1.0, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12,
 ];

@@ -1,9 +1,9 @@
 //! Screw motions: the exponential of SE(3), its logarithm and the derivative of that.
 //!
-//! A displacement is a place p and a rotation; its logarithm is the screw (u, theta) with `p = J(theta) u`. With
-//! `A(theta) = 1 + tilde(theta) / 2 + c(theta^2) tilde(theta)^2`, the inverse of the right Jacobian of rotations, that of
-//! screws is `[[A, dA[u]], [0, A]]`, `dA[u]` the derivative of A along u (Sonneville, Cardona & Bruls 2014, appendix A;
-//! Barfoot, State Estimation for Robotics, 2017, eq. 7.95).
+//! A displacement is a place p and a rotation; its logarithm is the screw (u, theta) with `p = J(theta) u`.
+//! With `A(theta) = 1 + tilde(theta) / 2 + c(theta^2) tilde(theta)^2`, the inverse of the right Jacobian of
+//! rotations, that of screws is `[[A, dA[u]], [0, A]]`, `dA[u]` the derivative of A along u (Sonneville,
+//! Cardona & Bruls 2014, appendix A; Barfoot, State Estimation for Robotics, 2017, eq. 7.95).
 
 use wingbeat_math::rotation_jacobian::{Curve, inverse_right_jacobian as a};
 use wingbeat_math::{DMat3, DQuat, DVec3, rotation_vector, tilde};

@@ -186,8 +186,8 @@ fn tangent<L: Loading + ?Sized>(
     s.assembly.factor(p.structure)
 }
 
-/// Adds the derivative of internal and inertial forces by the configuration, nothing moving relative to the frame; stresses may
-/// be foreseen ([`crate::Element::tangent_ahead`]).
+/// Adds the derivative of internal and inertial forces by the configuration, nothing moving relative to the
+/// frame; stresses may be foreseen ([`crate::Element::tangent_ahead`]).
 pub(crate) fn steady_tangent(
     structure: &Structure,
     (at, ahead): (&Configuration, Option<(&Configuration, &[f64])>),

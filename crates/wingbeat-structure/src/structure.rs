@@ -38,8 +38,8 @@ pub struct Structure {
 }
 
 impl Structure {
-    /// The configuration at rest, in equilibrium without loads: as built, unless elements have a stress there that pulls at free
-    /// edges, which then give way.
+    /// The configuration at rest, in equilibrium without loads: as built, unless elements have a stress there
+    /// that pulls at free edges, which then give way.
     pub fn rest(&self) -> &Configuration {
         &self.rest
     }

@@ -137,8 +137,8 @@ fn agrees_beam_force_and_tangent_with_differences() {
 
 #[test]
 fn order_foreseen_stresses_of_a_beam_differ_by_squares_of_the_increment() {
-    // Strains linear in the increment: the tangent with their stresses is the tangent where nothing moves, and differs by
-    // the square of what does.
+    // Strains linear in the increment: the tangent with their stresses is the tangent where nothing moves, and
+    // differs by the square of what does.
     let (rest, beams) = crooked();
     let before = shaken(&rest, 0.4);
     let gap = |size: f64| {

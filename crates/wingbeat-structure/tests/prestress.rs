@@ -6,8 +6,8 @@ use plate::rectangle;
 use wingbeat_math::DVec3;
 use wingbeat_structure::{FrameMotion, Lamina, Structure, StructureBuilder, StructureError, modes};
 
-/// A strip that is clamped at one end cannot hold a tension along it: it shortens until the strain `(l^2 - 1) / 2 = -N / (E h)`
-/// leaves no stress, and vibrates as a strip without tension.
+/// A strip that is clamped at one end cannot hold a tension along it: it shortens until the strain `(l^2 - 1) /
+/// 2 = -N / (E h)` leaves no stress, and vibrates as a strip without tension.
 #[test]
 fn exact_a_strip_with_a_free_end_gives_way_to_tension() {
     let strip = |tension: f64| {

@@ -396,8 +396,8 @@ fn order_frequencies_of_a_stretched_membrane() {
     }
 }
 
-/// In-plane bending of a slender strip, one element across: `P L^3 / (3 E I)` and a little shear, with the turn about the
-/// normal joined only weakly.
+/// In-plane bending of a slender strip, one element across: `P L^3 / (3 E I)` and a little shear, with the turn
+/// about the normal joined only weakly.
 #[test]
 fn limit_in_plane_bending_of_a_strip_is_a_beam() {
     let (length, width, thickness) = (10.0, 0.5, 0.01);

@@ -171,8 +171,8 @@ impl Track {
     }
 }
 
-/// Nodes of a flat wing, x forward, y right: as broad as Ellington's beta distribution. The roots of rectangular wings pass
-/// through each other where the strokes end.
+/// Nodes of a flat wing, x forward, y right: as broad as Ellington's beta distribution. The roots of
+/// rectangular wings pass through each other where the strokes end.
 fn wing(side: f64) -> Vec<DVec3> {
     let [length, mean] = WING;
     let beta = Beta {

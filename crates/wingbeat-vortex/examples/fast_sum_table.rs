@@ -2,8 +2,8 @@
 //!
 //! `cargo run --release -p wingbeat-vortex --example fast_sum_table -- [wide] [EDGES ...]`
 //!
-//! With `wide` cores are algebraic and widen with age from 0.02 to 0.5 wing lengths, velocity and vorticity are summed by tree and by meshes with a
-//! tolerance of 1e-3, and the other sum is that in single precision.
+//! With `wide` cores are algebraic and widen with age from 0.02 to 0.5 wing lengths, velocity and vorticity are
+//! summed by tree and by meshes with a tolerance of 1e-3, and the other sum is that in single precision.
 //!
 //! Seconds are processor seconds of all threads where the system tells them (Linux), so that other
 //! work on the machine disturbs little.

@@ -142,8 +142,8 @@ impl GaussianSum {
         self.loaded.is_empty()
     }
 
-    /// Adds to `out` \[m/s\] the velocity of all blobs at `targets` \[m\], with an error of at most `tolerance`: root mean
-    /// square, relative to that velocity.
+    /// Adds to `out` \[m/s\] the velocity of all blobs at `targets` \[m\], with an error of at most
+    /// `tolerance`: root mean square, relative to that velocity.
     pub fn add_velocity(
         &mut self,
         tolerance: f64,

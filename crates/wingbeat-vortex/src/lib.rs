@@ -17,8 +17,9 @@
 //! Vectors are in the inertial frame N.
 //!
 //! Two sums: [`DirectSum`] takes every segment at every target; [`FastSum`] does so in single precision, or
-//! sums far segments by the cells of a tree, expansions of bare filaments or interpolation of the kernel of wide ones, or
-//! wide filaments of algebraic cores by Gaussians on meshes, to a tolerance that it checks at every call.
+//! sums far segments by the cells of a tree, expansions of bare filaments or interpolation of the kernel of
+//! wide ones, or wide filaments of algebraic cores by Gaussians on meshes, to a tolerance that it checks at
+//! every call.
 //!
 //! Two more sum over vortex blobs: [`GaussianSum`] one by one or on a mesh, [`AlgebraicSum`] one by one, with the rate
 //! at which blobs stretch each other.

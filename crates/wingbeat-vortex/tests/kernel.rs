@@ -429,8 +429,8 @@ fn conserves_impulse_where_cores_change_along_filaments() {
         (by_velocity + by_vorticity).length() / by_velocity.length()
     });
     println!("left over: {coarse:e}, {fine:e}");
-    // What the midpoints leave falls with the square of the pieces; measured 1e-5. An error of its own in the second part
-    // would stay.
+    // What the midpoints leave falls with the square of the pieces; measured 1e-5. An error of its own in the
+    // second part would stay.
     assert!(fine < 3e-5 && coarse > 12.0 * fine, "{coarse} {fine}");
 }
 

@@ -1,5 +1,5 @@
-//! What campaigns are measured against: a plain loop over every n-th point from k on, each flown in memory and forgotten,
-//! in one thread. `campaign_loop FILE k n`
+//! What campaigns are measured against: a plain loop over every n-th point from k on, each flown in memory and
+//! forgotten, in one thread. `campaign_loop FILE k n`
 
 use std::path::Path;
 

@@ -7,9 +7,9 @@ use crate::flown::Run;
 use crate::refusal::Error;
 use crate::value::Flight;
 
-/// Flies all `flights`, so many at a time as there are `threads` (0: as many as the machine has), and keeps of each
-/// run what `keep` makes of it, in the order of the flights. A flight that fails takes none of the others with it. The same
-/// bits on any number of threads.
+/// Flies all `flights`, so many at a time as there are `threads` (0: as many as the machine has), and keeps of
+/// each run what `keep` makes of it, in the order of the flights. A flight that fails takes none of the others
+/// with it. The same bits on any number of threads.
 ///
 /// Ten starts of different pitch, of which the last attitude is kept:
 /// ```

@@ -8,12 +8,13 @@ use crate::flown::Run;
 use crate::refusal::Error;
 use crate::value::Flight;
 
-/// Flies `flight` so many times as there are `members`, at least two, over `threads` (0: as many as the machine has): the
-/// first as it is, in the others the air moves by a millionth of the wings' speed (length over period, or that of the
-/// stream), each in a direction of its own, all in the plane of symmetry where half is computed. What separated flow makes of
-/// that is its uncertainty, as soon as the members have parted; until then they are one flight. Where the senses of a
-/// controller are noisy, each member has noise of its own (seeds that count on from that of the case), and is a flight of its
-/// own from the start. The same bits on any number of threads.
+/// Flies `flight` so many times as there are `members`, at least two, over `threads` (0: as many as the machine
+/// has): the first as it is, in the others the air moves by a millionth of the wings' speed (length over
+/// period, or that of the stream), each in a direction of its own, all in the plane of symmetry where half is
+/// computed. What separated flow makes of that is its uncertainty, as soon as the members have parted; until
+/// then they are one flight. Where the senses of a controller are noisy, each member has noise of its own
+/// (seeds that count on from that of the case), and is a flight of its own from the start. The same bits on any
+/// number of threads.
 ///
 /// ```
 /// let flight = wingbeat::Flight::preset("fruit-fly-blade")?.beats(2.0);
@@ -25,8 +26,8 @@ use crate::value::Flight;
 /// ```
 ///
 /// # Errors
-/// Air without a stream; fewer than two members, or flights without a whole wingbeat; those of [`Flight::fly`] of the first
-/// member that fails.
+/// Air without a stream; fewer than two members, or flights without a whole wingbeat; those of [`Flight::fly`]
+/// of the first member that fails.
 pub fn ensemble(flight: &Flight, members: usize, threads: usize) -> Result<Ensemble, Error> {
     let member = |k| {
         let mut member = flight.clone();

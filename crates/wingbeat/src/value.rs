@@ -114,8 +114,8 @@ impl Flight {
         steps.unwrap_or(0) as f64
     }
 
-    /// All wings beat with this frequency [Hz], and what drives joints becomes faster as they do; steps per beat, number of
-    /// steps and wingbeats of a smooth start stay.
+    /// All wings beat with this frequency [Hz], and what drives joints becomes faster as they do; steps per
+    /// beat, number of steps and wingbeats of a smooth start stay.
     pub fn frequency_hz(mut self, frequency: f64) -> Self {
         let steps = self.steps_per_beat();
         let factor = frequency * self.setup.time.period.unwrap_or(1.0 / frequency);

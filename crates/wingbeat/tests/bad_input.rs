@@ -404,8 +404,8 @@ fn exact_no_such_case_and_no_overwriting_by_new() {
     );
 }
 
-/// A body a thousand times too heavy to turn and one too light fail on trial with a message of numbers; what is implausible is said
-/// before it.
+/// A body a thousand times too heavy to turn and one too light fail on trial with a message of numbers; what is
+/// implausible is said before it.
 #[test]
 fn refuses_flights_that_fail_on_trial_with_their_doubts_first() {
     let scratch = Scratch::new("doubts-first");

@@ -99,8 +99,8 @@ fn balances_a_robot_with_passive_hinges_returns_to_its_place() {
     assert_returns(&dir.join("r"), 0, [1e-6 * 15e-3, 1e-3], &angles);
 }
 
-/// A smooth start makes wings late and joints that are driven in time not: the trimmed case, which begins within the beat, has the
-/// wings at the phase at which they were trimmed.
+/// A smooth start makes wings late and joints that are driven in time not: the trimmed case, which begins
+/// within the beat, has the wings at the phase at which they were trimmed.
 #[test]
 fn balances_a_trimmed_fly_with_a_driven_abdomen_returns_to_its_place() {
     let scratch = Scratch::new("trimmed-abdomen");
@@ -163,7 +163,8 @@ fn balances_a_trimmed_turn_flies_its_circle() {
     }
 }
 
-/// Feedback is laid out for flights that are alike on both sides: a turn that was trimmed is written without it, and flies.
+/// Feedback is laid out for flights that are alike on both sides: a turn that was trimmed is written without
+/// it, and flies.
 #[test]
 fn behaves_a_turn_is_written_without_feedback() {
     let scratch = Scratch::new("turn-without");

@@ -452,8 +452,8 @@ fn refuses_what_knows_no_elastic_wings() {
     }
 }
 
-/// Amplitude of the pitch \[deg\] and mean thrust \[N\] of the plunging foil of the report, b/c 0.85e-3 at 0.7714 Hz, that moves by a
-/// hundredth of what it moves there.
+/// Amplitude of the pitch \[deg\] and mean thrust \[N\] of the plunging foil of the report, b/c 0.85e-3 at 0.7714
+/// Hz, that moves by a hundredth of what it moves there.
 fn small_plunge(rows: usize) -> [f64; 2] {
     let foil = PlungingFoil {
         thickness: 0.85e-3,
@@ -479,8 +479,8 @@ fn small_plunge(rows: usize) -> [f64; 2] {
 
 #[test]
 fn agrees_pitch_and_thrust_of_a_plate_in_water_with_linear_theory() {
-    // Thin-airfoil theory with Euler and Bernoulli's beam, scripts/plunging-plate.py: 3.2738 deg for a hundred times the heave, thrust
-    // coefficient 0.7767. The plate has a mass of 0.6 kg/m2, the water about it some 70.
+    // Thin-airfoil theory with Euler and Bernoulli's beam, scripts/plunging-plate.py: 3.2738 deg for a hundred
+    // times the heave, thrust coefficient 0.7767. The plate has a mass of 0.6 kg/m2, the water about it some 70.
     let of = |rows: usize| {
         let [pitch, thrust] = small_plunge(rows);
         let coefficient = thrust / (0.5 * 1000.0 * SPEED * SPEED * CHORD * SPAN);

@@ -234,8 +234,9 @@ fn exact_one_wake_is_seen_at_a_time_and_it_is_that_of_the_frame() {
     assert!(seen[1..].iter().all(|n| *n == 1), "{seen:?}");
 }
 
-/// Nodes of the wings at the keys of their shapes: places at rest and weighted morph targets, turned and carried as the node of
-/// the wing is, are those of the frames; with it the largest distance and that of the shape at rest, over the length of the wing.
+/// Nodes of the wings at the keys of their shapes: places at rest and weighted morph targets, turned and
+/// carried as the node of the wing is, are those of the frames; with it the largest distance and that of the
+/// shape at rest, over the length of the wing.
 fn bent(head: &serde_json::Value, binary: &[u8], run: &Path, wing: usize) -> [f64; 2] {
     let number = |v: &serde_json::Value| v.as_u64().unwrap() as usize;
     let case = ResultDir::open(run).unwrap().case().unwrap();
@@ -416,8 +417,8 @@ fn induced(mesh: &Mesh, x: [f64; 3]) -> DVec3 {
     mesh.quads.iter().zip(gamma).map(ring).sum()
 }
 
-/// Circulations in files are those of one convention: Biot and Savart's law over surfaces and wakes gives the velocity of
-/// the air.
+/// Circulations in files are those of one convention: Biot and Savart's law over surfaces and wakes gives the
+/// velocity of the air.
 #[test]
 fn agrees_the_velocity_of_exported_circulations_with_that_of_the_flight() {
     let scratch = Scratch::new("circulations");
@@ -450,7 +451,8 @@ fn agrees_the_velocity_of_exported_circulations_with_that_of_the_flight() {
         let flown = DVec3::new(of(0), of(1), of(2)) - stream;
         let sum: DVec3 = frame.iter().map(|m| induced(m, [x, -y, -z])).sum();
         let computed = DVec3::new(sum.x, -sum.y, -sum.z);
-        // Measured 4e-8 of what is induced (cores smooth filaments near by); with the other sign of the surfaces it is its size.
+        // Measured 4e-8 of what is induced (cores smooth filaments near by); with the other sign of the
+        // surfaces it is its size.
         let difference = (computed - flown).length() / flown.length();
         println!("{x} {y} {z}: {difference:.1e} of {:.3}", flown.length());
         assert!(difference < 1e-6, "{x} {y} {z}: {computed} {flown}");

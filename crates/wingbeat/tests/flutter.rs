@@ -64,8 +64,8 @@ fn exact_wing_in_thin_air_vibrates_as_its_structure_does() {
 
 #[test]
 fn published_goland_flutters_within_two_percent_of_163_to_169_m_s() {
-    // Lattices of others have 163 to 169 m/s. This one, its rings inside the side edges, converges to 170.5, and has 166
-    // on coarse meshes with rings on the edges, which make the span too large.
+    // Lattices of others have 163 to 169 m/s. This one, its rings inside the side edges, converges to 170.5,
+    // and has 166 on coarse meshes with rings on the edges, which make the span too large.
     let found = [155.0, 180.0].map(|speed| at(&[], speed));
     let crossings = crossings(&found);
     assert_eq!(crossings.len(), 1, "{crossings:?}");
@@ -164,8 +164,9 @@ fn published_goland_in_strips_flutters_at_137_m_s_as_by_theodorsens_function() {
     let all = crossings(&found);
     assert_eq!(all.len(), 1, "{all:?}");
     let c = all[0];
-    // Goland & Luke (1948): 137.2 m/s, 70.7 rad/s. By frequencies, with Theodorsen's function and two modes: 136.8 m/s (136.9 with eight).
-    // What is left is that of eight states, 10 strips, the step, and a straight line between the two speeds.
+    // Goland & Luke (1948): 137.2 m/s, 70.7 rad/s. By frequencies, with Theodorsen's function and two modes: 136.8
+    // m/s (136.9 with eight). What is left is that of eight states, 10 strips, the step, and a straight line
+    // between the two speeds.
     let [speed, frequency] = theodorsen::goland();
     assert!(
         (speed - 136.78).abs() < 0.02 && (frequency - 69.97).abs() < 0.02,
@@ -349,8 +350,9 @@ fn refuses_speeds_and_lengths_at_which_nothing_is_found() {
     assert!(told.contains("--periods 0.01"), "{told}");
 }
 
-/// A wing of strips held at its root, stiff in bending, diverges in twist at `pi / (2 L) sqrt(2 GJ / (rho c e a))`, e from the quarter chord to
-/// the elastic axis, a the lift slope of the strips; beyond, a motion that does not vibrate grows.
+/// A wing of strips held at its root, stiff in bending, diverges in twist at `pi / (2 L) sqrt(2 GJ / (rho c e
+/// a))`, e from the quarter chord to the elastic axis, a the lift slope of the strips; beyond, a motion that
+/// does not vibrate grows.
 #[test]
 fn exact_static_divergence_of_strips() {
     let text = "format = 1

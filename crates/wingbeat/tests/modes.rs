@@ -96,7 +96,8 @@ radius_m = [8e-4, 2e-4]
 young_pa = 10e9
 "#;
 
-/// A film whose tension nearly pulls its spars over has modes, and one that folds over in flight is named with the key of what it is.
+/// A film whose tension nearly pulls its spars over has modes, and one that folds over in flight is named with
+/// the key of what it is.
 #[test]
 fn behaves_films_that_buckle_have_modes_and_those_that_fold_are_named() {
     let scratch = Scratch::new("film");
@@ -144,8 +145,8 @@ fn agrees_modes_of_a_slender_wing_in_air_with_strips() {
         found.map(|m| m.frequency).unwrap()
     };
     near(twists(vacuum), torsion, 1e-3);
-    // Strips: pi / 4 rho c^2 and, about the middle, pi / 128 rho c^4; at 40 chords' span from tip to tip their ends carry
-    // less, which raises frequencies by some 1 to 2 %.
+    // Strips: pi / 4 rho c^2 and, about the middle, pi / 128 rho c^4; at 40 chords' span from tip to tip their
+    // ends carry less, which raises frequencies by some 1 to 2 %.
     let air = found.air.as_ref().unwrap();
     let heavier = |m: f64, added: f64| (m / (m + added)).sqrt();
     near(
@@ -298,7 +299,8 @@ fn exact_report_and_shapes_of_the_command_hold_the_modes() {
     assert!(words.contains("as left"), "{words}");
 }
 
-/// Modes at rest need no step: a film so limp that none of the flight's ends has them, and `check` says what is wrong with it.
+/// Modes at rest need no step: a film so limp that none of the flight's ends has them, and `check` says what is
+/// wrong with it.
 #[test]
 fn behaves_wings_too_limp_to_fly_have_modes_and_are_doubted() {
     let scratch = Scratch::new("limp");

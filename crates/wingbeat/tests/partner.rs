@@ -52,7 +52,8 @@ fn behaves_a_check_starts_nothing_and_a_run_says_what_it_starts() {
 const CALM: &str = r#"while read a b c; do case $a in
 bodies) echo ready 2;; evaluate) echo 0 0 0 0 0 0; echo 0 0 0 0 0 0; echo 0 0 0 0 0 0;; esac; done"#;
 
-/// A line too many, in an answer or after `accept`, ends the flight: loads heard later would be old ones. An error is heard.
+/// A line too many, in an answer or after `accept`, ends the flight: loads heard later would be old ones. An
+/// error is heard.
 #[test]
 fn refuses_lines_that_nothing_asked_for() {
     let scratch = Scratch::new("unasked");
@@ -73,8 +74,8 @@ fn refuses_lines_that_nothing_asked_for() {
             "no more",
         ),
     ] {
-        // Each answer takes a while, in which what was said before is heard; loads that are none of theirs are small, lest the
-        // flight end of them first.
+        // Each answer takes a while, in which what was said before is heard; loads that are none of theirs are
+        // small, lest the flight end of them first.
         let script = script.replacen("evaluate)", "evaluate) sleep 0.01;", 1);
         scripted(dir, &script, "5");
         let out = wingbeat(dir, &["run", "case.toml", "--quiet", "--out", "r"]);
@@ -120,7 +121,8 @@ fn behaves_looking_at_a_result_starts_nothing() {
     }
 }
 
-/// Whether the process whose number is in this file still runs after the seconds that a busy machine may take to end it.
+/// Whether the process whose number is in this file still runs after the seconds that a busy machine may take
+/// to end it.
 fn lives(pid_file: &Path) -> bool {
     let pid = fs::read_to_string(pid_file).unwrap();
     let runs = || {

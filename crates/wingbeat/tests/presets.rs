@@ -120,7 +120,8 @@ fn exact_every_reader_takes_an_animal_with_joints() {
     assert!(nodes[..5].iter().all(|n| n["mesh"].is_number()));
 }
 
-/// A hovering fly whose edges shed, both halves computed: forces of the left wing are the mirror image of those of the right one.
+/// A hovering fly whose edges shed, both halves computed: forces of the left wing are the mirror image of those
+/// of the right one.
 #[test]
 fn invariant_left_and_right_wing_of_the_tethered_fly_over_two_separated_beats() {
     let keys = [

@@ -4,8 +4,8 @@ use crate::geometry::strips::Strip;
 use std::collections::BTreeMap;
 use wingbeat_math::DVec3;
 
-/// The sides of panels along which a node of a strip goes aft: the one behind it; behind the last node the strip goes on as it is curved
-/// up to there.
+/// The sides of panels along which a node of a strip goes aft: the one behind it; behind the last node the
+/// strip goes on as it is curved up to there.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Aft {
     pub node: usize,
@@ -34,8 +34,9 @@ pub(crate) fn nodes_of_strips(strips: &[Strip]) -> Vec<Aft> {
 }
 
 impl Aft {
-    /// The way aft along a whole panel, from the places of all nodes, or its rate from their velocities `of`: what lies behind the last
-    /// node is as long as the last side, and its direction follows from those of the last two.
+    /// The way aft along a whole panel, from the places of all nodes, or its rate from their velocities `of`:
+    /// what lies behind the last node is as long as the last side, and its direction follows from those of the
+    /// last two.
     pub fn way(&self, place: &[DVec3], of: &[DVec3]) -> DVec3 {
         let [a, b] = self.side;
         let last = of[b] - of[a];
@@ -48,8 +49,8 @@ impl Aft {
         }
     }
 
-    /// Weight of the change of direction between the last two sides, and the ratio of their lengths; none where one has no length, as in
-    /// triangles.
+    /// Weight of the change of direction between the last two sides, and the ratio of their lengths; none where
+    /// one has no length, as in triangles.
     fn bend(&self, place: &[DVec3], before: usize) -> [f64; 2] {
         let [a, b] = self.side;
         let last = place[a].distance(place[b]);
@@ -60,7 +61,8 @@ impl Aft {
         }
     }
 
-    /// What a force at the end of a part of that way does to the nodes besides the one it leads from: [`Self::way`], transposed.
+    /// What a force at the end of a part of that way does to the nodes besides the one it leads from:
+    /// [`Self::way`], transposed.
     pub fn spread(&self, place: &[DVec3], force: DVec3, mut add: impl FnMut(usize, DVec3)) {
         let [a, b] = self.side;
         add(b, force);

@@ -1,10 +1,12 @@
 //! Wings whose roots lie on a body: their circulation goes on through it to the other wing.
 //!
-//! No air passes between a wing and the body that it stands on, and circulation does not end there: outside it goes on over the
-//! skin, and what the rings of the skin make inside is the flow about vortices that go on through the body. A wing that ends at the skin has a
-//! root vortex there instead, to which panels of finite size hardly answer. So a strip of panels leads from each of the two roots to the middle
-//! between them ([`crate::Surface::carry_through`]). Its rings have the mean circulation of the panels beside the two roots, in place of a
-//! condition on the flow through them, and from its front and rear edges leaves the mean of what leaves the wings beside it.
+//! No air passes between a wing and the body that it stands on, and circulation does not end there: outside it
+//! goes on over the skin, and what the rings of the skin make inside is the flow about vortices that go on
+//! through the body. A wing that ends at the skin has a root vortex there instead, to which panels of finite
+//! size hardly answer. So a strip of panels leads from each of the two roots to the middle between them
+//! ([`crate::Surface::carry_through`]). Its rings have the mean circulation of the panels beside the two roots,
+//! in place of a condition on the flow through them, and from its front and rear edges leaves the mean of what
+//! leaves the wings beside it.
 
 use crate::edges::EdgeKind;
 use crate::error::AirError;
@@ -17,7 +19,8 @@ pub(crate) struct Carried {
     pub panel: usize,
     /// The panels beside the two roots.
     pub beside: [usize; 2],
-    /// What leaves the leading edges there, and the trailing edges, if these are the first or last panels and their edges shed.
+    /// What leaves the leading edges there, and the trailing edges, if these are the first or last panels and
+    /// their edges shed.
     pub leaving: [Option<[WakeColumn; 2]>; 2],
 }
 

@@ -33,9 +33,10 @@ pub(crate) struct Rings {
     shift: f64,
 }
 
-/// Where the rings of the surfaces lie, whose strips these are. A lifting wing that sheds from its trailing edge has all rings aft by the same
-/// part of a panel, vortices at a quarter and control points at three quarters of each panel [Katz & Plotkin, Low-Speed
-/// Aerodynamics, sec. 12.3]. Without it the lattice is that of a wing a quarter panel ahead.
+/// Where the rings of the surfaces lie, whose strips these are. A lifting wing that sheds from its trailing
+/// edge has all rings aft by the same part of a panel, vortices at a quarter and control points at three
+/// quarters of each panel [Katz & Plotkin, Low-Speed Aerodynamics, sec. 12.3]. Without it the lattice is that
+/// of a wing a quarter panel ahead.
 pub(crate) fn rings(
     topology: &Topology,
     surfaces: &[Surface],
@@ -54,8 +55,8 @@ pub(crate) fn rings(
     rings
 }
 
-/// Side edges that do not shed: rings stay inside. So do those of roots on bodies, which are no free edges (docs/wings.md, "Wings on a
-/// body").
+/// Side edges that do not shed: rings stay inside. So do those of roots on bodies, which are no free edges
+/// (docs/wings.md, "Wings on a body").
 fn inset(topology: &Topology, surfaces: &[Surface], settings: &AirSettings, rings: &mut Rings) {
     let kinds = edge_kinds(topology, surfaces);
     let mut found = BTreeSet::new();
@@ -111,7 +112,8 @@ impl Rings {
         self.offsets.iter().map(offset).chain(shifted.map(shift))
     }
 
-    /// What a force on ring node `n` does to the nodes of the surface, which are at `position`: [`Self::place`], transposed.
+    /// What a force on ring node `n` does to the nodes of the surface, which are at `position`:
+    /// [`Self::place`], transposed.
     pub(crate) fn spread(
         &self,
         (n, position): (usize, &[DVec3]),

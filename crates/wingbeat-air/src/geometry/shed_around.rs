@@ -3,8 +3,8 @@
 use crate::geometry::surface::Surface;
 use crate::geometry::topology::Topology;
 
-/// An open surface, or several joined ones, that shed from every edge: lattice and wakes together have no edge but that of the
-/// oldest rows, so that a circulation common to all rings moves no air except by that edge.
+/// An open surface, or several joined ones, that shed from every edge: lattice and wakes together have no edge
+/// but that of the oldest rows, so that a circulation common to all rings moves no air except by that edge.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct ShedAround {
     pub panels: Vec<usize>,

@@ -13,7 +13,8 @@ pub struct Strip {
     pub edge: usize,
     /// Panels from the leading edge on (global).
     pub panels: Vec<usize>,
-    /// Nodes of the segment, of the edges between the panels and of the last panel's rear edge (global): one more than panels.
+    /// Nodes of the segment, of the edges between the panels and of the last panel's rear edge (global): one
+    /// more than panels.
     pub sides: Vec<[usize; 2]>,
 }
 
@@ -50,7 +51,8 @@ pub(crate) fn strips(topology: &Topology, surfaces: &[Surface]) -> Vec<Strip> {
     strips
 }
 
-/// From the leading-edge segment `edge` and its panel `first` on, panel to panel over opposite edges, until the surface ends.
+/// From the leading-edge segment `edge` and its panel `first` on, panel to panel over opposite edges, until the
+/// surface ends.
 fn walk(
     topology: &Topology,
     by_nodes: &BTreeMap<[usize; 2], usize>,
@@ -98,15 +100,15 @@ pub(crate) fn opposite(corners: [usize; 4], edge: [usize; 2]) -> [usize; 2] {
     })
 }
 
-/// From the middle of the leading edge of a strip to that of its rear edge [m], N components: columns of a mesh need not be
-/// normal to either.
+/// From the middle of the leading edge of a strip to that of its rear edge [m], N components: columns of a mesh
+/// need not be normal to either.
 pub(crate) fn column(strip: &Strip, position: &[DVec3]) -> DVec3 {
     let middle = |n: [usize; 2]| 0.5 * (position[n[0]] + position[n[1]]);
     middle(strip.rear()) - middle(strip.front())
 }
 
-/// The section of a strip normal to its leading edge: unit vector backward and length of the chord [m], N components. What flows along
-/// an edge, or how its mesh is sheared, makes no suction there.
+/// The section of a strip normal to its leading edge: unit vector backward and length of the chord [m], N
+/// components. What flows along an edge, or how its mesh is sheared, makes no suction there.
 pub(crate) fn section(strip: &Strip, position: &[DVec3]) -> (DVec3, f64) {
     let [from, to] = strip.front();
     let edge = position[to] - position[from];

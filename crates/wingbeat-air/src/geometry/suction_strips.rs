@@ -5,8 +5,8 @@ use crate::geometry::strips::Strip;
 use crate::geometry::symmetry::Symmetry;
 use crate::geometry::topology::{Sheet, Topology};
 
-/// Strips behind leading edges that shed, each with an unknown circulation that leaves within a step: one for both of a pair of
-/// mirror images.
+/// Strips behind leading edges that shed, each with an unknown circulation that leaves within a step: one for
+/// both of a pair of mirror images.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct SuctionStrips {
     /// Strips of the half that is computed, by their number among all strips.

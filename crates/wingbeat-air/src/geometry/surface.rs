@@ -30,9 +30,10 @@ pub struct Surface {
     pub shedding: Vec<Vec<SheddingSegment>>,
     /// Whether the surface encloses a volume.
     pub closed: bool,
-    /// Whether it is no surface of the animal but leads from the root of a wing to the middle of the body it stands on, joined to the wing and,
-    /// there, to its like of the other wing: it carries the mean circulation of the panels beside both roots through the body, lets air
-    /// through and holds no wake back. One column of panels, as many as the wing has along its chord.
+    /// Whether it is no surface of the animal but leads from the root of a wing to the middle of the body it
+    /// stands on, joined to the wing and, there, to its like of the other wing: it carries the mean circulation
+    /// of the panels beside both roots through the body, lets air through and holds no wake back. One column of
+    /// panels, as many as the wing has along its chord.
     pub carry_through: bool,
     /// Nodes at rest [m], in any frame that moves with the surface. On large lattices, what a surface does to itself is
     /// computed once from them, for as long as it has this shape, and when it has another they speed up the solution

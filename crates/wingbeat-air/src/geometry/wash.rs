@@ -1,9 +1,10 @@
 //! Place and motion of the surfaces as the vorticity on the rings meets them.
 //!
-//! A lattice whose rings begin at the leading edge is that of a wing a quarter panel ahead, as far as the edge holds its
-//! circulation: it is the lattice of rings a quarter panel aft, which is exact for a flat plate, but for its place. What leaves the
-//! edge as it leaves the trailing edge is in its place, for such a lattice looks the same from either edge. Therefore rings move, and are
-//! inclined, as the surface does behind them: by a quarter panel where the edge of the strip holds all, by less as more leaves.
+//! A lattice whose rings begin at the leading edge is that of a wing a quarter panel ahead, as far as the edge
+//! holds its circulation: it is the lattice of rings a quarter panel aft, which is exact for a flat plate, but
+//! for its place. What leaves the edge as it leaves the trailing edge is in its place, for such a lattice looks
+//! the same from either edge. Therefore rings move, and are inclined, as the surface does behind them: by a
+//! quarter panel where the edge of the strip holds all, by less as more leaves.
 
 use crate::geometry::aft::Aft;
 use crate::geometry::node_motion::NodeMotion;

@@ -7,13 +7,15 @@
 //! phi = V . x + 1/2 x . H x        velocity V + H x        x from X
 //! ```
 //!
-//! V is exactly the velocity of the centroid, from the momentum `rho surface-integral x (v . n) dA` of the inner fluid. H, symmetric
-//! without trace, is of all quadratic potentials the one nearest in energy (Ritz): with the second moments S of the volume the
-//! solution of `int (H_i x) . (H x) dV = surface-integral phi_i (v . n) dA` for the five H_i that span them. For ellipsoids it is the
-//! exact flow, whose angular momentum is `rho Vol (b^2 - c^2)^2 / (5 (b^2 + c^2))` times the angular velocity about axis a
-//! (Lamb, Hydrodynamics, art. 110); for other shapes it holds somewhat less than there is.
+//! V is exactly the velocity of the centroid, from the momentum `rho surface-integral x (v . n) dA` of the
+//! inner fluid. H, symmetric without trace, is of all quadratic potentials the one nearest in energy (Ritz):
+//! with the second moments S of the volume the solution of `int (H_i x) . (H x) dV = surface-integral phi_i (v
+//! . n) dA` for the five H_i that span them. For ellipsoids it is the exact flow, whose angular momentum is
+//! `rho Vol (b^2 - c^2)^2 / (5 (b^2 + c^2))` times the angular velocity about axis a (Lamb, Hydrodynamics, art. 110);
+//! for other shapes it holds somewhat less than there is.
 //!
-//! The jump of pressure across the skin holds the pressure of the inner fluid, which no real body feels; it is given back:
+//! The jump of pressure across the skin holds the pressure of the inner fluid, which no real body feels; it is
+//! given back:
 //!
 //! ```text
 //! -p = rho (V' . x + 1/2 x . (H' + H H) x) + const
@@ -62,7 +64,8 @@ pub(crate) fn outer_forces(lattice: &Lattice, state: &AirState, out: &mut AirLoa
     }
 }
 
-/// The volume within a closed surface: volume [m3], centroid [m], second moments about it `int x x^T dV` [m5], N components.
+/// The volume within a closed surface: volume [m3], centroid [m], second moments about it `int x x^T dV` [m5],
+/// N components.
 struct Solid {
     volume: f64,
     centroid: DVec3,
@@ -97,8 +100,8 @@ impl Solid {
             mean(&panels.point[range.clone()]),
             mean(&panels.velocity[range.clone()]),
         );
-        // On plane panels `sum x (V . A)` is Vol V only up to the error of the quadrature, which turns with the body: as the
-        // rate of a momentum it would be a force that grows with the speed of the observer.
+        // On plane panels `sum x (V . A)` is Vol V only up to the error of the quadrature, which turns with the
+        // body: as the rate of a momentum it would be a force that grows with the speed of the observer.
         let flux = range.clone().map(|p| {
             let x = panels.point[p] - middle;
             x * (panels.velocity[p] - mean_velocity).dot(panels.vector_area[p])

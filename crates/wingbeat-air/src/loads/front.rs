@@ -1,9 +1,9 @@
 //! The strip between a leading edge that wakes leave and the foremost vortices of the lattice.
 //!
-//! Where the suction of an edge is solved for, its wake begins at the very edge and the rings of the lattice lie a quarter panel
-//! aft. Across the strip between them the potential jumps by the circulation G of all that has left the edge, and as G grows there is a pressure
-//! `rho dG/dt` on it as on any panel. Without that force the impulse of what leaves, which has the area of the strip, is not that of the
-//! forces.
+//! Where the suction of an edge is solved for, its wake begins at the very edge and the rings of the lattice
+//! lie a quarter panel aft. Across the strip between them the potential jumps by the circulation G of all that
+//! has left the edge, and as G grows there is a pressure `rho dG/dt` on it as on any panel. Without that force
+//! the impulse of what leaves, which has the area of the strip, is not that of the forces.
 
 use crate::lattice::Lattice;
 use crate::loads::rate::rate_weights;
@@ -42,16 +42,16 @@ pub(crate) fn add_front(
     }
 }
 
-/// What left the edge of a column within the step before, counted as circulation of rings [m2/s]: it went to the two newest rows. None
-/// where there are not as many, as in a wake that is cut to one.
+/// What left the edge of a column within the step before, counted as circulation of rings [m2/s]: it went to
+/// the two newest rows. None where there are not as many, as in a wake that is cut to one.
 fn left_before(sheet: &WakeSheet, column: usize) -> Option<f64> {
     let older = sheet.rows().checked_sub(2)?;
     let change = sheet.newest(column) - sheet.gamma[older * sheet.columns + column];
     Some(change / (1.0 - NEW_VORTEX))
 }
 
-/// Rate of change of all that has left an edge [m2/s2], from what leaves it within this step and left it within the one before; to first
-/// order where that is not known.
+/// Rate of change of all that has left an edge [m2/s2], from what leaves it within this step and left it within
+/// the one before; to first order where that is not known.
 fn rate_of_what_left(
     lattice: &Lattice,
     state: &AirState,

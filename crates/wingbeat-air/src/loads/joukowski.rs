@@ -60,8 +60,8 @@ pub(crate) struct Flow<'a> {
 }
 
 impl Segments {
-    /// Replaces (or completes) the pressure forces of open surfaces as [`LoadMethod`] says, and takes the inviscid force of
-    /// all surfaces.
+    /// Replaces (or completes) the pressure forces of open surfaces as [`LoadMethod`] says, and takes the
+    /// inviscid force of all surfaces.
     pub(crate) fn add_forces(
         &mut self,
         lattice: &Lattice,
@@ -205,8 +205,8 @@ impl Segments {
         add_lag(lattice, state, filaments, position, out);
     }
 
-    /// Takes from strips behind leading edges that may shed what their suction lacks of the force it would have on round ones, and
-    /// whatever else pulls along them: what acts on a thin plate is normal to it.
+    /// Takes from strips behind leading edges that may shed what their suction lacks of the force it would have
+    /// on round ones, and whatever else pulls along them: what acts on a thin plate is normal to it.
     fn lose_suction(&self, lattice: &Lattice, out: &mut AirLoads) {
         let Some([_, efficiency]) = lattice.settings().leading.suction() else {
             return;
@@ -223,7 +223,8 @@ impl Segments {
         }
     }
 
-    /// Makes of the suction and of the normal forces of all strips what their leading edges hold and the vortices there leave of them.
+    /// Makes of the suction and of the normal forces of all strips what their leading edges hold and the
+    /// vortices there leave of them.
     fn vortex_lift(
         &mut self,
         state: &AirState,
@@ -272,9 +273,9 @@ impl Segments {
         }
     }
 
-    /// The suction of a strip is the part of its segments' forces forward, normal to the edge; it is added
-    /// to the leading panel along its normal, on the side to which the pressure of the strip pushes. It acts where suction
-    /// does, at the leading edge.
+    /// The suction of a strip is the part of its segments' forces forward, normal to the edge; it is added to
+    /// the leading panel along its normal, on the side to which the pressure of the strip pushes. It acts where
+    /// suction does, at the leading edge.
     fn polhamus(&self, lattice: &Lattice, motion: &NodeMotion, out: &mut AirLoads) {
         for strip in lattice.strips() {
             let (aft, _) = section(strip, &motion.position);

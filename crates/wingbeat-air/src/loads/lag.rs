@@ -1,12 +1,12 @@
 //! How far behind its rings a lattice's forces act.
 //!
-//! A lattice whose flow leaves one edge smoothly stands for a plate with its vortices at a quarter and its control
-//! points at three quarters of every panel, counted towards that edge: then circulation and moment of a flat plate in
-//! plane flow are exact on any number of panels [James 1972, Comput. Methods Appl. Mech. Eng. 1:59; Katz & Plotkin, Low-Speed
-//! Aerodynamics, sec. 11.1]. Rings that lie on the edges of the panels have them at zero and at half: they are those of
-//! a wing a quarter panel ahead, and what they feel acts a quarter panel farther aft. Where the flow leaves both edges
-//! or none, neither side has an advantage; what leaves an edge whose suction is solved for
-//! is vorticity beside an attached wing.
+//! A lattice whose flow leaves one edge smoothly stands for a plate with its vortices at a quarter and its
+//! control points at three quarters of every panel, counted towards that edge: then circulation and moment of a
+//! flat plate in plane flow are exact on any number of panels [James 1972, Comput. Methods Appl. Mech. Eng.
+//! 1:59; Katz & Plotkin, Low-Speed Aerodynamics, sec. 11.1]. Rings that lie on the edges of the panels have
+//! them at zero and at half: they are those of a wing a quarter panel ahead, and what they feel acts a quarter
+//! panel farther aft. Where the flow leaves both edges or none, neither side has an advantage; what leaves an
+//! edge whose suction is solved for is vorticity beside an attached wing.
 
 use crate::lattice::Lattice;
 use crate::loads::values::AirLoads;
@@ -18,8 +18,8 @@ use wingbeat_math::DVec3;
 /// Vortices lie so far behind the front of the panel they stand for, in panels.
 const VORTEX: f64 = 0.25;
 
-/// Moves the forces of all strips from the rings to where they act: by [`VORTEX`] towards the edge that the flow leaves,
-/// less what the rings are moved already.
+/// Moves the forces of all strips from the rings to where they act: by [`VORTEX`] towards the edge that the
+/// flow leaves, less what the rings are moved already.
 pub(crate) fn add_lag(
     lattice: &Lattice,
     state: &AirState,

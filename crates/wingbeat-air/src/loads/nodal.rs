@@ -1,10 +1,10 @@
 //! Forces on the nodes of the surfaces that do what forces and couples of the panels do: the same force, the same
 //! moment, and the same power in any motion of the nodes.
 //!
-//! Control point and spin of a panel are linear in the velocities of the corners of its ring, those in the velocities of
-//! the surface's nodes; loads go the same way back, transposed. With the diagonals d and e of the ring, n its normal and
-//! A = |d x e| the power of a couple C is `C . n x (d' x e + d x e') / A` and, about n, the mean of what turns either
-//! diagonal.
+//! Control point and spin of a panel are linear in the velocities of the corners of its ring, those in the
+//! velocities of the surface's nodes; loads go the same way back, transposed. With the diagonals d and e of the
+//! ring, n its normal and A = |d x e| the power of a couple C is `C . n x (d' x e + d x e') / A` and, about n,
+//! the mean of what turns either diagonal.
 
 use crate::geometry::{NodeMotion, corner_weights};
 use crate::lattice::Lattice;

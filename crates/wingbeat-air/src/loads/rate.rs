@@ -4,7 +4,8 @@ use crate::lattice::Lattice;
 use crate::settings::CirculationRate;
 use crate::state::AirState;
 
-/// Weights of the circulation now, one step and two steps before in its rate of change \[1/s\], `h` after the last step.
+/// Weights of the circulation now, one step and two steps before in its rate of change \[1/s\], `h` after the
+/// last step.
 pub(crate) fn rate_weights(lattice: &Lattice, state: &AirState, h: f64) -> [f64; 3] {
     let h0 = state.dt_before;
     match lattice.settings().rate {

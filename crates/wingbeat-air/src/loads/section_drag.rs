@@ -1,17 +1,19 @@
 //! Drag of the sections of wings at low Reynolds number, which an inviscid lattice lacks.
 //!
-//! Every strip behind the leading edge feels `D = 1/2 rho A (|U_t| U_t C_f + |U| U (cd0 + cd2 alpha^2))`, A its area, U the
-//! velocity of the undisturbed air past it and U_t the part of U along the strip:
+//! Every strip behind the leading edge feels `D = 1/2 rho A (|U_t| U_t C_f + |U| U (cd0 + cd2 alpha^2))`, A its
+//! area, U the velocity of the undisturbed air past it and U_t the part of U along the strip:
 //!
-//! - C_f is the friction of a laminar flat plate, see [`SectionDrag::speed_times_friction`]: attached boundary layers in
-//!   steady flow, Re from 10 to about 5e5. Where the flow leaves the leading edge, the face behind it lies in a bubble whose flow goes to and fro along it: of the friction of
-//!   that face acts what the edge holds of the suction of a plate at the angle alpha. (The force along a robot's wing falls with its incidence from 0.4 to nothing at
-//!   45 deg in the fit of Deng et al. 2006, IEEE Trans. Robot. 22:776.)
+//! - C_f is the friction of a laminar flat plate, see [`SectionDrag::speed_times_friction`]: attached boundary
+//!   layers in steady flow, Re from 10 to about 5e5. Where the flow leaves the leading edge, the face behind it
+//!   lies in a bubble whose flow goes to and fro along it: of the friction of that face acts what the edge
+//!   holds of the suction of a plate at the angle alpha. (The force along a robot's wing falls with its
+//!   incidence from 0.4 to nothing at 45 deg in the fit of Deng et al. 2006, IEEE Trans. Robot. 22:776.)
 //! - `cd0 + cd2 alpha^2` is a polar of the user's, alpha the angle between U and the strip.
 //!
-//! U is that of stream and motion at the control points, their mean over the strip by area: what wing
-//! and wakes induce is left out. The length in C_f is that of the strip's column of panels, however it stands on the edge.
-//! The lattice has the pressure drag of a wing at incidence already; the polar is for what it lacks. The force is spread over the panels of the strip by their area.
+//! U is that of stream and motion at the control points, their mean over the strip by area: what wing and wakes
+//! induce is left out. The length in C_f is that of the strip's column of panels, however it stands on the
+//! edge. The lattice has the pressure drag of a wing at incidence already; the polar is for what it lacks. The
+//! force is spread over the panels of the strip by their area.
 
 use crate::geometry::{Strip, column};
 use crate::lattice::Lattice;

@@ -13,11 +13,12 @@ use wingbeat_math::DVec3;
 /// The number that the criterion compares with its threshold, and the circulation that the leading edge holds, strip by
 /// strip.
 ///
-/// - Effective angle of attack [rad], 0 to pi: between the chord of the section normal to the edge and the wind that stream and motion
-///   make at the leading panel, in the plane of the section; what the wake induces is left out. Beyond the threshold all
-///   leaves, below it none.
-/// - Leading-edge suction parameter, from the net circulation of the leading edge ([`LeadingSection`]): the edge holds what gives it
-///   the threshold. Where what leaves is part of the solution, `suction` is what that found.
+/// - Effective angle of attack [rad], 0 to pi: between the chord of the section normal to the edge and the wind
+///   that stream and motion make at the leading panel, in the plane of the section; what the wake induces is
+///   left out. Beyond the threshold all leaves, below it none.
+/// - Leading-edge suction parameter, from the net circulation of the leading edge ([`LeadingSection`]): the
+///   edge holds what gives it the threshold. Where what leaves is part of the solution, `suction` is what that
+///   found.
 pub(crate) fn leading_values(
     (lattice, state): (&Lattice, &AirState),
     filaments: &Filaments,

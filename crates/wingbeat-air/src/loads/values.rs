@@ -54,20 +54,22 @@ pub struct AirLoads {
     pub leading: Vec<f64>,
     /// Circulation that the leading edge of each strip holds before flow leaves it, 0 where all leaves [m2/s].
     pub hold: Vec<f64>,
-    /// Circulation that leaves the leading edge of each strip within the step, where that is part of the solution, counted as
-    /// that of panels [m2/s].
+    /// Circulation that leaves the leading edge of each strip within the step, where that is part of the
+    /// solution, counted as that of panels [m2/s].
     pub leaving: Vec<f64>,
-    /// Chords for which the leading-edge vortex of each strip has been fed, less what was lost \[1\]: [`crate::VortexLift`].
+    /// Chords for which the leading-edge vortex of each strip has been fed, less what was lost \[1\]:
+    /// [`crate::VortexLift`].
     pub fed: Vec<f64>,
-    /// Strips that shed with a bounded effect on their own suction, or what they have too much for want of a solution that holds the suction of all.
+    /// Strips that shed with a bounded effect on their own suction, or what they have too much for want of a
+    /// solution that holds the suction of all.
     pub unfound: u64,
     /// Resultants of the surfaces.
     pub surfaces: Vec<SurfaceLoads>,
     /// Flow of the fictitious fluid inside each surface.
     pub inner: Vec<InnerFlow>,
-    /// Force on all surfaces of the inviscid air alone [N], N, with the suction of the edges that do not shed, whatever the
-    /// forces of the panels make of it: without friction and profile drag, and without Polhamus's normal force. It is
-    /// what the impulse is to be compared with.
+    /// Force on all surfaces of the inviscid air alone [N], N, with the suction of the edges that do not shed,
+    /// whatever the forces of the panels make of it: without friction and profile drag, and without Polhamus's
+    /// normal force. It is what the impulse is to be compared with.
     pub inviscid_force: DVec3,
     /// Impulse of all vorticity, that of dropped wakes included, less the momentum of the fictitious
     /// fluid [kg m/s], N components. In air that is at rest or in uniform motion far away, without images, its

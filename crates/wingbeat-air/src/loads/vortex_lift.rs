@@ -41,7 +41,8 @@ pub(crate) fn yielding(
     }
 }
 
-/// Suction parameter of a strip, positive where the leading panel lifts along its normal \[1\], and speed at its quarter chord [m/s].
+/// Suction parameter of a strip, positive where the leading panel lifts along its normal \[1\], and speed at
+/// its quarter chord [m/s].
 pub(crate) fn suction_parameter(
     lattice: &Lattice,
     strip: &Strip,
@@ -60,8 +61,8 @@ pub(crate) fn foremost(strip: &Strip, gamma: &[f64]) -> [f64; 2] {
     [first, second]
 }
 
-/// Rate at which the section of a strip turns about axes across its span [rad/s]: how the velocity of its quarter chord changes along
-/// the span, pitching apart.
+/// Rate at which the section of a strip turns about axes across its span [rad/s]: how the velocity of its
+/// quarter chord changes along the span, pitching apart.
 fn turning(strip: &Strip, motion: &NodeMotion, aft: DVec3) -> f64 {
     let sides = sides(strip, motion);
     let across = |list: &[DVec3]| {

@@ -28,10 +28,11 @@ pub struct AirSettings {
     /// scales smaller than its own length. Far off it changes nothing, nor any circulation or
     /// impulse. Algebraic cores are no wider for it than a quarter of the way along the sheet from its edge.
     pub wake_overlap: f64,
-    /// Length [m] from which a free wake filament turns into a vortex blob, wholly at 1.25 times this length: its strength
-    /// Gamma (b - a) as a Gaussian about its middle, as wide as its core; none: never. Where `wake_overlap` has made
-    /// cores as wide as filaments are long, hardly more than the description changes, but blobs can be summed at
-    /// a cost that grows with their number and not with its square ([`wingbeat_vortex::GaussianSum`]).
+    /// Length [m] from which a free wake filament turns into a vortex blob, wholly at 1.25 times this length:
+    /// its strength Gamma (b - a) as a Gaussian about its middle, as wide as its core; none: never. Where
+    /// `wake_overlap` has made cores as wide as filaments are long, hardly more than the description changes,
+    /// but blobs can be summed at a cost that grows with their number and not with its square
+    /// ([`wingbeat_vortex::GaussianSum`]).
     pub wake_blob_length: Option<f64>,
     /// Which edges shed.
     pub shedding: SheddingKinds,
@@ -51,8 +52,8 @@ pub struct AirSettings {
     /// Free wake nodes keep this distance [m] from surfaces and do not pass through them; the
     /// core radius is the natural choice. 0 lets them pass (the published benchmark).
     pub clearance: f64,
-    /// Whether all nodes of a row of wake move alike, with the air in the middle of the row: plane flow. Where long straight
-    /// filaments end in nodes that move each by itself, these part within beats.
+    /// Whether all nodes of a row of wake move alike, with the air in the middle of the row: plane flow. Where
+    /// long straight filaments end in nodes that move each by itself, these part within beats.
     pub plane_wakes: bool,
     /// Convection of the wakes.
     pub convection: Convection,
@@ -77,8 +78,8 @@ pub struct AirSettings {
     pub particles: Option<ParticleSettings>,
     /// How the velocities of the wakes' rings are summed.
     pub summation: Method,
-    /// Allowed error of meshes, tree and single precision: root mean square over the places where velocities are wanted,
-    /// relative to that of the velocity.
+    /// Allowed error of meshes, tree and single precision: root mean square over the places where velocities
+    /// are wanted, relative to that of the velocity.
     pub tolerance: f64,
 }
 
@@ -178,7 +179,8 @@ impl AirSettings {
         }
     }
 
-    /// Part of a panel by which rings that begin at the leading edge stand for the wing behind them where that edge holds all.
+    /// Part of a panel by which rings that begin at the leading edge stand for the wing behind them where that
+    /// edge holds all.
     pub(crate) fn held_shift(&self) -> f64 {
         let may_hold = self.shedding.leading && self.leading != LeadingEdge::Always;
         match self.shedding.trailing && may_hold && !self.solves_suction() {
@@ -192,8 +194,9 @@ impl AirSettings {
         self.shedding.leading || matches!(self.leading, LeadingEdge::VortexLift(_))
     }
 
-    /// Part of the friction of an attached plate at this incidence [rad], 0 to pi/2, that its strips feel: the face that the flow leaves at the leading edge has as much of
-    /// its own as the edge holds of the suction \[1\].
+    /// Part of the friction of an attached plate at this incidence [rad], 0 to pi/2, that its strips feel: the
+    /// face that the flow leaves at the leading edge has as much of its own as the edge holds of the suction
+    /// \[1\].
     pub(crate) fn friction_felt(&self, incidence: f64) -> f64 {
         match self.flow_may_leave_leading_edges() {
             true => 0.5 * (1.0 + self.leading.holds(incidence)),

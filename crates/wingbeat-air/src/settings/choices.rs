@@ -119,23 +119,24 @@ pub enum LeadingEdge {
     Suction {
         /// Threshold, above 0.
         threshold: f64,
-        /// Part of the force of the suction held, and of all else that pulls along the wing, that acts, 0 to 1: the leading-edge suction efficiency [`DeLaurier` 1993,
-        /// Aeronaut. J. 97:125]. Thin sharp edges hold the circulation in a bubble and have none of that force: what they
-        /// feel is normal to the wing [Usherwood & Ellington 2002, J. Exp. Biol. 205:1547]. Forces on segments have it; pressures
-        /// alone have none anyway.
+        /// Part of the force of the suction held, and of all else that pulls along the wing, that acts, 0 to 1:
+        /// the leading-edge suction efficiency [`DeLaurier` 1993, Aeronaut. J. 97:125]. Thin sharp edges hold
+        /// the circulation in a bubble and have none of that force: what they feel is normal to the wing
+        /// [Usherwood & Ellington 2002, J. Exp. Biol. 205:1547]. Forces on segments have it; pressures alone
+        /// have none anyway.
         efficiency: f64,
     },
-    /// The same, what leaves being found together with the circulations of the same instant, so that no edge ever has more than it
-    /// holds. Rings lie aft as in attached flow, the wake begins at the very edge, and the suction counts what vorticity beside
-    /// the leading panel makes along it.
+    /// The same, what leaves being found together with the circulations of the same instant, so that no edge
+    /// ever has more than it holds. Rings lie aft as in attached flow, the wake begins at the very edge, and
+    /// the suction counts what vorticity beside the leading panel makes along it.
     SuctionImplicit {
         /// Threshold, above 0.
         threshold: f64,
         /// Part of the force of the suction held that acts, 0 to 1, as above.
         efficiency: f64,
     },
-    /// Nowhere: what the suction parameter has beyond the threshold acts as the normal force of a leading-edge vortex, which
-    /// is lost when it has been fed for too long, see [`VortexLift`].
+    /// Nowhere: what the suction parameter has beyond the threshold acts as the normal force of a leading-edge
+    /// vortex, which is lost when it has been fed for too long, see [`VortexLift`].
     VortexLift(VortexLift),
 }
 
@@ -165,9 +166,11 @@ impl LeadingEdge {
         }
     }
 
-    /// Part of the suction of a plate at this incidence [rad], 0 to pi/2, that the edge holds: the rest of the flow leaves it \[1\].
+    /// Part of the suction of a plate at this incidence [rad], 0 to pi/2, that the edge holds: the rest of the
+    /// flow leaves it \[1\].
     ///
-    /// Where a suction parameter decides, the plate's is the sine of its incidence, and the part is rounded as [`VortexLift`] rounds it.
+    /// Where a suction parameter decides, the plate's is the sine of its incidence, and the part is rounded as
+    /// [`VortexLift`] rounds it.
     pub(crate) fn holds(&self, incidence: f64) -> f64 {
         match *self {
             Self::Never => 1.0,

@@ -18,7 +18,8 @@ pub struct SectionDrag {
 pub enum Friction {
     /// None.
     None,
-    /// Laminar flat plate, both faces, less on one where the flow leaves the leading edge, see [`SectionDrag::speed_times_friction`].
+    /// Laminar flat plate, both faces, less on one where the flow leaves the leading edge, see
+    /// [`SectionDrag::speed_times_friction`].
     Blasius {
         /// Kinematic viscosity nu [m2/s].
         viscosity: f64,
@@ -44,10 +45,10 @@ impl SectionDrag {
     /// `C_f = 1.328 / sqrt(Re) + 2.67 / Re^(7/8)`, `Re = |U| c / nu`
     ///
     /// # Source
-    /// Blasius 1908; trailing edge: Stewartson 1969, Mathematika 16:106, Messiter 1970, SIAM J. Appl. Math. 18:241, the
-    /// number by Jobe & Burggraf 1974, Proc. R. Soc. Lond. A 340:91. Solutions of the Navier-Stokes equations have 0.740,
-    /// 0.311, 0.180, 0.0812 and 0.0496 at Re = 10, 40, 100, 400 and 1000 (steady, in elliptic coordinates): this is 5 %
-    /// more at 10 and within 3 % from 40 on, Blasius alone is 26 % short at 100.
+    /// Blasius 1908; trailing edge: Stewartson 1969, Mathematika 16:106, Messiter 1970, SIAM J. Appl. Math.
+    /// 18:241, the number by Jobe & Burggraf 1974, Proc. R. Soc. Lond. A 340:91. Solutions of the Navier-Stokes
+    /// equations have 0.740, 0.311, 0.180, 0.0812 and 0.0496 at Re = 10, 40, 100, 400 and 1000 (steady, in
+    /// elliptic coordinates): this is 5 % more at 10 and within 3 % from 40 on, Blasius alone is 26 % short at 100.
     pub fn speed_times_friction(&self, speed: f64, chord: f64) -> f64 {
         match self.friction {
             Friction::None => 0.0,

@@ -5,8 +5,8 @@ use std::f64::consts::TAU;
 use crate::error::{AirError, require};
 use wingbeat_math::DVec3;
 
-/// Two rows of vortices of opposite sense, a half spacing apart along each other, that travel as they are: the wake of a
-/// bluff body, or of an animal ahead.
+/// Two rows of vortices of opposite sense, a half spacing apart along each other, that travel as they are: the
+/// wake of a bluff body, or of an animal ahead.
 ///
 /// Each row is Stuart's, with vortices of finite size; towards `concentration` 1 they become points [Stuart 1967, J.
 /// Fluid Mech. 29:417; von Karman 1911].
@@ -24,7 +24,8 @@ pub struct VortexStreet {
     pub drift: DVec3,
     /// Axis of the vortices, N components \[1\].
     pub axis: DVec3,
-    /// A point midway between the rows at time 0, abreast of a vortex of the row towards `axis x drift` [m], N components.
+    /// A point midway between the rows at time 0, abreast of a vortex of the row towards `axis x drift` [m], N
+    /// components.
     pub point: DVec3,
 }
 
@@ -56,7 +57,8 @@ impl VortexStreet {
         [-half * y.sinh() / below, half * c * sin / below]
     }
 
-    /// Rate [m/s2] of that velocity at a point that is at `x` [m] and moves with `v` [m/s] at time `t` [s], N components.
+    /// Rate [m/s2] of that velocity at a point that is at `x` [m] and moves with `v` [m/s] at time `t` [s], N
+    /// components.
     pub fn rate(&self, x: DVec3, v: DVec3, t: f64) -> DVec3 {
         let along = self.drift.normalize();
         let across = self.axis.normalize().cross(along);
@@ -148,7 +150,8 @@ mod tests {
 
     #[test]
     fn exact_a_street_of_points_is_the_sum_of_its_vortices() {
-        // Second method: 40,001 point vortices a row one by one; what is left out is the far ends, 1e-5 of the velocity.
+        // Second method: 40,001 point vortices a row one by one; what is left out is the far ends, 1e-5 of the
+        // velocity.
         let s = street(1.0 - 1e-12);
         let along = s.drift.normalize();
         let across = s.axis.normalize().cross(along);

@@ -46,8 +46,8 @@ pub enum Spectrum {
 
 /// Bins of log omega, from [`BAND`].0 / T to [`BAND`].1 / T.
 const WAVES: usize = 64;
-/// Ends of the band over 1 / T. Below it are 0.6 % of the variance (along, Dryden; across 0.3 %), carried by the first wave; above
-/// it 0.6 % (along, Dryden) to 4 % (across, von Karman), shared out among all waves.
+/// Ends of the band over 1 / T. Below it are 0.6 % of the variance (along, Dryden; across 0.3 %), carried by
+/// the first wave; above it 0.6 % (along, Dryden) to 4 % (across, von Karman), shared out among all waves.
 const BAND: (f64, f64) = (0.01, 100.0);
 
 /// Turbulent course of one component over its root mean square.

@@ -1,34 +1,39 @@
 //! Vortex lift of attached lattices: what a leading edge does that holds some suction and has a vortex of the rest.
 //!
-//! No vorticity leaves the edge, so what a flight does is smooth. Of the suction parameter A0 of a strip the edge holds `h`, the lesser of
-//! A0 and the threshold, rounded where they meet. The force of the suction is as the square of A0, so the part `sigma = (h / A0)^2`
-//! acts as suction, times the edge's efficiency; the rest would be the normal force of a vortex at the edge that the flow closes
-//! behind [Polhamus 1966, NASA TN D-3767]. How much of it is there says a state of the strip, the chords T for which its vortex has been fed:
+//! No vorticity leaves the edge, so what a flight does is smooth. Of the suction parameter A0 of a strip the
+//! edge holds `h`, the lesser of A0 and the threshold, rounded where they meet. The force of the suction is as
+//! the square of A0, so the part `sigma = (h / A0)^2` acts as suction, times the edge's efficiency; the rest
+//! would be the normal force of a vortex at the edge that the flow closes behind [Polhamus 1966, NASA TN
+//! D-3767]. How much of it is there says a state of the strip, the chords T for which its vortex has been fed:
 //!
 //! `dT/dt = g U / c - T (|W| + (1 - g) U / (c T_r))`
 //!
-//! g is 0 below the threshold and 1 above, U the speed of stream and motion at the quarter chord and c the chord of the section normal to the edge, W the rate at which the
-//! section turns about axes across the span, T_r [`RECOVERY`]:
+//! g is 0 below the threshold and 1 above, U the speed of stream and motion at the quarter chord and c the
+//! chord of the section normal to the edge, W the rate at which the section turns about axes across the span,
+//! T_r [`RECOVERY`]:
 //!
-//! - The circulation of a vortex grows with the way the wing goes, up to T* chords, 3.7 +- 0.3 of pitching plates [Onoue & Breuer
-//!   2016, J. Fluid Mech. 793:229] and about 4 otherwise: its force is T / T* of Polhamus's.
-//! - A wing that turns carries the vorticity outboard at the rate of its turning. In steady revolution T is then the strip's radius in
-//!   chords, and less than T* within the radius of four chords, where vortices of revolving wings stay [Kruyt et al. 2015, J. R. Soc. Interface
-//!   12:20150051].
-//! - A vortex that is fed for longer leaves, between T* and 1.5 T*. What remains is a wing that has stalled: its circulation makes `((1 + sigma) / 2)^2` of its normal
-//!   force, Kirchhoff's law where `sigma^2` of the chord is attached [Leishman & Beddoes 1989, J. Am. Helicopter Soc. 34(3):3], and
-//!   of Polhamus's force [`REMAINDER`] is left.
+//! - The circulation of a vortex grows with the way the wing goes, up to T* chords, 3.7 +- 0.3 of pitching
+//!   plates [Onoue & Breuer 2016, J. Fluid Mech. 793:229] and about 4 otherwise: its force is T / T* of
+//!   Polhamus's.
+//! - A wing that turns carries the vorticity outboard at the rate of its turning. In steady revolution T is
+//!   then the strip's radius in chords, and less than T* within the radius of four chords, where vortices of
+//!   revolving wings stay [Kruyt et al. 2015, J. R. Soc. Interface 12:20150051].
+//! - A vortex that is fed for longer leaves, between T* and 1.5 T*. What remains is a wing that has stalled:
+//!   its circulation makes `((1 + sigma) / 2)^2` of its normal force, Kirchhoff's law where `sigma^2` of the
+//!   chord is attached [Leishman & Beddoes 1989, J. Am. Helicopter Soc. 34(3):3], and of Polhamus's force
+//!   [`REMAINDER`] is left.
 //! - An edge that has again no more suction than it holds recovers within [`RECOVERY`] chords.
 
 use crate::error::{AirError, require};
 use wingbeat_math::smoothstep;
 
-/// Rounding, relative to the threshold and to T*: plates hold 0.11 to 0.19 about 0.15 [Ramesh et al. 2014, J. Fluid Mech. 751:500], flow
-/// attaches again at 0.07 to 0.13, and vortex lift decays within two to three chords [Leishman & Beddoes 1989].
+/// Rounding, relative to the threshold and to T*: plates hold 0.11 to 0.19 about 0.15 [Ramesh et al. 2014, J.
+/// Fluid Mech. 751:500], flow attaches again at 0.07 to 0.13, and vortex lift decays within two to three chords
+/// [Leishman & Beddoes 1989].
 const SPREAD: f64 = 0.25;
 
-/// Part of Polhamus's normal force that a stalled plate has: across the stream, where the attached lattice has 2 pi in plane flow, it
-/// has a normal force coefficient of 2.
+/// Part of Polhamus's normal force that a stalled plate has: across the stream, where the attached lattice has
+/// 2 pi in plane flow, it has a normal force coefficient of 2.
 const REMAINDER: f64 = 1.0 / std::f64::consts::PI;
 
 /// Chords of travel in which flow attaches: three half chords [Leishman & Beddoes 1989].
@@ -77,7 +82,8 @@ pub(crate) struct Parts {
 }
 
 impl VortexLift {
-    /// Chords for which the vortex has been fed when the suction parameter `a0` has lasted for `dt` [s] of this passage.
+    /// Chords for which the vortex has been fed when the suction parameter `a0` has lasted for `dt` [s] of this
+    /// passage.
     pub(crate) fn fed(&self, before: f64, a0: f64, passage: Passage, dt: f64) -> f64 {
         let Passage { chords, turning } = passage;
         let feeds = step(a0.abs() / self.threshold);
@@ -147,7 +153,8 @@ fn mean_decay(x: f64) -> f64 {
 mod tests {
     use super::*;
 
-    /// Forces are differentiable in the suction parameter and in what was fed, where the edge begins to yield and where vortices are lost too.
+    /// Forces are differentiable in the suction parameter and in what was fed, where the edge begins to yield
+    /// and where vortices are lost too.
     #[test]
     fn exact_no_kinks() {
         let law = VortexLift {

@@ -17,8 +17,8 @@ pub enum GustShape {
     /// Straight lines between (tau [s], share); nothing before the first row, the last value after
     /// the last one.
     Table(Vec<(f64, f64)>),
-    /// Turbulence of the amplitude as root mean square, from the start on; a front that travels carries it along, frozen
-    /// [Taylor 1938].
+    /// Turbulence of the amplitude as root mean square, from the start on; a front that travels carries it
+    /// along, frozen [Taylor 1938].
     Turbulence(Turbulence),
 }
 
@@ -57,7 +57,8 @@ impl GustShape {
 }
 
 impl GustShape {
-    /// Rate of that share at the gust's own time `tau` [1/s]; at a corner of a table that of the line after it. Jumps have none.
+    /// Rate of that share at the gust's own time `tau` [1/s]; at a corner of a table that of the line after it.
+    /// Jumps have none.
     ///
     /// ```
     /// use wingbeat_air::GustShape;
@@ -126,8 +127,8 @@ impl Wind {
         shear + self.gusts.iter().map(gust).sum::<DVec3>() + street
     }
 
-    /// Rate [m/s2] of that velocity at a point that is at `x` [m] and moves with `v` [m/s] at time `t` [s], N components.
-    /// Jumps of tables have none.
+    /// Rate [m/s2] of that velocity at a point that is at `x` [m] and moves with `v` [m/s] at time `t` [s], N
+    /// components. Jumps of tables have none.
     pub fn rate(&self, x: DVec3, v: DVec3, t: f64) -> DVec3 {
         let gust = |g: &Gust| {
             let passing = 1.0 - g.slowness.dot(v);
@@ -138,8 +139,8 @@ impl Wind {
         shear + self.gusts.iter().map(gust).sum::<DVec3>() + street
     }
 
-    /// What of that velocity is the same everywhere at time `t` [s], that of gusts without a front, with its rate [m/s, m/s2], N
-    /// components.
+    /// What of that velocity is the same everywhere at time `t` [s], that of gusts without a front, with its
+    /// rate [m/s, m/s2], N components.
     pub fn at_once(&self, t: f64) -> [DVec3; 2] {
         let gusts = self.gusts.iter();
         let everywhere = gusts.filter(|g| g.slowness == DVec3::ZERO);
@@ -311,7 +312,8 @@ mod tests {
             let at = |t: f64| wind.at(x + t * v, t);
             let difference = (at(t + h) - at(t - h)) / (2.0 * h);
             let rate = wind.rate(x + t * v, v, t);
-            // Rounding of the difference: 1e-16 / 1e-6; its error h^2 times the third derivative of waves of some 100 1/s.
+            // Rounding of the difference: 1e-16 / 1e-6; its error h^2 times the third derivative of waves of
+            // some 100 1/s.
             assert!(
                 (rate - difference).length() < 1e-6 * rate.length().max(1.0),
                 "{t}: {rate} {difference}"

@@ -26,8 +26,8 @@ pub(crate) struct BoundaryCondition {
 }
 
 impl BoundaryCondition {
-    /// Circulations of the panels and what leaves the leading edges: the rings make up for what motion, stream and wakes leave.
-    /// The filaments are those of this instant.
+    /// Circulations of the panels and what leaves the leading edges: the rings make up for what motion, stream
+    /// and wakes leave. The filaments are those of this instant.
     ///
     /// # Errors
     /// Equations without a unique solution.

@@ -81,8 +81,8 @@ impl Influence {
         self.augment(now.lattice);
     }
 
-    /// Puts in place of the equations of panels within bodies that their circulations are the mean of those beside the two roots;
-    /// `right` is the right-hand side.
+    /// Puts in place of the equations of panels within bodies that their circulations are the mean of those
+    /// beside the two roots; `right` is the right-hand side.
     pub(crate) fn carry(&mut self, lattice: &Lattice, right: &mut [f64]) {
         let computed = lattice.carried().iter();
         for carried in computed.filter(|c| is_computed(lattice, c.panel)) {
@@ -158,8 +158,8 @@ impl Influence {
         (self.circulation).solve_another(known, state, &self.matrix, gamma)
     }
 
-    /// Spreads the circulations of the unknowns, which stand first, over all panels; `net_flux_residual` is the uniform normal
-    /// velocity [m/s] of each surface that the rings could not make.
+    /// Spreads the circulations of the unknowns, which stand first, over all panels; `net_flux_residual` is the
+    /// uniform normal velocity [m/s] of each surface that the rings could not make.
     pub(crate) fn spread(
         &self,
         lattice: &Lattice,

@@ -40,9 +40,9 @@ pub(crate) struct LeadingEdges {
 }
 
 impl LeadingEdges {
-    /// What leaves each strip, counted as circulation of panels [m2/s], where that is part of the solution; `gamma` has the
-    /// circulations of the unknowns if nothing leaves, and gets those of what does. The filaments have the circulations of wakes
-    /// alone.
+    /// What leaves each strip, counted as circulation of panels [m2/s], where that is part of the solution;
+    /// `gamma` has the circulations of the unknowns if nothing leaves, and gets those of what does. The
+    /// filaments have the circulations of wakes alone.
     ///
     /// # Errors
     /// Equations without a unique solution.
@@ -124,7 +124,8 @@ impl LeadingEdges {
         }
     }
 
-    /// Counts what wakes make along the leading panels and the lattice does not see: those that are there, and what leaves.
+    /// Counts what wakes make along the leading panels and the lattice does not see: those that are there, and
+    /// what leaves.
     fn count_unseen(&mut self, now: Instant, filaments: &Filaments) {
         let computed = &now.lattice.suction().computed;
         let (n, strips) = (computed.len(), &self.strips);
@@ -183,8 +184,8 @@ impl LeadingEdges {
         Ok(())
     }
 
-    /// Gives what leaves a strip so much effect on its own suction that what leaves all of them together has at least that which it has where
-    /// the wing has turned into its newest row.
+    /// Gives what leaves a strip so much effect on its own suction that what leaves all of them together has at
+    /// least that which it has where the wing has turned into its newest row.
     fn bound_effects(&mut self, now: Instant) {
         let computed = &now.lattice.suction().computed;
         self.given.clear();
@@ -199,8 +200,8 @@ impl LeadingEdges {
         }
     }
 
-    /// Takes from the suction that is reported what the bound on its effect has given to what leaves, and counts the strips that shed so,
-    /// unless all that shed are counted for want of a solution.
+    /// Takes from the suction that is reported what the bound on its effect has given to what leaves, and
+    /// counts the strips that shed so, unless all that shed are counted for want of a solution.
     fn take_back(&mut self) {
         let is_counted = self.unfound > 0;
         let release = &mut self.release;

@@ -1,14 +1,17 @@
 //! The section behind a segment of a leading edge, and what its two foremost vortices tell of its suction.
 //!
-//! The suction parameter A0 is the coefficient of the suction singularity in thin-airfoil theory,
-//! `A0 = 1 / (pi U) integral w dtheta` along the chord, `cos theta = 1 - 2 x / c`, w the normal velocity of air against wing that
-//! the wing's own vorticity has to annul [Ramesh et al. 2014, J. Fluid Mech. 751:500].
+//! The suction parameter A0 is the coefficient of the suction singularity in thin-airfoil theory, `A0 = 1 / (pi
+//! U) integral w dtheta` along the chord, `cos theta = 1 - 2 x / c`, w the normal velocity of air against wing
+//! that the wing's own vorticity has to annul [Ramesh et al. 2014, J. Fluid Mech. 751:500].
 //!
-//! A lattice of a section in plane flow, vortices v at a quarter and control points c at three quarters along panels of any lengths, is solved by partial
-//! fractions: if w is even it has the circulations `G_j = 2 pi w P_j`, `P_j = prod_i |c_i - v_j| / prod_(k != j) |v_k - v_j|` [James 1972, Comput. Methods
-//! Appl. Mech. Eng. 1:59], and if w is linear, `U A0 + b (x - c / 2)`, it has `G_j = 2 pi P_j (U A0 + b v_j)`. So `G_j / (2 pi U P_j)` is linear in the place of the
-//! vortices and A0 its value at the leading edge, on any number of panels. The foremost vortex alone [Hirato et al. 2019, AIAA J. 57:4034] has
-//! a part of the next modes besides, of first order in the length of its panel: a plate that pitches about its quarter chord seems to have 11 % too much suction on eight panels.
+//! A lattice of a section in plane flow, vortices v at a quarter and control points c at three quarters along
+//! panels of any lengths, is solved by partial fractions: if w is even it has the circulations `G_j = 2 pi w
+//! P_j`, `P_j = prod_i |c_i - v_j| / prod_(k != j) |v_k - v_j|` [James 1972, Comput. Methods Appl. Mech. Eng.
+//! 1:59], and if w is linear, `U A0 + b (x - c / 2)`, it has `G_j = 2 pi P_j (U A0 + b v_j)`. So `G_j / (2 pi U
+//! P_j)` is linear in the place of the vortices and A0 its value at the leading edge, on any number of panels.
+//! The foremost vortex alone [Hirato et al. 2019, AIAA J. 57:4034] has a part of the next modes besides, of
+//! first order in the length of its panel: a plate that pitches about its quarter chord seems to have 11 % too
+//! much suction on eight panels.
 //!
 //! U is the speed of stream and motion at the quarter chord, in the plane of the section.
 
@@ -94,14 +97,14 @@ impl LeadingSection {
         self.speed * self.per_speed
     }
 
-    /// Circulation that the foremost vortex would have without the next mode of thin-airfoil theory, of which it has the given share, 0 to 1; `net` are those
-    /// of the two foremost [m2/s].
+    /// Circulation that the foremost vortex would have without the next mode of thin-airfoil theory, of which
+    /// it has the given share, 0 to 1; `net` are those of the two foremost [m2/s].
     pub fn counted(&self, net: [f64; 2], share: f64) -> f64 {
         net[0] + share * self.ahead * (net[0] - self.ratio * net[1])
     }
 
-    /// Largest circulation of the foremost vortex, not below zero, that counts as a suction parameter of `threshold` where the second has `second` [m2/s], counted
-    /// positive in the same direction.
+    /// Largest circulation of the foremost vortex, not below zero, that counts as a suction parameter of
+    /// `threshold` where the second has `second` [m2/s], counted positive in the same direction.
     pub fn limit(&self, threshold: f64, second: f64, share: f64) -> f64 {
         let without = self.counted([0.0, second], share);
         ((threshold * self.unit() - without) / (1.0 + share * self.ahead)).max(0.0)
@@ -150,7 +153,8 @@ impl<F: Fn(usize) -> f64> Row<F> {
         (0..self.count).map(part).product()
     }
 
-    /// Weight of the normal velocity at control point `i` in that at the leading edge of what the two foremost vortices make of a linear one.
+    /// Weight of the normal velocity at control point `i` in that at the leading edge of what the two foremost
+    /// vortices make of a linear one.
     fn weight(&self, i: usize) -> f64 {
         let c = self.point(i);
         let part = |k: usize| match k == i {
@@ -162,8 +166,8 @@ impl<F: Fn(usize) -> f64> Row<F> {
     }
 }
 
-/// The wind that stream and motion make at the quarter chord of a strip, whose leading edge is at `middle` [m, m/s]: that of
-/// its control points, which is linear along a rigid section.
+/// The wind that stream and motion make at the quarter chord of a strip, whose leading edge is at `middle` [m,
+/// m/s]: that of its control points, which is linear along a rigid section.
 fn quarter_chord_wind(
     (lattice, panels, time): (&Lattice, &Panels, f64),
     strip: &Strip,
@@ -183,8 +187,8 @@ fn quarter_chord_wind(
 mod tests {
     use super::*;
 
-    /// What the two foremost vortices make of an even normal velocity is that velocity, and nothing of one that is linear about mid chord, for panels of
-    /// any lengths whose first and last are alike.
+    /// What the two foremost vortices make of an even normal velocity is that velocity, and nothing of one that
+    /// is linear about mid chord, for panels of any lengths whose first and last are alike.
     #[test]
     fn exact_weights_of_even_and_linear_normal_velocities() {
         for ends in [&[0.0, 0.5, 1.0][..], &[0.0, 0.1, 0.35, 0.8, 0.9]] {

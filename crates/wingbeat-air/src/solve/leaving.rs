@@ -6,7 +6,8 @@ use crate::wake::{Filaments, Share};
 use wingbeat_math::DVec3;
 use wingbeat_vortex::{BLOCK, Network, UnitEdges};
 
-/// The filaments whose circulation has a part of what leaves: those of the newest rows and the leading edges themselves.
+/// The filaments whose circulation has a part of what leaves: those of the newest rows and the leading edges
+/// themselves.
 #[derive(Default)]
 pub(crate) struct Leaving {
     near_wake: UnitEdges,
@@ -49,7 +50,8 @@ impl Leaving {
         self.rates.resize(room.max(self.rates.len()), 0.0);
     }
 
-    /// Shows the normal velocities at `points`, with their normals, that newest rows and mirror images make: point and part.
+    /// Shows the normal velocities at `points`, with their normals, that newest rows and mirror images make:
+    /// point and part.
     pub fn near_wake(
         &mut self,
         lattice: &Lattice,

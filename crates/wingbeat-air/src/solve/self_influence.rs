@@ -16,8 +16,8 @@ use wingbeat_vortex::{BLOCK, Network, UnitEdges};
 /// Unknowns from which it pays: below, factors take less time than iterations.
 const LARGE: usize = 256;
 
-/// How far a node of a surface of known shape may be from where it belongs, relative to the size of the surface: far above
-/// round-off, and far too little for any effect.
+/// How far a node of a surface of known shape may be from where it belongs, relative to the size of the
+/// surface: far above round-off, and far too little for any effect.
 const TOLERANCE: f64 = 1e-10;
 
 /// What one surface does to itself.
@@ -81,8 +81,8 @@ fn known_shapes(lattice: &Lattice) -> Vec<SelfInfluence> {
 }
 
 impl SelfInfluence {
-    /// Surface `s` with its nodes at `rest`; all nodes of the rings are at `nodes`. None if there is nothing to know: no
-    /// shape, no unknowns, edges shared with another surface, rings that cannot be.
+    /// Surface `s` with its nodes at `rest`; all nodes of the rings are at `nodes`. None if there is nothing to
+    /// know: no shape, no unknowns, edges shared with another surface, rings that cannot be.
     fn new(lattice: &Lattice, s: usize, rest: &[DVec3], nodes: &[DVec3]) -> Option<Self> {
         let (topology, panels) = (lattice.topology(), lattice.panels_of(s));
         let is_mine = |node: &usize| lattice.nodes_of(s).contains(node);
@@ -193,8 +193,8 @@ impl SelfInfluence {
     }
 }
 
-/// Adds `alpha` to all entries of the block of a closed surface, see [`crate::solve::influence::Influence`], whose unknowns
-/// begin at `first`; returns it.
+/// Adds `alpha` to all entries of the block of a closed surface, see [`crate::solve::influence::Influence`],
+/// whose unknowns begin at `first`; returns it.
 pub(crate) fn augment(lattice: &Lattice, s: usize, first: usize, block: &mut RowBlocks) -> f64 {
     let panels = lattice.panels_of(s);
     let at = |p: usize| unknown(lattice, p) - first;

@@ -1,12 +1,13 @@
 //! Suction at leading edges: what each strip has, and what has to leave so that none has more than it holds.
 //!
-//! A lattice sees normal velocities at the control points only, so vorticity nearer to the edge than a panel acts on the suction parameter ([`LeadingSection`]) with
-//! what it makes at a few points. What it makes along the leading panel, over theta, is larger. The net circulation counts with that difference besides: without it a
-//! plate of six panels that pitches to 45 degrees sheds two thirds of what it should while it pitches.
+//! A lattice sees normal velocities at the control points only, so vorticity nearer to the edge than a panel
+//! acts on the suction parameter ([`LeadingSection`]) with what it makes at a few points. What it makes along
+//! the leading panel, over theta, is larger. The net circulation counts with that difference besides: without
+//! it a plate of six panels that pitches to 45 degrees sheds two thirds of what it should while it pitches.
 //!
-//! What leaves within the step lies half a row from the edge ([`NEW_VORTEX`](crate::wake)). Its
-//! strength in each strip follows together with the circulations of the panels, in one flow: either the strip has less than it
-//! holds and nothing leaves, or it has as much as it holds and what leaves has the sign of its suction.
+//! What leaves within the step lies half a row from the edge ([`NEW_VORTEX`](crate::wake)). Its strength in
+//! each strip follows together with the circulations of the panels, in one flow: either the strip has less than
+//! it holds and nothing leaves, or it has as much as it holds and what leaves has the sign of its suction.
 
 use crate::geometry::Strip;
 use crate::lattice::Lattice;
@@ -19,12 +20,12 @@ use std::f64::consts::PI;
 use wingbeat_math::{DVec3, DenseLu};
 use wingbeat_vortex::Points;
 
-/// Places of a strip where velocities are wanted: as many in even parts of theta along the leading panel, and last the two foremost control
-/// points.
+/// Places of a strip where velocities are wanted: as many in even parts of theta along the leading panel, and
+/// last the two foremost control points.
 pub(crate) const PLACES: usize = 5;
 
-/// Part of the effect of a vortex straight ahead that what leaves has at least on the suction of its edge: that of one 133 degrees from there. A plate
-/// that pitches to 45 degrees sheds as it does without this bound.
+/// Part of the effect of a vortex straight ahead that what leaves has at least on the suction of its edge: that
+/// of one 133 degrees from there. A plate that pitches to 45 degrees sheds as it does without this bound.
 const LEAST: f64 = 0.4;
 
 /// Rounds of changes to all strips at once; then one strip changes at a time.
@@ -54,8 +55,8 @@ impl LeadingStrip {
         }
     }
 
-    /// Net circulation of the leading edge of the strip that counts, where the unknowns have the circulations `gamma` and the newest ring makes
-    /// `ring` [m2/s].
+    /// Net circulation of the leading edge of the strip that counts, where the unknowns have the circulations
+    /// `gamma` and the newest ring makes `ring` [m2/s].
     pub fn counted(&self, lattice: &Lattice, strip: &Strip, (gamma, ring): (&[f64], f64)) -> f64 {
         let of = |p: usize| gamma[unknown(lattice, p)];
         let first = of(strip.panels[0]);
@@ -63,14 +64,16 @@ impl LeadingStrip {
         self.section.counted([first + ring, second], 1.0)
     }
 
-    /// What a unit of circulation changes of the net one by leaving, at least in size \[1\], the newest free nodes being at `row` [m, N].
+    /// What a unit of circulation changes of the net one by leaving, at least in size \[1\], the newest free
+    /// nodes being at `row` [m, N].
     ///
-    /// A vortex at the distance s from the edge of a thin airfoil changes the net circulation of its leading panel by
-    /// `-sqrt(h / (pi s)) cos(f / 2)`, f the angle between the way there and straight ahead, for the normal velocity that it makes has the integral
-    /// `cos(f / 2) / (2 sqrt(s c))` over theta. Where a wing has turned into its newest row, f is 180 degrees in the lattice: what
-    /// leaves would have no effect, and whatever is asked for would leave. The sheet itself leaves the edge straight ahead and bends:
-    /// evenly bent, from there to f, it has at least 0.78 of what it has straight ahead. [`LEAST`] of it is what is counted at least. A vortex at the
-    /// edge itself takes all that it is.
+    /// A vortex at the distance s from the edge of a thin airfoil changes the net circulation of its leading
+    /// panel by `-sqrt(h / (pi s)) cos(f / 2)`, f the angle between the way there and straight ahead, for the
+    /// normal velocity that it makes has the integral `cos(f / 2) / (2 sqrt(s c))` over theta. Where a wing has
+    /// turned into its newest row, f is 180 degrees in the lattice: what leaves would have no effect, and
+    /// whatever is asked for would leave. The sheet itself leaves the edge straight ahead and bends: evenly
+    /// bent, from there to f, it has at least 0.78 of what it has straight ahead. [`LEAST`] of it is what is
+    /// counted at least. A vortex at the edge itself takes all that it is.
     pub fn least_effect(&self, row: DVec3, normal: DVec3) -> f64 {
         let way = row - self.section.middle;
         let distance = NEW_VORTEX * way.dot(self.section.aft).hypot(way.dot(normal));
@@ -99,7 +102,8 @@ fn angle(x: f64, chord: f64) -> f64 {
 /// What leaves the strips whose edges may shed.
 #[derive(Default)]
 pub(crate) struct Release {
-    /// Net circulation of each, counted with what the lattice does not see, if nothing leaves; and by what leaves, row by row.
+    /// Net circulation of each, counted with what the lattice does not see, if nothing leaves; and by what
+    /// leaves, row by row.
     pub net: Vec<f64>,
     pub by_leaving: Vec<f64>,
     /// What each may have [m2/s].
@@ -120,11 +124,12 @@ impl Release {
         both.any(|(net, most)| net.abs() > *most)
     }
 
-    /// Makes what leaves strip `j` act on its own net circulation by so much that the others, as far as they act against it, leave at least `least`,
-    /// a negative number; returns what that gives.
+    /// Makes what leaves strip `j` act on its own net circulation by so much that the others, as far as they
+    /// act against it, leave at least `least`, a negative number; returns what that gives.
     ///
-    /// So strips that shed alike, as those of plane flow, shed no more than what is too much over `-least`. Bounded by itself alone a strip is not: what leaves its
-    /// neighbours may act against it by nearly as much as its own does, and the whole edge would have to shed a hundred times what is too much.
+    /// So strips that shed alike, as those of plane flow, shed no more than what is too much over `-least`.
+    /// Bounded by itself alone a strip is not: what leaves its neighbours may act against it by nearly as much
+    /// as its own does, and the whole edge would have to shed a hundred times what is too much.
     pub fn bound(&mut self, j: usize, least: f64) -> f64 {
         let n = self.net.len();
         let row = &mut self.by_leaving[j * n..(j + 1) * n];
@@ -143,8 +148,8 @@ impl Release {
         self.held.clone_from(&self.net);
     }
 
-    /// Finds what leaves: strips that have too much begin to shed, strips that would take back cease. Where no choice of strips is
-    /// right each sheds what it has too much. Returns how many strips do that.
+    /// Finds what leaves: strips that have too much begin to shed, strips that would take back cease. Where no
+    /// choice of strips is right each sheds what it has too much. Returns how many strips do that.
     pub fn converge(&mut self) -> u64 {
         self.none();
         self.sign.clear();
@@ -160,7 +165,8 @@ impl Release {
         self.shed_what_is_too_much()
     }
 
-    /// What is more than the edge may have leaves each strip, whatever that does to the others. Returns the number of strips.
+    /// What is more than the edge may have leaves each strip, whatever that does to the others. Returns the
+    /// number of strips.
     fn shed_what_is_too_much(&mut self) -> u64 {
         let both = self.net.iter().zip(&self.most);
         self.leaving.clear();

@@ -8,9 +8,9 @@ use wingbeat_math::DVec3;
 /// How often the motion of the wake had to be limited.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub struct WakeEvents {
-    /// Displacements shortened to [`crate::AirSettings::max_displacement`], and strengths
-    /// of particles held to a change of half in a step and twice their first size in all; leading edges that shed what they
-    /// had too much where no solution holds the suction of all ([`crate::LeadingEdge::SuctionImplicit`]).
+    /// Displacements shortened to [`crate::AirSettings::max_displacement`], and strengths of particles held to
+    /// a change of half in a step and twice their first size in all; leading edges that shed what they had too
+    /// much where no solution holds the suction of all ([`crate::LeadingEdge::SuctionImplicit`]).
     pub limited: u64,
     /// Wake nodes and particles kept at [`crate::AirSettings::clearance`] from a surface.
     pub near_surface: u64,
@@ -50,11 +50,11 @@ pub struct AirState {
     /// Circulation that the leading edge of each strip holds before flow leaves it, at the last accepted step [m2/s];
     /// what any edge may have before there was one.
     pub hold: Vec<f64>,
-    /// Circulation that left the leading edge of each strip within the last accepted step, where that was part of the solution, counted
-    /// as that of panels [m2/s]; zero once the wakes were moved.
+    /// Circulation that left the leading edge of each strip within the last accepted step, where that was part
+    /// of the solution, counted as that of panels [m2/s]; zero once the wakes were moved.
     pub leaving: Vec<f64>,
-    /// Chords for which the leading-edge vortex of each strip has been fed, less what was lost, at the last accepted step \[1\];
-    /// zero without ([`crate::VortexLift`]).
+    /// Chords for which the leading-edge vortex of each strip has been fed, less what was lost, at the last
+    /// accepted step \[1\]; zero without ([`crate::VortexLift`]).
     pub fed: Vec<f64>,
     /// Length of the last step of the wakes [s], zero before it.
     pub dt_wake: f64,
@@ -72,8 +72,8 @@ pub struct AirState {
     pub events: WakeEvents,
     /// Where the impulse of the vorticity came from and where it went.
     pub impulse: ImpulseAccount,
-    /// Impulse of what is attached, lattice and newest rows, less the momentum of the fictitious fluid, once the wakes were
-    /// moved [kg m/s], N components.
+    /// Impulse of what is attached, lattice and newest rows, less the momentum of the fictitious fluid, once
+    /// the wakes were moved [kg m/s], N components.
     pub attached_impulse: DVec3,
     /// Impulse of free rings and particles [kg m/s], N components.
     pub free_impulse: DVec3,

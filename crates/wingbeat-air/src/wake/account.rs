@@ -43,8 +43,8 @@ impl SheetAccount {
         }
     }
 
-    /// The account of the `sheet` k moved last, its new row shed; `before` is what its free rings had before, and what its
-    /// particles had.
+    /// The account of the `sheet` k moved last, its new row shed; `before` is what its free rings had before,
+    /// and what its particles had.
     pub(crate) fn of_move(
         mover: &Mover,
         (k, state): (usize, &AirState),
@@ -74,9 +74,9 @@ impl SheetAccount {
     }
 }
 
-/// Impulse per density [m4/s], N, of the rings of sheet `k` without surfaces in the way, less what it is with them. The newest
-/// rows reach to where the shedding edge goes within the step: were it left behind, they would be longer by the way of the animal,
-/// and what is taken would depend on the inertial frame.
+/// Impulse per density [m4/s], N, of the rings of sheet `k` without surfaces in the way, less what it is with
+/// them. The newest rows reach to where the shedding edge goes within the step: were it left behind, they would
+/// be longer by the way of the animal, and what is taken would depend on the inertial frame.
 fn taken_by_surfaces(mover: &Mover, (k, state): (usize, &AirState), sheet: &WakeSheet) -> DVec3 {
     if mover.unhindered.is_empty() {
         return DVec3::ZERO;

@@ -1,12 +1,13 @@
 //! The circulation that all rings of a wing and its wake have in common, where the wake is cut.
 //!
-//! An edge whose flow separates sheds circulation of one sign beat after beat, and another edge as much of the other. On a wing
-//! that sheds all around every ring then has a circulation that grows without end. It means nothing: lattice and wakes are one
-//! closed surface, and what is common to its rings moves no air. But where the oldest rows are dropped the surface ends, and along that end runs a
-//! vortex with all the circulation of the rings: as if everything that ever was dropped lay there. In the flow it lies behind, spread over the way
-//! it has gone. So what all rings of the oldest row have, the least of them where they
-//! have one sign, is taken from all rings: nothing changes but that the vortex is gone, which is booked as cut. Where an edge holds, its rings
-//! have none, and nothing is taken.
+//! An edge whose flow separates sheds circulation of one sign beat after beat, and another edge as much of the
+//! other. On a wing that sheds all around every ring then has a circulation that grows without end. It means
+//! nothing: lattice and wakes are one closed surface, and what is common to its rings moves no air. But where
+//! the oldest rows are dropped the surface ends, and along that end runs a vortex with all the circulation of
+//! the rings: as if everything that ever was dropped lay there. In the flow it lies behind, spread over the way
+//! it has gone. So what all rings of the oldest row have, the least of them where they have one sign, is taken
+//! from all rings: nothing changes but that the vortex is gone, which is booked as cut. Where an edge holds,
+//! its rings have none, and nothing is taken.
 
 use crate::geometry::ShedAround;
 use crate::lattice::Lattice;
@@ -15,7 +16,8 @@ use crate::wake::account::free_rings;
 use wingbeat_math::DVec3;
 
 impl Lattice {
-    /// Takes from wings that shed all around, and from their wakes, what all rings have in common, once rows were dropped.
+    /// Takes from wings that shed all around, and from their wakes, what all rings have in common, once rows
+    /// were dropped.
     pub(crate) fn drop_common_circulation(&self, state: &mut AirState) {
         if self.settings().particles.is_some() {
             return; // rows that end become particles, with their circulation

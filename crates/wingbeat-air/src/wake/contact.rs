@@ -11,9 +11,9 @@
 //! decide, on the left wing otherwise than on the right one. So
 //! - within a clearance of the edges of a wing the push falls smoothly to zero;
 //! - between panels it is shared by both;
-//! - it is blocked by the wing where it crosses it, `x(s)` with `s = |h0| / (|h0| + |h1|)` for
-//!   heights h0 at the start and h1 at the end (both raised by half of what is no height); what is not blocked there, near an edge, is kept
-//!   off on the side where it ends;
+//! - it is blocked by the wing where it crosses it, `x(s)` with `s = |h0| / (|h0| + |h1|)` for heights h0 at
+//!   the start and h1 at the end (both raised by half of what is no height); what is not blocked there, near an
+//!   edge, is kept off on the side where it ends;
 //! - pushes of several surfaces add up, each one computed from the same path.
 //!
 //! The surfaces at the end of the step are not known yet (the wake is moved before the bodies):
@@ -97,8 +97,8 @@ impl Obstacles {
             .sum()
     }
 
-    /// The same for plane wakes, whose rows of two nodes move as their middles do: the ends of rows lie on the ends of the
-    /// surface, which are no edges that the flow goes around.
+    /// The same for plane wakes, whose rows of two nodes move as their middles do: the ends of rows lie on the
+    /// ends of the surface, which are no edges that the flow goes around.
     pub(crate) fn keep_rows_off(&self, from: &[DVec3], to: &mut [DVec3]) -> u64 {
         let middle = |row: &[DVec3]| row[0].midpoint(row[1]);
         let mut changed = 0;

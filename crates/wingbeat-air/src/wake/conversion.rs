@@ -50,7 +50,8 @@ impl WakeSheet {
         count
     }
 
-    /// Whether the segment from node `[row, column]`, along the row or toward the next newer one, lies at a ring that is still there.
+    /// Whether the segment from node `[row, column]`, along the row or toward the next newer one, lies at a
+    /// ring that is still there.
     pub(crate) fn borders_ring(&self, node: [usize; 2], along: bool) -> bool {
         borders_ring(&self.converted, self.is_closed, node, along)
     }
@@ -62,7 +63,8 @@ impl WakeSheet {
     }
 }
 
-/// The same at a ring, the oldest `converted` ones of each column being particles. First and last line of a `closed` sheet are one.
+/// The same at a ring, the oldest `converted` ones of each column being particles. First and last line of a
+/// `closed` sheet are one.
 fn borders_ring(converted: &[usize], closed: bool, [row, column]: [usize; 2], along: bool) -> bool {
     let ring = |c: usize| converted.get(c).is_some_and(|&rows| row >= rows);
     if along {

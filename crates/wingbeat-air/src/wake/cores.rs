@@ -7,16 +7,16 @@ use wingbeat_math::DVec3;
 
 /// Core radius of a node over its way along the sheet from the edge, at most (or as wide as vorticity of its age is).
 ///
-/// Cores as wide as filaments are long blunt what a sheet does to anything nearer than that. Without this limit a row loses
-/// its effect on the panels at its edge the moment it leaves it, later if steps are longer: the lift of a hovering fly
-/// went up by a seventh from 40 to 160 steps a beat, and by a seventh with half the overlap. With this share of the
-/// way the velocity of a sheet is right to 3 parts in a hundred at any distance, and where filaments stretch, a
-/// chord or two from the edge, cores are as wide as they are long.
+/// Cores as wide as filaments are long blunt what a sheet does to anything nearer than that. Without this limit
+/// a row loses its effect on the panels at its edge the moment it leaves it, later if steps are longer: the
+/// lift of a hovering fly went up by a seventh from 40 to 160 steps a beat, and by a seventh with half the
+/// overlap. With this share of the way the velocity of a sheet is right to 3 parts in a hundred at any
+/// distance, and where filaments stretch, a chord or two from the edge, cores are as wide as they are long.
 const SHARE_OF_WAY: f64 = 0.25;
 
-/// Appends the squared core radii \[m2\] of the free nodes of a sheet, whose shedding edge is `edge`: as wide with age as
-/// viscosity makes them, and at least as wide as the longest filament there is long, times the overlap, but no wider than
-/// [`SHARE_OF_WAY`] for that.
+/// Appends the squared core radii \[m2\] of the free nodes of a sheet, whose shedding edge is `edge`: as wide
+/// with age as viscosity makes them, and at least as wide as the longest filament there is long, times the
+/// overlap, but no wider than [`SHARE_OF_WAY`] for that.
 pub(super) fn add_cores(
     cores: &mut Vec<f64>,
     sheet: &WakeSheet,
@@ -41,8 +41,8 @@ pub(super) fn add_cores(
     }
 }
 
-/// Gives nodes of joined columns, which are one, one core: `cores` of all free nodes, sheet after sheet, see each the filaments
-/// of their own column only.
+/// Gives nodes of joined columns, which are one, one core: `cores` of all free nodes, sheet after sheet, see
+/// each the filaments of their own column only.
 pub(super) fn join_cores(cores: &mut [f64], joined: &[JoinedColumns], sheets: &[WakeSheet]) {
     for JoinedColumns(ends) in joined {
         let first = |s: usize| sheets[..s].iter().map(|k| k.nodes.len()).sum::<usize>();

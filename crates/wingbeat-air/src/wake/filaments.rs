@@ -30,7 +30,8 @@ pub struct Filaments {
     levels: usize,
     /// Nodes of the rings behind leading edges from which wakes leave, which end the newest row of each sheet.
     inner: Vec<usize>,
-    /// Where wakes leave the surfaces: nodes of the rings, at leading edges that hold suction nodes of the surfaces [m].
+    /// Where wakes leave the surfaces: nodes of the rings, at leading edges that hold suction nodes of the
+    /// surfaces [m].
     roots: Vec<DVec3>,
     /// Length of the newest row in panel lengths, sheet by sheet and column by column.
     pub(crate) lengths: Vec<Vec<f64>>,
@@ -98,8 +99,8 @@ impl Filaments {
         }
     }
 
-    /// All wake nodes that are to be moved (mirror images are reflected later), those on the shedding edges too: sheet after sheet,
-    /// oldest row first, the shedding edge last.
+    /// All wake nodes that are to be moved (mirror images are reflected later), those on the shedding edges
+    /// too: sheet after sheet, oldest row first, the shedding edge last.
     pub(crate) fn movable(&self, lattice: &Lattice, state: &AirState, out: &mut Points) {
         out.clear();
         for (k, (sheet, root)) in state.sheets.iter().zip(lattice.sheets()).enumerate() {
@@ -115,10 +116,11 @@ impl Filaments {
         }
     }
 
-    /// Gives lattice and newest rows the cores with which they act on other filaments and are acted on, where action is to
-    /// be reaction: those of the lattice as wide as the newest free nodes have them in the mean, those of a newest
-    /// row in between. One width for a whole lattice, for where it varies along a filament, action is not quite
-    /// reaction. Control points, which carry no vorticity, go on to see the cores of the settings.
+    /// Gives lattice and newest rows the cores with which they act on other filaments and are acted on, where
+    /// action is to be reaction: those of the lattice as wide as the newest free nodes have them in the mean,
+    /// those of a newest row in between. One width for a whole lattice, for where it varies along a filament,
+    /// action is not quite reaction. Control points, which carry no vorticity, go on to see the cores of the
+    /// settings.
     pub(crate) fn soften(&mut self, lattice: &Lattice, state: &AirState) {
         if !lattice.settings().is_symmetric() {
             return;
@@ -214,8 +216,8 @@ impl Filaments {
         }
     }
 
-    /// Net circulation of every lattice edge, its panels' difference, less the newest wake ring's
-    /// at a shedding edge; and of the newest rows: from the circulations of the panels and what leaves the leading edges.
+    /// Net circulation of every lattice edge, its panels' difference, less the newest wake ring's at a shedding
+    /// edge; and of the newest rows: from the circulations of the panels and what leaves the leading edges.
     pub(crate) fn set_bound(
         &mut self,
         lattice: &Lattice,

@@ -10,13 +10,14 @@
 //! `V = u + T x (f - u x T) / (T^2 + (e S)^2)`, `f = sum G integral w u ds x l`,
 //! `T = sum G integral w ds l`, `S = sum abs(G) integral w ds abs(l)`.
 //!
-//! Where squared cores sigma^2 change along a filament, action is reaction only if it also feels
-//! `-rho G / 4 integral W d(sigma^2)`, W the sum of `G dl / (4 pi)` over the cube of softened distances; f holds that too.
+//! Where squared cores sigma^2 change along a filament, action is reaction only if it also feels `-rho G / 4
+//! integral W d(sigma^2)`, W the sum of `G dl / (4 pi)` over the cube of softened distances; f holds that too.
 //!
-//! e keeps nodes in order where vorticity cancels; filaments that run side by side along joined columns are one, with
-//! their common circulation. What is left, for the most part along T, is handed on to the
-//! nodes at the other ends of the filaments, in proportion to their vorticity, who annul of it what they can, and so on:
-//! the wake keeps its impulse to a hundredth of the lift, with most of a correction within a few filaments of its cause.
+//! e keeps nodes in order where vorticity cancels; filaments that run side by side along joined columns are
+//! one, with their common circulation. What is left, for the most part along T, is handed on to the nodes at
+//! the other ends of the filaments, in proportion to their vorticity, who annul of it what they can, and so on:
+//! the wake keeps its impulse to a hundredth of the lift, with most of a correction within a few filaments of
+//! its cause.
 
 use crate::geometry::JoinedColumns;
 use crate::images::Mirror;
@@ -28,19 +29,22 @@ use std::ops::Range;
 use wingbeat_math::DVec3;
 use wingbeat_vortex::{Network, Points};
 
-/// e: where the vorticity of a node is a smaller part of that of its filaments, little is annulled. With 0.3 flights of four wings that
-/// differ by a rounding part within a beat; with 1 the impulse of long wakes is 3 parts in a hundred off.
+/// e: where the vorticity of a node is a smaller part of that of its filaments, little is annulled. With 0.3
+/// flights of four wings that differ by a rounding part within a beat; with 1 the impulse of long wakes is 3
+/// parts in a hundred off.
 const CANCELLED: f64 = 0.6;
 
-/// How often what is left is handed on. Impulse against forces of a tethered fly: apart by a sixth with none in its fourth
-/// beat; by 3 and by 7 parts in a hundred with 8 in its 12th and 20th, whose wakes are long and their filaments, too; by 1 with 32.
+/// How often what is left is handed on. Impulse against forces of a tethered fly: apart by a sixth with none in
+/// its fourth beat; by 3 and by 7 parts in a hundred with 8 in its 12th and 20th, whose wakes are long and
+/// their filaments, too; by 1 with 32.
 const HANDED_ON: usize = 32;
 
 /// What a node has less of than this part of the most is a rounding, whose direction says nothing.
 const ROUNDING: f64 = 1e-12;
 
-/// Size of a node that left the root of a wing on a body, over those of the nodes around it, below which it yields little: there the sheet
-/// goes on through the body, and by as much as left and right are alike the node has no vorticity that could say where to.
+/// Size of a node that left the root of a wing on a body, over those of the nodes around it, below which it
+/// yields little: there the sheet goes on through the body, and by as much as left and right are alike the node
+/// has no vorticity that could say where to.
 const FAINT: f64 = 0.03;
 
 /// A filament seen from one of its ends.
@@ -59,7 +63,8 @@ struct End {
     at_middle: f64,
 }
 
-/// Which filaments between nodes of joined columns are one: those with the same nodes, that begin at the same part of the way between them.
+/// Which filaments between nodes of joined columns are one: those with the same nodes, that begin at the same
+/// part of the way between them.
 type Beside = ([usize; 2], u64);
 
 /// Memory of the correction.
@@ -98,8 +103,8 @@ pub(crate) struct ForceFree {
 }
 
 impl ForceFree {
-    /// Adds to `velocity` that of the movable nodes, which is zero before, without the undisturbed air; the flow is taken
-    /// at `places`, node by node, and the sums hold all filaments.
+    /// Adds to `velocity` that of the movable nodes, which is zero before, without the undisturbed air; the
+    /// flow is taken at `places`, node by node, and the sums hold all filaments.
     pub(crate) fn add_velocity(
         &mut self,
         lattice: &Lattice,
@@ -164,8 +169,8 @@ impl ForceFree {
         self.join(lattice, state);
     }
 
-    /// Nodes of joined columns are one node: what their filaments have in common cancels there. Where a column is joined to
-    /// its own mirror image, the filaments of the other side are images of those of this one.
+    /// Nodes of joined columns are one node: what their filaments have in common cancels there. Where a column
+    /// is joined to its own mirror image, the filaments of the other side are images of those of this one.
     fn join(&mut self, lattice: &Lattice, state: &AirState) {
         let nodes = |s: usize| match lattice.reflected_sheet(s) {
             Some(_) => 0,
@@ -215,7 +220,8 @@ impl ForceFree {
         }
     }
 
-    /// Short: the middle says it all. Strips of a row that have one circulation whatever leaves the edge within the step are one.
+    /// Short: the middle says it all. Strips of a row that have one circulation whatever leaves the edge within
+    /// the step are one.
     fn add_near_wake(&mut self, filaments: &Filaments) {
         let near = &filaments.near_wake;
         for ((e, &[a, b]), share) in near.edges.iter().enumerate().zip(&filaments.shares) {
@@ -235,9 +241,9 @@ impl ForceFree {
         }
     }
 
-    /// Adds an edge that has these ends, each with its node and the weights at the node and in the middle; it lies between these two nodes, or
-    /// within what joins them, and begins at this part of the way. One without circulation is a joint, too: whether it has a rounding of it does
-    /// not matter.
+    /// Adds an edge that has these ends, each with its node and the weights at the node and in the middle; it
+    /// lies between these two nodes, or within what joins them, and begins at this part of the way. One without
+    /// circulation is a joint, too: whether it has a rounding of it does not matter.
     fn push(
         &mut self,
         net: &Network,
@@ -379,8 +385,8 @@ impl ForceFree {
         }
     }
 
-    /// Each node hands what is left to the nodes around it; one that has none keeps it. Nodes in the plane of a mirror get as
-    /// much from the other side.
+    /// Each node hands what is left to the nodes around it; one that has none keeps it. Nodes in the plane of a
+    /// mirror get as much from the other side.
     fn hand_on(&mut self, mirror: Option<Mirror>) {
         let Self {
             sizes,

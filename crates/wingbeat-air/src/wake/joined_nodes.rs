@@ -5,8 +5,9 @@ use crate::lattice::Lattice;
 use crate::state::WakeSheet;
 use wingbeat_math::DVec3;
 
-/// Puts joined wake nodes midway between them: roundings and what a tree leaves out would part them. Those that left the middle of a
-/// body lie between the nodes that left the roots: within the body nothing says how they move.
+/// Puts joined wake nodes midway between them: roundings and what a tree leaves out would part them. Those that
+/// left the middle of a body lie between the nodes that left the roots: within the body nothing says how they
+/// move.
 pub(crate) fn merge_joined_nodes(lattice: &Lattice, sheets: &mut [WakeSheet]) {
     let joined = &lattice.topology().joined_columns;
     let is_middle = |j: &&JoinedColumns| {

@@ -33,14 +33,16 @@ pub(crate) struct Mover<'a> {
     pub to: Vec<DVec3>,
     /// Where the nodes of the sheet would be without surfaces in the way; empty if none was held back.
     pub unhindered: Vec<DVec3>,
-    /// Impulse per density [m4/s], N components, that surfaces in the way took from the particles of the sheet moved last.
+    /// Impulse per density [m4/s], N components, that surfaces in the way took from the particles of the sheet
+    /// moved last.
     pub taken_from_particles: DVec3,
 }
 
 impl Mover<'_> {
-    /// Fills `sheet` with its moved nodes, those that were on the shedding edge being the new last
-    /// row. The error is (row from the newest, column, velocity). Nodes that left the `middle` of a body, a column of the sheet, move as
-    /// those that left the root do, until [`super::joined_nodes`] puts them between both roots'.
+    /// Fills `sheet` with its moved nodes, those that were on the shedding edge being the new last row. The
+    /// error is (row from the newest, column, velocity). Nodes that left the `middle` of a body, a column of
+    /// the sheet, move as those that left the root do, until [`super::joined_nodes`] puts them between both
+    /// roots'.
     pub(crate) fn move_nodes(
         &mut self,
         sheet: &mut WakeSheet,

@@ -96,11 +96,12 @@ pub(crate) fn strips(settings: &AirSettings) -> usize {
     }
 }
 
-/// Where the vortex lies that leaves a leading edge within a step, from the edge over the length of the row: what an even
-/// stream of vorticity sheds has its middle there.
+/// Where the vortex lies that leaves a leading edge within a step, from the edge over the length of the row:
+/// what an even stream of vorticity sheds has its middle there.
 pub(crate) const NEW_VORTEX: f64 = 0.5;
 
-/// Whether strip `k` from the edge of `strips` lies between a leading edge and the vortex that leaves it within the step.
+/// Whether strip `k` from the edge of `strips` lies between a leading edge and the vortex that leaves it within
+/// the step.
 fn is_before_new_vortex(strips: usize, k: usize) -> bool {
     (k as f64) < NEW_VORTEX * strips as f64
 }
@@ -129,8 +130,9 @@ impl Share {
         }
     }
 
-    /// Whether the filament of the circulation `net` is one beside others: it takes part in what leaves the edge within the step,
-    /// be its circulation zero, a rounding or more; where that is unknown with the circulations of the panels, it has one.
+    /// Whether the filament of the circulation `net` is one beside others: it takes part in what leaves the
+    /// edge within the step, be its circulation zero, a rounding or more; where that is unknown with the
+    /// circulations of the panels, it has one.
     pub(crate) fn is_joint(&self, net: f64) -> bool {
         let [a, b] = self.part;
         match self.leaving {
@@ -206,8 +208,8 @@ fn strip(row: &Row, column: usize, k: usize) -> Strip {
 
 /// Fills in the filaments of the row of sheet `s` beyond the shedding edge, whose nodes are `edge`.
 ///
-/// Where a wake begins ahead of the rings, at the very leading edge, its sides go on from there to the rings, whose nodes
-/// come last (`inner`: column and place).
+/// Where a wake begins ahead of the rings, at the very leading edge, its sides go on from there to the rings,
+/// whose nodes come last (`inner`: column and place).
 pub(crate) fn add_near_wake(
     near_wake: &mut Network,
     shares: &mut Vec<Share>,
@@ -305,7 +307,8 @@ pub(crate) fn at_edge(row: &Row, column: usize) -> [f64; 2] {
 mod tests {
     use super::*;
 
-    /// A panel that has what it had when its row left, to a rounding or exactly: its row's filaments are joints either way.
+    /// A panel that has what it had when its row left, to a rounding or exactly: its row's filaments are joints
+    /// either way.
     #[test]
     fn invariant_joints_of_the_newest_row_under_roundings_of_circulation() {
         let old = 0.1 + 0.2;

@@ -1,9 +1,10 @@
 //! How much circulation the leading edge of a strip holds before flow leaves it, by what the state has kept.
 //!
-//! The net circulation at the edge, that of the leading panel less what has left so far, is the strength of the suction there.
-//! As long as the edge can hold it nothing leaves and the suction acts; what is beyond that leaves with the next row, so
-//! that the suction stays at what the edge holds [Ramesh et al. 2014, J. Fluid Mech. 751:500]. What has left does not come
-//! back: an edge that ceases to shed keeps the circulation of its newest ring (Kelvin's theorem of the strip).
+//! The net circulation at the edge, that of the leading panel less what has left so far, is the strength of the
+//! suction there. As long as the edge can hold it nothing leaves and the suction acts; what is beyond that
+//! leaves with the next row, so that the suction stays at what the edge holds [Ramesh et al. 2014, J. Fluid
+//! Mech. 751:500]. What has left does not come back: an edge that ceases to shed keeps the circulation of its
+//! newest ring (Kelvin's theorem of the strip).
 
 use crate::edges::EdgeKind;
 use crate::geometry::{Edge, WakeColumn};
@@ -13,7 +14,8 @@ use crate::state::{AirState, WakeSheet};
 use crate::wake::near_wake::released;
 
 impl Lattice {
-    /// Circulation [m2/s] that the edge of a column of a wake sheet holds: none but at leading edges with a criterion, and within bodies.
+    /// Circulation [m2/s] that the edge of a column of a wake sheet holds: none but at leading edges with a
+    /// criterion, and within bodies.
     pub(crate) fn hold(&self, state: &AirState, sheet: usize, column: usize) -> f64 {
         let root = &self.sheets()[sheet];
         if self.leads_within(sheet, column) {
@@ -27,8 +29,8 @@ impl Lattice {
         strip.map_or(0.0, |s| state.hold[s])
     }
 
-    /// What the row that leaves the edge of a column is to have, where the panel's circulation is `present`, counted as that of
-    /// rings, and that of the newest ring `past` [m2/s].
+    /// What the row that leaves the edge of a column is to have, where the panel's circulation is `present`,
+    /// counted as that of rings, and that of the newest ring `past` [m2/s].
     pub(crate) fn to_shed(
         &self,
         state: &AirState,
@@ -44,8 +46,8 @@ impl Lattice {
         past + (net - net.clamp(-hold, hold))
     }
 
-    /// Whether the flow leaves the edge of a column of wake sheet `k`, which is `sheet`, by itself: the newest ring differs from the
-    /// one before.
+    /// Whether the flow leaves the edge of a column of wake sheet `k`, which is `sheet`, by itself: the newest
+    /// ring differs from the one before.
     pub(crate) fn feeds(&self, k: usize, sheet: &WakeSheet, column: usize) -> bool {
         if self.leads_within(k, column) {
             return false;
@@ -62,8 +64,8 @@ impl Lattice {
         sheet.newest(column) != before
     }
 
-    /// Part of the circulation at the leading edge of strip `k` that the edge holds, 0 to 1, by what the state has kept; `lengths` are those
-    /// of the newest rows.
+    /// Part of the circulation at the leading edge of strip `k` that the edge holds, 0 to 1, by what the state
+    /// has kept; `lengths` are those of the newest rows.
     pub(crate) fn held_of_strip(&self, state: &AirState, k: usize, lengths: &[Vec<f64>]) -> f64 {
         if self.settings().leading == LeadingEdge::Always {
             return 0.0;
@@ -75,8 +77,9 @@ impl Lattice {
         }
     }
 
-    /// What the leading edge of strip `k` holds by what the state has kept, and what is beside it, counted as circulation of panels [m2/s]: what left
-    /// while the flow went on by a panel length, or more if that is about to leave. Of an edge with a criterion, or one that does not shed.
+    /// What the leading edge of strip `k` holds by what the state has kept, and what is beside it, counted as
+    /// circulation of panels [m2/s]: what left while the flow went on by a panel length, or more if that is
+    /// about to leave. Of an edge with a criterion, or one that does not shed.
     pub(crate) fn held_and_beside(
         &self,
         state: &AirState,
@@ -120,9 +123,9 @@ impl Lattice {
         hold / net.abs().max(f64::MIN_POSITIVE)
     }
 
-    /// Part of the net circulation `net` [m2/s] of an edge that each of its panels feels, `lengths` being those of the newest rows: half of
-    /// an edge shared by two, all of a free one; of one that sheds all that it holds, and of what is about to leave all but half of what
-    /// leaves within a step.
+    /// Part of the net circulation `net` [m2/s] of an edge that each of its panels feels, `lengths` being those
+    /// of the newest rows: half of an edge shared by two, all of a free one; of one that sheds all that it
+    /// holds, and of what is about to leave all but half of what leaves within a step.
     ///
     /// What leaves with the next row stands for a sheet from half a row ahead of the edge to half a row behind it. What
     /// waits on the edge of a short row ([`released`]) stands for a sheet ahead of the edge, on the wing.

@@ -7,8 +7,9 @@ use crate::state::{AirState, WakeSheet};
 use crate::wake::near_wake::{NEW_VORTEX, kept, released};
 
 impl Lattice {
-    /// Unsteady Kutta condition: the row that leaves carries the circulation of its panels, at leading edges less what
-    /// these hold. What leaves edges within bodies is the mean of what leaves the wings there, whose sheets are among those `before`.
+    /// Unsteady Kutta condition: the row that leaves carries the circulation of its panels, at leading edges
+    /// less what these hold. What leaves edges within bodies is the mean of what leaves the wings there, whose
+    /// sheets are among those `before`.
     pub(crate) fn shed(
         &self,
         k: usize,
@@ -59,8 +60,8 @@ impl Lattice {
     }
 }
 
-/// Sheds the mean of what just left the wings beside a panel within a body, whose ring is counted by this sign; what they have
-/// changed of their rows before goes for its row before, too.
+/// Sheds the mean of what just left the wings beside a panel within a body, whose ring is counted by this sign;
+/// what they have changed of their rows before goes for its row before, too.
 fn carry(
     sheet: &mut WakeSheet,
     (column, sign): (usize, f64),
@@ -81,8 +82,9 @@ fn carry(
     sheet.gamma.push(mean(1).unwrap_or(0.0));
 }
 
-/// Sheds the ring of a column that differs by `leaving` from the newest one. The vortex that is the difference lay part of the
-/// way from the edge to the nodes shed before: it goes to both lines of nodes, so that its place remains.
+/// Sheds the ring of a column that differs by `leaving` from the newest one. The vortex that is the difference
+/// lay part of the way from the edge to the nodes shed before: it goes to both lines of nodes, so that its
+/// place remains.
 fn leave_edge(sheet: &mut WakeSheet, column: usize, leaving: f64) {
     let before = sheet.newest(column);
     if let Some(newest) = sheet.rows().checked_sub(1) {

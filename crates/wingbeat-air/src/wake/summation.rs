@@ -181,8 +181,9 @@ impl Sums {
             .load(direct(settings.wake_core), &filaments.near_wake);
     }
 
-    /// Takes what is frozen within a step: free wakes and particles. Cores that are as wide as a part of the way to the edge
-    /// change a little as bodies and air come to agree: by no more than `near` [m] they are taken for the same.
+    /// Takes what is frozen within a step: free wakes and particles. Cores that are as wide as a part of the
+    /// way to the edge change a little as bodies and air come to agree: by no more than `near` [m] they are
+    /// taken for the same.
     pub(crate) fn load_free(&mut self, settings: &AirSettings, filaments: &Filaments, near: f64) {
         let (how, wake) = (free(settings), &filaments.wake);
         let is_new = self.wake.load_unless_near(how, wake, near);
@@ -214,7 +215,8 @@ impl Sums {
         self.add_particles(targets, mirrors, out);
     }
 
-    /// The same, and the vorticity of [`FastSum::add_velocity_and_vorticity`] of all filaments, where cores are algebraic.
+    /// The same, and the vorticity of [`FastSum::add_velocity_and_vorticity`] of all filaments, where cores are
+    /// algebraic.
     pub(crate) fn add_with_vorticity(
         &mut self,
         targets: &Points,

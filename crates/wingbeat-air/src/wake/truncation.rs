@@ -7,8 +7,8 @@ use crate::wake::account::{SheetAccount, free_rings, oldest_rings};
 use wingbeat_math::DVec3;
 
 impl Lattice {
-    /// Drops the oldest rows that are too many, too old or too far at the end of the step of `dt` [s], or makes particles of them, and puts
-    /// their impulse into the `account`.
+    /// Drops the oldest rows that are too many, too old or too far at the end of the step of `dt` [s], or makes
+    /// particles of them, and puts their impulse into the `account`.
     pub(crate) fn truncate(
         &self,
         k: usize,
@@ -45,8 +45,8 @@ impl Lattice {
         }
     }
 
-    /// Middle of the edge that sheet `k` leaves [m], N components, where it is at the end of the step by its velocity, as the
-    /// nodes of the wake are.
+    /// Middle of the edge that sheet `k` leaves [m], N components, where it is at the end of the step by its
+    /// velocity, as the nodes of the wake are.
     fn edge_middle(&self, k: usize, (state, dt): (&AirState, f64)) -> DVec3 {
         let nodes = &self.sheets()[k].nodes;
         let at = |&n: &usize| state.position[n] + dt * state.velocity[n];

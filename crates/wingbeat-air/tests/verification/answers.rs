@@ -4,8 +4,9 @@ use crate::common::{rectangle, translating};
 use wingbeat_air::{AirLoads, AirSettings, CoreModel, Lattice, LoadMethod, SheddingKinds, Surface};
 use wingbeat_math::DVec3;
 
-/// In still air without a wake, forces on a plate that is set in motion as a rigid body are, to first order in its velocity, those of the
-/// rate of the circulations alone: what the matrix says of the difference over the step.
+/// In still air without a wake, forces on a plate that is set in motion as a rigid body are, to first order in
+/// its velocity, those of the rate of the circulations alone: what the matrix says of the difference over the
+/// step.
 #[test]
 fn exact_normal_inertia_is_what_a_plate_at_rest_feels_when_it_moves() {
     const DT: f64 = 0.01;

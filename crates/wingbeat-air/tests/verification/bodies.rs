@@ -158,9 +158,9 @@ fn exact_force_on_a_sphere_on_a_circle() {
     assert!(error < 0.04); // the sphere's added mass at this mesh is 3 % off
 }
 
-/// The force on a sphere that goes round with constant speed has no part along its path: rates of what is inside are differences with
-/// the weights of the rate of the circulation. (A first-order difference leaves half a step's turn, 0.01, of the displaced mass
-/// times the acceleration.)
+/// The force on a sphere that goes round with constant speed has no part along its path: rates of what is
+/// inside are differences with the weights of the rate of the circulation. (A first-order difference leaves
+/// half a step's turn, 0.01, of the displaced mass times the acceleration.)
 #[test]
 fn exact_no_force_along_the_path_of_a_circling_sphere() {
     let (lattice, nodes) = ellipsoid(4, DVec3::ONE, DVec3::ZERO);
@@ -181,8 +181,8 @@ fn exact_no_force_along_the_path_of_a_circling_sphere() {
     assert!(fine < 5e-6 && order(coarse, fine) > 2.5);
 }
 
-/// Added moment of inertia of a prolate spheroid about an axis across, over its displaced mass [Lamb art. 115]; with the fluid inside it
-/// would be 2.5 times as much.
+/// Added moment of inertia of a prolate spheroid about an axis across, over its displaced mass [Lamb art. 115];
+/// with the fluid inside it would be 2.5 times as much.
 #[test]
 fn exact_added_moment_of_inertia_of_a_spheroid() {
     let (a, b) = (2.0, 1.0);

@@ -11,8 +11,8 @@ const COLS: usize = 4;
 /// Half the width of the gap between two wings of chord 1.
 const GAP: f64 = 0.2;
 
-/// Wings on either side of the gap and the strips through it: first to last left wing, right wing, left strip, right strip. Columns run from the
-/// middle outward, normals up.
+/// Wings on either side of the gap and the strips through it: first to last left wing, right wing, left strip,
+/// right strip. Columns run from the middle outward, normals up.
 fn surfaces() -> Vec<Surface> {
     let both = |name: &str, cols: usize| {
         let right = Surface::grid(&format!("right {name}"), ROWS, cols);
@@ -71,8 +71,8 @@ fn refuses_strips_that_lead_nowhere() {
     }
 }
 
-/// In a stream from the side, with wings of unlike incidence: rings within, and what they shed behind and ahead, are the means of those
-/// beside both roots; the sheets are one, with their middle between the roots.
+/// In a stream from the side, with wings of unlike incidence: rings within, and what they shed behind and
+/// ahead, are the means of those beside both roots; the sheets are one, with their middle between the roots.
 #[test]
 fn exact_strips_have_the_mean_of_both_sides() {
     let settings = settings(

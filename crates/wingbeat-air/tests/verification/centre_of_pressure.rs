@@ -128,8 +128,9 @@ fn agrees_centre_of_pressure_of_short_wings_with_that_of_fine_meshes() {
     }
 }
 
-/// Complex moment about the mid chord, nose up, over pi q c b of a plate in plane flow that plunges (e^{ikt} half chords
-/// down) or pitches (e^{ikt} nose up about the mid chord) [Theodorsen 1935, NACA Rep. 496], `c` his function.
+/// Complex moment about the mid chord, nose up, over pi q c b of a plate in plane flow that plunges (e^{ikt}
+/// half chords down) or pitches (e^{ikt} nose up about the mid chord) [Theodorsen 1935, NACA Rep. 496], `c` his
+/// function.
 fn theodorsen(pitches: bool, k: f64, [f, g]: [f64; 2]) -> [f64; 2] {
     // C (h' + a + a'/2) - a'/2 - a''/8
     match pitches {

@@ -41,9 +41,10 @@ fn endless(rows: usize, leading: LeadingEdge, chords: f64) -> (Lattice, Vec<DVec
     (lattice, rectangle(rows, 1, DVec3::X, 1e5 * DVec3::Y))
 }
 
-/// A plate in a stream along it whose points go down as one that turns about its mid chord has no suction, whatever the lengths of its panels; the foremost
-/// vortex alone would have some, 0.26 of the second mode on two panels and 0.1 on five. Where edges hold what they have beside their wakes (`suction`) a part of it
-/// is left on unequal panels, for the boundary condition is moved aft by as much as panels are long.
+/// A plate in a stream along it whose points go down as one that turns about its mid chord has no suction,
+/// whatever the lengths of its panels; the foremost vortex alone would have some, 0.26 of the second mode on
+/// two panels and 0.1 on five. Where edges hold what they have beside their wakes (`suction`) a part of it is
+/// left on unequal panels, for the boundary condition is moved aft by as much as panels are long.
 #[test]
 fn exact_suction_parameter_of_a_linear_normal_velocity() {
     const SLOPE: f64 = 1e-3;
@@ -69,8 +70,8 @@ fn exact_suction_parameter_of_a_linear_normal_velocity() {
     }
 }
 
-/// A plate that pitches up about its quarter chord, half a chord after it has begun to: five and two per cent off on four and eight panels. The foremost
-/// vortex alone has 28 and 11 % too much.
+/// A plate that pitches up about its quarter chord, half a chord after it has begun to: five and two per cent
+/// off on four and eight panels. The foremost vortex alone has 28 and 11 % too much.
 #[test]
 fn limit_suction_parameter_of_pitching_plates() {
     const RATE: f64 = 0.6;
@@ -96,8 +97,9 @@ fn limit_suction_parameter_of_pitching_plates() {
     }
 }
 
-/// The lift coefficient of an arc of the height h over its chord in a stream along the chord is 4 pi h, in thin-airfoil theory and on any
-/// number of panels [James 1972]. Where the boundary condition was that of the control points themselves it was `(1 - 1 / (2 n))` of that on n.
+/// The lift coefficient of an arc of the height h over its chord in a stream along the chord is 4 pi h, in
+/// thin-airfoil theory and on any number of panels [James 1972]. Where the boundary condition was that of the
+/// control points themselves it was `(1 - 1 / (2 n))` of that on n.
 #[test]
 fn exact_lift_of_parabolic_arcs() {
     const HEIGHT: f64 = 1e-3;

@@ -52,8 +52,9 @@ fn ramp(t: f64) -> [f64; 2] {
     ]
 }
 
-/// Circulation that the leading edge of a plate in plane flow has shed after 0.6 and 1.0 chords of the ramp, and the largest
-/// suction parameter until then: a column ten chords wide between two that are 500 times as wide.
+/// Circulation that the leading edge of a plate in plane flow has shed after 0.6 and 1.0 chords of the ramp,
+/// and the largest suction parameter until then: a column ten chords wide between two that are 500 times as
+/// wide.
 fn plane_ramp(leading: LeadingEdge, [rows, per_chord]: [usize; 2]) -> ([f64; 2], f64) {
     let stations = [-5e3, -5.0, 5.0, 5e3];
     let row = |i: usize| stations.map(|y| DVec3::new(i as f64 / rows as f64, y, 0.0));
@@ -82,9 +83,9 @@ fn plane_ramp(leading: LeadingEdge, [rows, per_chord]: [usize; 2]) -> ([f64; 2],
     ([per_chord, last].map(|k| shed[k].abs()), most)
 }
 
-/// A discrete-vortex method for plane flow: what the edge sheds while the plate pitches, on coarse and fine panels, and never more
-/// suction than is held. What leaves with the row after next, by the suction of the lattice alone, is half of that and grows
-/// with the number of panels.
+/// A discrete-vortex method for plane flow: what the edge sheds while the plate pitches, on coarse and fine
+/// panels, and never more suction than is held. What leaves with the row after next, by the suction of the
+/// lattice alone, is half of that and grows with the number of panels.
 #[test]
 fn agrees_second_method_circulation_shed_by_a_plate_that_pitches_to_45_degrees() {
     let table = include_str!("../../../wingbeat-verify/data/ramp_discrete_vortices.csv");
@@ -109,8 +110,9 @@ fn agrees_second_method_circulation_shed_by_a_plate_that_pitches_to_45_degrees()
     assert!(late[1] < 0.6 * theirs[1] && most > 1.5 * HELD);
 }
 
-/// Complementarity: an edge with less than it holds sheds nothing, what leaves has the sign of what is held, and edges that shed have what they hold;
-/// but for those whose wing has turned into its newest row, which are counted and have a little more.
+/// Complementarity: an edge with less than it holds sheds nothing, what leaves has the sign of what is held,
+/// and edges that shed have what they hold; but for those whose wing has turned into its newest row, which are
+/// counted and have a little more.
 #[test]
 fn exact_edges_shed_only_while_they_have_what_they_hold() {
     let flat = rectangle(4, 6, DVec3::X, 4.0 * DVec3::Y);
@@ -159,15 +161,16 @@ fn agrees_second_method_impulse_in_hover_with_implicit_suction() {
         (s.bound_core, s.wake_core) = (core_of(0.01)[0], core_of(0.07)[0]);
     });
     println!("force, rate of impulse: {beats:?}");
-    // Measured 5.9 in the beat of the start, then 2.6 and 0.04 %. With half the step 4.0, 3.4 and 1.0 %, and the same forces to 2 %; they
-    // differed by 8 % where half of what waits on edges was counted.
+    // Measured 5.9 in the beat of the start, then 2.6 and 0.04 %. With half the step 4.0, 3.4 and 1.0 %, and
+    // the same forces to 2 %; they differed by 8 % where half of what waits on edges was counted.
     for ([force, impulse], most) in beats.into_iter().zip([0.065, 0.04, 0.02]) {
         assert!((impulse / force - 1.0).abs() < most, "{beats:?}");
     }
 }
 
-/// Two wings that hover as each other's mirror image, the wakes' clearance on. Edges that by the state's criterion shed and then hold have
-/// filaments in the newest row whose circulation is zero or a rounding: which of both must not matter.
+/// Two wings that hover as each other's mirror image, the wakes' clearance on. Edges that by the state's
+/// criterion shed and then hold have filaments in the newest row whose circulation is zero or a rounding: which
+/// of both must not matter.
 #[test]
 fn invariant_left_and_right_wing_in_hover() {
     let explicit = LeadingEdge::Suction {

@@ -78,8 +78,8 @@ fn conserves_impulse_of_a_heaving_wing_at_first_order() {
     assert!(order(errors[0], errors[2]) / 2.0 > 0.7, "{errors:?}");
 }
 
-/// Complex lift over pi q c of a long plate that plunges with the reduced frequency 1, down by `e^{i w t}` half chords, in steps of so
-/// many panels: by pressures and by the impulse, as [real, imaginary].
+/// Complex lift over pi q c of a long plate that plunges with the reduced frequency 1, down by `e^{i w t}` half
+/// chords, in steps of so many panels: by pressures and by the impulse, as [real, imaginary].
 fn plunging(rows: usize, step: f64, loads: LoadMethod) -> [[f64; 2]; 2] {
     const SPAN: f64 = 1e4;
     let (period, amplitude) = (PI, 1e-4);
@@ -121,9 +121,9 @@ fn plunging(rows: usize, step: f64, loads: LoadMethod) -> [[f64; 2]; 2] {
     [harmonic(&|i| lift[i]), harmonic(&rate)]
 }
 
-/// In steps of less than a panel a part of what is shed waits on the trailing edge. It stands for vorticity on the plate, which feels a force: with all
-/// of it but half of what leaves within a step, the lift has no more error than the impulse, that of eight panels. With half of all it
-/// was off by 3.4 and 2.9 %.
+/// In steps of less than a panel a part of what is shed waits on the trailing edge. It stands for vorticity on
+/// the plate, which feels a force: with all of it but half of what leaves within a step, the lift has no more
+/// error than the impulse, that of eight panels. With half of all it was off by 3.4 and 2.9 %.
 #[test]
 fn limit_theodorsen_lift_of_a_plunging_plate_in_steps_of_less_than_a_panel() {
     let [f, g] = [0.539_4, -0.100_3]; // C(1) [Bisplinghoff, Ashley, Halfman, table 5-1]

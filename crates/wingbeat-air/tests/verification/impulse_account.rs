@@ -72,7 +72,8 @@ fn balances_impulse_account_with_contact_and_cuts() {
     }
 }
 
-/// The same hover in a stream that carries the wings along: each part that is dropped, and what is there with it, are the same.
+/// The same hover in a stream that carries the wings along: each part that is dropped, and what is there with
+/// it, are the same.
 #[test]
 fn invariant_what_contact_takes_is_galilean() {
     let (viscosity, radius) = (0.01, 0.07);

@@ -80,7 +80,8 @@ fn invariant_under_the_motion_of_the_observer() {
     assert!((ma - mb).length() < 1e-9 * ma.length());
 }
 
-/// Wings that move through air at rest, and the same in a stream that carries everything along: as many rows of wake are too far.
+/// Wings that move through air at rest, and the same in a stream that carries everything along: as many rows of
+/// wake are too far.
 #[test]
 fn invariant_rows_dropped_for_their_distance_under_the_motion_of_the_observer() {
     let rows = |stream: DVec3, u: DVec3| {

@@ -46,7 +46,8 @@ fn sharp(shedding: SheddingKinds) -> AirSettings {
     }
 }
 
-/// Leading edges that hold some suction, in a stream from the side: strips on either side of the roots move aft by unlike parts of a panel.
+/// Leading edges that hold some suction, in a stream from the side: strips on either side of the roots move aft
+/// by unlike parts of a panel.
 fn holding(leading: LeadingEdge) -> AirSettings {
     let without_tips = SheddingKinds { tip: false, ..ALL };
     AirSettings {

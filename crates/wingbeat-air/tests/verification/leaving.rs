@@ -1,5 +1,5 @@
-//! What leaves leading edges within a step, where that is part of the solution: what the flow says of it, and what is counted
-//! where there is no solution.
+//! What leaves leading edges within a step, where that is part of the solution: what the flow says of it, and
+//! what is counted where there is no solution.
 
 use crate::common::{Run, fly, rectangle, total_force};
 use crate::implicit_suction::{implicit, pitched, settings};
@@ -54,8 +54,8 @@ fn exact_velocity_of_an_accepted_step_does_not_go_through_the_panels() {
     assert!(with < 1e-13 && without > 0.03); // roundings, and a part of the stream's 1
 }
 
-/// What leaves within a step is between edge and newest row before wakes are moved, and on both lines of nodes after it. If the
-/// motion takes no time that is the same impulse and, far away, the same flow.
+/// What leaves within a step is between edge and newest row before wakes are moved, and on both lines of nodes
+/// after it. If the motion takes no time that is the same impulse and, far away, the same flow.
 #[test]
 fn limit_wakes_moved_for_no_time_leave_impulse_and_far_flow() {
     let (lattice, mut run) = shedding_plate();
@@ -88,8 +88,9 @@ fn limit_wakes_moved_for_no_time_leave_impulse_and_far_flow() {
     assert!(parts[0] < 0.02 && parts[2] < 2e-3, "{parts:?}");
 }
 
-/// Steps of a panel's length and a suction that hardly any edge has: sharp wakes cross the leading panels. Every strip that sheds has the
-/// suction it holds, or more where the bound on the effect of what leaves acts, and then it is counted.
+/// Steps of a panel's length and a suction that hardly any edge has: sharp wakes cross the leading panels.
+/// Every strip that sheds has the suction it holds, or more where the bound on the effect of what leaves acts,
+/// and then it is counted.
 #[test]
 fn exact_strips_hold_their_suction_or_are_counted_where_sharp_wakes_cross_the_leading_panels() {
     let (held, cols) = (0.05, 12);
@@ -119,8 +120,9 @@ fn exact_strips_hold_their_suction_or_are_counted_where_sharp_wakes_cross_the_le
     assert!(shed > 100 && bounded > 0 && bounded < shed);
 }
 
-/// A wing of 4 x 6 panels at 40 degrees sheds ever more of one sign from its leading edge and of the other from its trailing edge; its roots
-/// shed, too. Force and rate of impulse, means over the last of so many chords of travel, the wake cut after so many rows or not at all.
+/// A wing of 4 x 6 panels at 40 degrees sheds ever more of one sign from its leading edge and of the other from
+/// its trailing edge; its roots shed, too. Force and rate of impulse, means over the last of so many chords of
+/// travel, the wake cut after so many rows or not at all.
 fn steady_separation(
     leading: LeadingEdge,
     [rows, cols, per_chord]: [usize; 3],
@@ -156,9 +158,9 @@ fn steady_separation(
     [force, impulses[first] - impulses[last]]
 }
 
-/// Where edges shed ever more, each row is a third of a panel long or less, and what waits on the edges for its turn to leave is a quarter of
-/// the force. Counted half, as what leaves in rows of a panel, it had force and impulse 5 to 11 % apart, and no
-/// nearer with half the step (9 to 12 %, now 2 to 3 %).
+/// Where edges shed ever more, each row is a third of a panel long or less, and what waits on the edges for its
+/// turn to leave is a quarter of the force. Counted half, as what leaves in rows of a panel, it had force and
+/// impulse 5 to 11 % apart, and no nearer with half the step (9 to 12 %, now 2 to 3 %).
 #[test]
 fn agrees_second_method_impulse_of_a_plate_at_40_degrees_in_every_way_of_leading_edges() {
     let (threshold, efficiency) = (0.15, 1.0);
@@ -177,8 +179,8 @@ fn agrees_second_method_impulse_of_a_plate_at_40_degrees_in_every_way_of_leading
     }
 }
 
-/// What all rings have in common does not stay behind at the end of the wake: with it the cut wake pulled the wing down, with
-/// a lift of -1.8 instead of 1.9.
+/// What all rings have in common does not stay behind at the end of the wake: with it the cut wake pulled the
+/// wing down, with a lift of -1.8 instead of 1.9.
 #[test]
 fn agrees_second_method_impulse_of_a_wing_that_sheds_around_with_its_wake_cut() {
     let [whole, cut] =
@@ -191,8 +193,8 @@ fn agrees_second_method_impulse_of_a_wing_that_sheds_around_with_its_wake_cut() 
     assert!(cut[0].distance(whole[0]) < 0.1 * whole[0].length());
 }
 
-/// A closed sheet begins and ends at one corner of the wing, and nothing in the flow knows which; nor whether filaments whose circulation is
-/// zero by symmetry have a rounding of it.
+/// A closed sheet begins and ends at one corner of the wing, and nothing in the flow knows which; nor whether
+/// filaments whose circulation is zero by symmetry have a rounding of it.
 #[test]
 fn invariant_flow_of_a_wing_that_sheds_around_is_symmetric_wherever_its_sheet_begins() {
     let flat = rectangle(4, 6, DVec3::X, 4.0 * DVec3::Y);
@@ -231,8 +233,9 @@ fn invariant_flow_of_a_wing_that_sheds_around_is_symmetric_wherever_its_sheet_be
     }
 }
 
-/// Rings of a leading edge that holds have no circulation: nothing is common to all, and where the wake is cut an attached wing
-/// whose roots shed has the force of one whose roots do not, up to what roots do to the newest rows.
+/// Rings of a leading edge that holds have no circulation: nothing is common to all, and where the wake is cut
+/// an attached wing whose roots shed has the force of one whose roots do not, up to what roots do to the newest
+/// rows.
 #[test]
 fn agrees_attached_wing_with_its_wake_cut_whether_its_roots_shed_or_not() {
     let flat = rectangle(4, 6, DVec3::X, 4.0 * DVec3::Y);
@@ -253,8 +256,8 @@ fn agrees_attached_wing_with_its_wake_cut_whether_its_roots_shed_or_not() {
     assert!(apart(cut) < apart(whole) + 1e-3);
 }
 
-/// What leaves the middle of a leading edge whose newest free nodes lie, a panel away from it, at this angle from straight ahead [deg], and
-/// the pull of what lies at the edge [N].
+/// What leaves the middle of a leading edge whose newest free nodes lie, a panel away from it, at this angle
+/// from straight ahead [deg], and the pull of what lies at the edge [N].
 fn with_newest_row_at(angle: f64) -> [f64; 2] {
     let (lattice, run) = shedding_plate();
     let motion = pitched(
@@ -283,15 +286,17 @@ fn with_newest_row_at(angle: f64) -> [f64; 2] {
     [loads.leaving[3].abs(), total_force(&loads).length()]
 }
 
-/// Where a wing turns into its newest row, a vortex that leaves along it has no effect on the suction of the edge, and what leaves had no bound. The sheet leaves the edge straight
-/// ahead before it bends, so what leaves stays finite.
+/// Where a wing turns into its newest row, a vortex that leaves along it has no effect on the suction of the
+/// edge, and what leaves had no bound. The sheet leaves the edge straight ahead before it bends, so what leaves
+/// stays finite.
 #[test]
 fn limit_what_leaves_stays_finite_where_a_wing_turns_into_its_newest_row() {
     let angles = [90.0, 120.0, 140.0, 150.0, 160.0, 170.0, 175.0, 179.0];
     let all = angles.map(with_newest_row_at);
     println!("{all:?}");
     let [beside, push] = all[0];
-    // Measured 3.3 and 2.3 at most; 32 and 8.7 at 160 degrees without a bound to the effect of what leaves, none beyond.
+    // Measured 3.3 and 2.3 at most; 32 and 8.7 at 160 degrees without a bound to the effect of what leaves,
+    // none beyond.
     for [left, force] in all {
         assert!((0.5..5.0).contains(&(left / beside)), "{all:?}");
         assert!(force < 4.0 * push, "{all:?}");

@@ -95,8 +95,8 @@ fn exact_conversion_keeps_vorticity_and_impulse() {
     }
 }
 
-/// A sheet that leaves a wing all around has its first line of nodes at one corner, between a column that becomes particles at once and one
-/// that does not; nothing in a symmetric flow knows which corner.
+/// A sheet that leaves a wing all around has its first line of nodes at one corner, between a column that
+/// becomes particles at once and one that does not; nothing in a symmetric flow knows which corner.
 #[test]
 fn invariant_flow_with_particles_is_symmetric_wherever_the_sheet_begins() {
     let settings = AirSettings {

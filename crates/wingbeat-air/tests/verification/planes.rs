@@ -193,8 +193,8 @@ fn refuses_a_trailing_edge_joined_to_a_leading_edge() {
     assert!(matches!(error, AirError::JoinedEdge { edge: 0, .. }));
 }
 
-/// A wing that plunges towards the corner of two walls, itself and the images that are flown with it; panels of one reflection
-/// run the other way round.
+/// A wing that plunges towards the corner of two walls, itself and the images that are flown with it; panels of
+/// one reflection run the other way round.
 fn in_a_corner(images: &[[f64; 2]], planes: Vec<Plane>) -> Run {
     let algebraic = |radius| CoreModel::Algebraic {
         radius,
@@ -245,7 +245,8 @@ fn agrees_two_planes_with_four_wings_flown_together() {
     let images = in_a_corner(&[], walls);
     let four = in_a_corner(&[[-1.0, 1.0], [1.0, -1.0], [-1.0, -1.0]], vec![]);
     let [one, first] = [&images, &four].map(|run| run.loads.surfaces[0].force);
-    // Roundings, amplified by eight steps of a free wake (1e-13 measured); with the vorticity of the third image reversed 3e-5.
+    // Roundings, amplified by eight steps of a free wake (1e-13 measured); with the vorticity of the third
+    // image reversed 3e-5.
     assert!(
         one.distance(first) < 1e-12 * one.length(),
         "{:e}",

@@ -71,7 +71,8 @@ fn exact_friction_acts_along_the_surface() {
     assert!(added(0.5 * std::f64::consts::PI, speed).length() < 1e-8 * flat); // 1.6e-16 to the 9/8
 }
 
-/// The face that the flow leaves at the leading edge has as much friction as the edge holds: all, none, or the threshold over the suction parameter of the plate.
+/// The face that the flow leaves at the leading edge has as much friction as the edge holds: all, none, or the
+/// threshold over the suction parameter of the plate.
 #[test]
 fn exact_friction_where_leading_edges_shed() {
     let (alpha, speed) = (0.5_f64, 4.0);

@@ -171,9 +171,9 @@ fn agrees_second_method_lift_of_attached_wings_with_sharp_filaments() {
     }
 }
 
-/// A wing of aspect ratio 6 and chord 1 in a stream of 1 that turns about its leading edge with the angle of `angle` at each
-/// time and its rate [rad, 1/s]; shows the suction parameter of its middle strip, the newest circulation of its leading sheet
-/// there and the lift at each step.
+/// A wing of aspect ratio 6 and chord 1 in a stream of 1 that turns about its leading edge with the angle of
+/// `angle` at each time and its rate [rad, 1/s]; shows the suction parameter of its middle strip, the newest
+/// circulation of its leading sheet there and the lift at each step.
 fn turning(
     leading: LeadingEdge,
     angle: impl Fn(f64) -> [f64; 2],
@@ -253,7 +253,8 @@ fn pulse(t: f64, hold: f64) -> [f64; 2] {
     }
 }
 
-/// Kelvin's theorem of the strip: where the flow attaches again, vorticity of the other sign is not shed to undo what has left.
+/// Kelvin's theorem of the strip: where the flow attaches again, vorticity of the other sign is not shed to
+/// undo what has left.
 #[test]
 fn conserves_what_has_left_a_leading_edge_that_ceases_to_shed() {
     let criterion = LeadingEdge::AngleOfAttack { threshold: 0.3 };
@@ -280,8 +281,8 @@ fn conserves_what_has_left_a_leading_edge_that_ceases_to_shed() {
     assert!(rest.abs() > 0.1);
 }
 
-/// While the edge sheds, its net circulation stays at what it holds and what waits there to leave, that of rows of up to a
-/// panel's length, whatever the step; without shedding the suction grows beyond that.
+/// While the edge sheds, its net circulation stays at what it holds and what waits there to leave, that of rows
+/// of up to a panel's length, whatever the step; without shedding the suction grows beyond that.
 #[test]
 fn behaves_suction_of_a_shedding_edge_stays_near_what_it_holds() {
     let most = |threshold: f64, dt: f64| {
@@ -300,8 +301,8 @@ fn behaves_suction_of_a_shedding_edge_stays_near_what_it_holds() {
     assert!(attached > 1.2 * coarse);
 }
 
-/// Thin-airfoil theory: the suction of a strip pulls with `pi rho c U^2 A0^2` per span, and edges with half the efficiency
-/// have half of it, none with none; nothing else changes.
+/// Thin-airfoil theory: the suction of a strip pulls with `pi rho c U^2 A0^2` per span, and edges with half the
+/// efficiency have half of it, none with none; nothing else changes.
 #[test]
 fn exact_suction_force_follows_from_its_parameter_and_goes_with_the_efficiency() {
     let pull = |threshold: f64, efficiency: f64| {
@@ -355,8 +356,8 @@ fn limit_an_edge_that_holds_nothing_sheds_always() {
     };
     let [all, some] = [LeadingEdge::Always, held(1e-13, 1.0)].map(lift);
     let most = all.iter().fold(0.0_f64, |m, l| m.max(l.abs()));
-    // Nothing has left yet at the first step, which counts as attached where an edge may hold. Measured 2e-4: rounding decides where a
-    // node in the middle goes, whose vorticity cancels.
+    // Nothing has left yet at the first step, which counts as attached where an edge may hold. Measured 2e-4:
+    // rounding decides where a node in the middle goes, whose vorticity cancels.
     let apart = all.iter().zip(&some).skip(1).map(|(a, b)| (a - b).abs());
     let apart = apart.fold(0.0, f64::max) / most;
     println!("largest difference over the largest lift: {apart:e}");
@@ -391,8 +392,8 @@ fn agrees_second_method_impulse_in_hover_of_wings_that_shed_all_around() {
     }
 }
 
-/// The first and the last column of a sheet that leaves a wing all around are one line, though as much circulation runs along
-/// either, in opposite directions, as the whole edge has shed.
+/// The first and the last column of a sheet that leaves a wing all around are one line, though as much
+/// circulation runs along either, in opposite directions, as the whole edge has shed.
 #[test]
 fn conserves_closed_sheets_stay_closed() {
     let settings = AirSettings {

@@ -12,7 +12,8 @@ const ALPHA: f64 = 0.3;
 /// Far more than what the edges have.
 const ALL: f64 = 9.0;
 
-/// Loads of a plate of one column without ends in a stream of 1 along x, in the end; directions of the columns and of the edges.
+/// Loads of a plate of one column without ends in a stream of 1 along x, in the end; directions of the columns
+/// and of the edges.
 fn plane_flow(rows: usize, chord: DVec3, edge: DVec3, leading: LeadingEdge) -> AirLoads {
     let core = CoreModel::Scully { radius: 1e-7 };
     let settings = AirSettings {
@@ -36,7 +37,8 @@ fn plates() -> [(&'static str, DVec3, DVec3); 3] {
     ]
 }
 
-/// What flows along an endless edge makes no suction: the parameter is the sine of the angle in the plane normal to the edge.
+/// What flows along an endless edge makes no suction: the parameter is the sine of the angle in the plane
+/// normal to the edge.
 #[test]
 fn exact_simple_sweep_suction_parameter_of_endless_plates() {
     let law = LeadingEdge::VortexLift(VortexLift {
@@ -63,8 +65,8 @@ fn exact_simple_sweep_suction_parameter_of_endless_plates() {
     }
 }
 
-/// What thin edges feel is normal to the plate, panel by panel, to round-off: on endless plates, and on a flat wing with ends, swept and
-/// tapered. On round edges it is not.
+/// What thin edges feel is normal to the plate, panel by panel, to round-off: on endless plates, and on a flat
+/// wing with ends, swept and tapered. On round edges it is not.
 #[test]
 fn exact_thin_edges_leave_forces_normal_to_flat_wings() {
     for leading in [thin, vortex_lift, implicit_thin] {

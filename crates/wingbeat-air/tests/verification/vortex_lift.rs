@@ -60,8 +60,8 @@ fn limit_edges_that_hold_all_are_attached() {
     assert_eq!(held.inviscid_force, attached.inviscid_force);
 }
 
-/// An edge that holds nothing, whose vortex has been fed for half of its time, has half of what Polhamus's analogy adds, and no force along
-/// the plate.
+/// An edge that holds nothing, whose vortex has been fed for half of its time, has half of what Polhamus's
+/// analogy adds, and no force along the plate.
 #[test]
 fn exact_half_fed_is_half_of_polhamus() {
     let alpha = 0.4;
@@ -85,7 +85,8 @@ fn exact_half_fed_is_half_of_polhamus() {
 /// No kink in the force against the angle, where edges begin to yield strip by strip and where vortices are lost.
 #[test]
 fn order_forces_are_differentiable_in_the_angle() {
-    // Second differences over h on a grid without gaps: wherever the slope jumps they stay, where it does not they go with h.
+    // Second differences over h on a grid without gaps: wherever the slope jumps they stay, where it does not
+    // they go with h.
     for fed in [2.0, 4.0, 5.0, 7.0] {
         let largest = |n: usize| {
             let h = 0.6 / n as f64;
@@ -132,7 +133,8 @@ fn exact_what_is_fed_in_revolution() {
     }
 }
 
-/// Where a plate stands still in still air with circulation left, nothing flows past its edge and no suction is left to be turned.
+/// Where a plate stands still in still air with circulation left, nothing flows past its edge and no suction is
+/// left to be turned.
 #[test]
 fn behaves_a_plate_that_stops_in_still_air_has_finite_forces() {
     let settings = AirSettings {

@@ -16,8 +16,8 @@ use crate::departure::{Controls, adjustments};
 use crate::disturbance::disturbed;
 use crate::trim::Trim;
 
-/// The equations of the flyers of a trimmed flight, with their intermediate results: what they share, so that hundreds that
-/// take turns stay in the caches of the processor. A flyer brings its state and its commands.
+/// The equations of the flyers of a trimmed flight, with their intermediate results: what they share, so that
+/// hundreds that take turns stay in the caches of the processor. A flyer brings its state and its commands.
 pub struct Model {
     flight: FreeFlight,
     steady: Vec<Arc<SteadyStroke>>,

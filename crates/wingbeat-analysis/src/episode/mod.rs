@@ -1,9 +1,9 @@
 //! Episodes of flight that are steered from outside, step by step: what those need who learn to fly.
 //!
 //! An [`Episode`] begins near the trimmed flight, disturbed as its [`Task`] says and its seed draws. Controls
-//! ([`Controls`], as fractions of their limits) come once per control step, a wingbeat or less; the strokes go over to them smoothly
-//! until the next one ([`SteeredStroke`]). The equations are those of a flight ([`FreeFlight`](wingbeat_flight::FreeFlight)), by
-//! the classical Runge-Kutta method; air without memory.
+//! ([`Controls`], as fractions of their limits) come once per control step, a wingbeat or less; the strokes go
+//! over to them smoothly until the next one ([`SteeredStroke`]). The equations are those of a flight
+//! ([`FreeFlight`](wingbeat_flight::FreeFlight)), by the classical Runge-Kutta method; air without memory.
 //!
 //! | number | observed | unit |
 //! |---|---|---|

@@ -37,8 +37,8 @@ impl<'a> Recoveries<'a> {
         self.all.is_empty()
     }
 
-    /// Part that recovered, and its standard error \[1\]: that of Jeffreys' estimate (k + 1/2)/(n + 1), which is not zero where
-    /// all or none did.
+    /// Part that recovered, and its standard error \[1\]: that of Jeffreys' estimate (k + 1/2)/(n + 1), which
+    /// is not zero where all or none did.
     pub fn recovered(&self) -> [f64; 2] {
         let (k, n) = (self.beats.len() as f64, self.all.len() as f64);
         let p = (k + 0.5) / (n + 1.0);

@@ -1,8 +1,9 @@
-//! Strokes that are steered: amplitude, mean angle and plane go over from one command to the next, on top of a steady beat
-//! whose angles are known beforehand at the half steps of the integration.
+//! Strokes that are steered: amplitude, mean angle and plane go over from one command to the next, on top of a
+//! steady beat whose angles are known beforehand at the half steps of the integration.
 //!
-//! As adjustments go over linearly ([`Passage`](wingbeat_flight::Passage)), the stroke angle is
-//! `mean + (1 + a(t)) (phi - mean) + s o(t)` with the commanded relative amplitude a and offset o, s = 1 on the right and -1 on the left.
+//! As adjustments go over linearly ([`Passage`](wingbeat_flight::Passage)), the stroke angle is `mean + (1 +
+//! a(t)) (phi - mean) + s o(t)` with the commanded relative amplitude a and offset o, s = 1 on the right and -1
+//! on the left.
 
 use std::sync::{Arc, RwLock};
 

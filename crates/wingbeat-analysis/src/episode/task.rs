@@ -39,7 +39,8 @@ impl Task {
         }
     }
 
-    /// Place and velocity of the target, level axes [m, m/s]: at rest, or on a circle of radius 4 R, once in 100 wingbeats.
+    /// Place and velocity of the target, level axes [m, m/s]: at rest, or on a circle of radius 4 R, once in
+    /// 100 wingbeats.
     pub fn target(self, beat: &Beat, time: f64) -> (DVec3, DVec3) {
         const RADIUS: f64 = 4.0;
         const BEATS: f64 = 100.0;
@@ -59,8 +60,8 @@ impl Task {
         d.position.length() > 20.0 * beat.wing_length() || d.state.tilt.length() > 2.5
     }
 
-    /// Reward of a wingbeat, in (0, 1]: `exp(-cost)`, the cost quadratic in distance [R], velocity [R/T], tilt [rad] and
-    /// controls.
+    /// Reward of a wingbeat, in (0, 1]: `exp(-cost)`, the cost quadratic in distance [R], velocity [R/T], tilt
+    /// [rad] and controls.
     pub fn reward(self, beat: &Beat, d: &Departure, controls: &[f64; CONTROLS]) -> f64 {
         let length = beat.wing_length();
         let speed = d.state.velocity * beat.period() / length;

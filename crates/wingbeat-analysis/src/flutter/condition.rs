@@ -18,12 +18,13 @@ pub struct Condition {
     pub speed: f64,
     /// The deformed steady state.
     pub steady: SteadyWing,
-    /// Motions found in the response, of rising frequency, those that take part with less than [`MIN_SHARE`] or than what is
-    /// not linear, or hardly vibrate, left out.
+    /// Motions found in the response, of rising frequency, those that take part with less than [`MIN_SHARE`] or
+    /// than what is not linear, or hardly vibrate, left out.
     pub modes: Vec<Vibration>,
     /// What is not known of the growth of each of them [1/s] (see `uncertainty.rs`).
     pub uncertainty: Vec<f64>,
-    /// The motion that grows fastest without vibrating, and what is not known of its growth [1/s]; none where none grows.
+    /// The motion that grows fastest without vibrating, and what is not known of its growth [1/s]; none where
+    /// none grows.
     pub divergence: Option<(Vibration, f64)>,
     /// The whole response as a linear system.
     pub response: Realisation,
@@ -39,8 +40,8 @@ pub const MIN_SHARE: f64 = 1e-3;
 /// Damping over critical above which a motion is that of the wake, or dies within a period \[1\].
 pub const MAX_DAMPING: f64 = 0.8;
 
-/// Most of that share below which motions are left out because the response is not linear \[1\]: with more, the modes are
-/// told, and that they are doubtful.
+/// Most of that share below which motions are left out because the response is not linear \[1\]: with more, the
+/// modes are told, and that they are doubtful.
 const MAX_LEFT_OUT: f64 = 0.1;
 
 /// Samples without which nothing is found, also not in three quarters of a response.
@@ -55,8 +56,8 @@ const SAMPLES: [f64; 2] = [80.0, 6.0];
 /// The elastic wings of `setup` in its stream at `speed` [m/s].
 ///
 /// # Errors
-/// No elastic wing; wings or a root that move; no stream, no wake; a steady state that is not reached; a response that is too
-/// short; what flights and the identification report.
+/// No elastic wing; wings or a root that move; no stream, no wake; a steady state that is not reached; a
+/// response that is too short; what flights and the identification report.
 pub fn condition(
     setup: &FlightSetup,
     speed: f64,

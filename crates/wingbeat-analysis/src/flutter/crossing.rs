@@ -16,14 +16,14 @@ pub struct Crossing {
     pub between: [f64; 2],
 }
 
-/// Most that the frequencies of a mode at neighbouring speeds differ, over the larger \[1\]: modes of beams and plates are at
-/// least so far apart unless they flutter together.
+/// Most that the frequencies of a mode at neighbouring speeds differ, over the larger \[1\]: modes of beams and
+/// plates are at least so far apart unless they flutter together.
 const NEAR: f64 = 0.25;
 
-/// Zero crossings of growth along `conditions` of rising speed, interpolated linearly. Modes of two speeds go together by the
-/// distance of their eigenvalues, the nearest first: where two come close, speeds are to be closer than they. A crossing
-/// counts where growth differs from zero by more than its uncertainty on both sides; speeds between, at which the mode is neutral
-/// within what is known, are passed over.
+/// Zero crossings of growth along `conditions` of rising speed, interpolated linearly. Modes of two speeds go
+/// together by the distance of their eigenvalues, the nearest first: where two come close, speeds are to be
+/// closer than they. A crossing counts where growth differs from zero by more than its uncertainty on both
+/// sides; speeds between, at which the mode is neutral within what is known, are passed over.
 pub fn crossings(conditions: &[Condition]) -> Vec<Crossing> {
     let mut found = vec![];
     for track in tracks(conditions) {
@@ -43,8 +43,9 @@ pub fn crossings(conditions: &[Condition]) -> Vec<Crossing> {
     found
 }
 
-/// Onsets of modes that are neutral within what is known at the first of `conditions` and up to where they grow: flutter begins at
-/// about the speed where their growth, as far as it is known, is zero, or may have begun at the last speed at which they are neutral.
+/// Onsets of modes that are neutral within what is known at the first of `conditions` and up to where they
+/// grow: flutter begins at about the speed where their growth, as far as it is known, is zero, or may have
+/// begun at the last speed at which they are neutral.
 pub fn likely(conditions: &[Condition]) -> Vec<Crossing> {
     let onset = |track: Vec<(usize, usize)>| {
         let first = (track.iter()).position(|&(c, m)| conditions[c].grows(m).is_some())?;
@@ -58,8 +59,8 @@ pub fn likely(conditions: &[Condition]) -> Vec<Crossing> {
     found
 }
 
-/// Modes whose growth is above zero, by more than its uncertainty, at all of `conditions`: at the first and at the last of
-/// them.
+/// Modes whose growth is above zero, by more than its uncertainty, at all of `conditions`: at the first and at
+/// the last of them.
 pub fn growing(conditions: &[Condition]) -> Vec<[Vibration; 2]> {
     let through = |track: &Vec<(usize, usize)>| {
         let grows = |&(c, m): &(usize, usize)| conditions[c].grows(m) == Some(true);

@@ -18,8 +18,8 @@ pub(crate) struct Disturbance {
 }
 
 impl Disturbance {
-    /// The leading modes of the first elastic wing about `state`, each of the amplitude that `settings` has; other wings have
-    /// its mirror image or do as it does.
+    /// The leading modes of the first elastic wing about `state`, each of the amplitude that `settings` has;
+    /// other wings have its mirror image or do as it does.
     ///
     /// # Errors
     /// Modes that cannot be found.

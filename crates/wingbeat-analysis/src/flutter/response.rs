@@ -1,10 +1,10 @@
 //! A response that is small enough to be linear.
 //!
-//! A mode that grows makes of a small disturbance a large motion. Squares and products of its amplitude then answer as modes of
-//! their own would: twice the growth without vibrating, and with twice the frequency; three times the growth with the
-//! frequency itself. A part `q` of the response that goes by squares differs by `q / 2` from twice the response to half the
-//! disturbance. Where that is more than [`LINEAR`], the disturbance is made smaller, as long as that makes it less: rounding
-//! weighs the more, the smaller the motion.
+//! A mode that grows makes of a small disturbance a large motion. Squares and products of its amplitude then
+//! answer as modes of their own would: twice the growth without vibrating, and with twice the frequency; three
+//! times the growth with the frequency itself. A part `q` of the response that goes by squares differs by `q /
+//! 2` from twice the response to half the disturbance. Where that is more than [`LINEAR`], the disturbance is
+//! made smaller, as long as that makes it less: rounding weighs the more, the smaller the motion.
 
 use crate::AnalysisError;
 use crate::realisation::rms;

@@ -1,8 +1,9 @@
 //! Coming to rest in a stream.
 //!
-//! What is left last is a motion that decays without vibrating, the more slowly, the closer the wing is to static divergence:
-//! `q(t) = q + d exp(-t / tau)`. From three shapes equally far apart in time, whose two differences are alike and of the ratio
-//! `r < 1`, follows where it leads, `q_3 + (q_3 - q_2) r / (1 - r)` [Aitken 1926]. The wing goes on from there, at rest.
+//! What is left last is a motion that decays without vibrating, the more slowly, the closer the wing is to
+//! static divergence: `q(t) = q + d exp(-t / tau)`. From three shapes equally far apart in time, whose two
+//! differences are alike and of the ratio `r < 1`, follows where it leads, `q_3 + (q_3 - q_2) r / (1 - r)`
+//! [Aitken 1926]. The wing goes on from there, at rest.
 
 use std::collections::VecDeque;
 

@@ -1,14 +1,16 @@
 //! What is not known of the growth of a mode.
 //!
-//! The same mode is found in other responses of the same wing: twice the one to half the disturbance (what is not linear, and
-//! rounding, which weighs twice there) and the first part of the response (what depends on its length). Errors of an eigenvalue
-//! have no preferred direction in the complex plane: growth is as little known as the eigenvalue moves. A mode that is not
-//! found again is not known at all. What the fit leaves of the response could be of this mode, too: a residual of the part `r`
-//! changes the amplitude of a mode of the share `s` by `r / s` within the length `T` of the response, its growth by `r / (s T)`.
+//! The same mode is found in other responses of the same wing: twice the one to half the disturbance (what is
+//! not linear, and rounding, which weighs twice there) and the first part of the response (what depends on its
+//! length). Errors of an eigenvalue have no preferred direction in the complex plane: growth is as little known
+//! as the eigenvalue moves. A mode that is not found again is not known at all. What the fit leaves of the
+//! response could be of this mode, too: a residual of the part `r` changes the amplitude of a mode of the share
+//! `s` by `r / s` within the length `T` of the response, its growth by `r / (s T)`.
 //!
-//! What the step `h` of the flight does to a mode is the same in all responses. Methods of second order move an eigenvalue
-//! `lambda` by about `|lambda|^3 h^2 / 12` (the trapezoidal rule and generalized-alpha without dissipation), of a wing alone along
-//! its frequency, with loads in either direction: modes of few steps a period are neutral.
+//! What the step `h` of the flight does to a mode is the same in all responses. Methods of second order move an
+//! eigenvalue `lambda` by about `|lambda|^3 h^2 / 12` (the trapezoidal rule and generalized-alpha without
+//! dissipation), of a wing alone along its frequency, with loads in either direction: modes of few steps a
+//! period are neutral.
 
 use crate::AnalysisError;
 use crate::realisation::{Realisation, Vibration, realise};
@@ -23,8 +25,8 @@ pub(super) struct Taken {
     pub length: f64,
 }
 
-/// Uncertainty of the growth of each of `modes` [1/s], found in `response`; `others` are responses of the same wing, sampled as
-/// often.
+/// Uncertainty of the growth of each of `modes` [1/s], found in `response`; `others` are responses of the same
+/// wing, sampled as often.
 pub(super) fn uncertainties(
     modes: &[Vibration],
     response: &Realisation,

@@ -222,8 +222,8 @@ fn air_from_behind(setup: &FlightSetup, e: &Estimate) -> Option<String> {
     })
 }
 
-/// Blade elements whose drag at no incidence is many times the friction of a plate, where drag at small incidence counts: in flight
-/// that is not slow beside the tips.
+/// Blade elements whose drag at no incidence is many times the friction of a plate, where drag at small
+/// incidence counts: in flight that is not slow beside the tips.
 fn drag_of_small_insects(setup: &FlightSetup, e: &Estimate) -> Option<String> {
     const TIMES: f64 = 10.0;
     const FAST: f64 = 0.5;
@@ -300,8 +300,8 @@ fn wing_doubts(setup: &FlightSetup, wing: &Wing, w: &WingEstimate) -> Vec<String
 /// Phases at which a deformation is looked at.
 const PHASES: usize = 24;
 
-/// Largest displacement of a node by prescribed deformation \[m\], and largest turn of a chord \[deg\]; none of a measured surface, which
-/// is the wing as it was seen.
+/// Largest displacement of a node by prescribed deformation \[m\], and largest turn of a chord \[deg\]; none of
+/// a measured surface, which is the wing as it was seen.
 fn deformation(wing: &Wing) -> [f64; 2] {
     let Some(shape) = wing.deformation.as_ref().filter(|d| d.surface.is_none()) else {
         return [0.0; 2];

@@ -9,7 +9,8 @@ use wingbeat_structure::{StructureError, first_frequency};
 use super::limit::{Doubts, Limit, rounded};
 use super::numbers::WingEstimate;
 
-/// Wings of insects vibrate at two to ten times their wingbeat [Combes & Daniel 2003; Ennos 1988], spars of robots up to a few hundred.
+/// Wings of insects vibrate at two to ten times their wingbeat [Combes & Daniel 2003; Ennos 1988], spars of
+/// robots up to a few hundred.
 const RATIO: Limit = Limit {
     low: 1.0,
     high: 1000.0,
@@ -50,7 +51,8 @@ const DAMPING: Limit = Limit {
 /// Panels of a sheet up to which its first frequency takes less than half a second, the elastic body built again.
 const PANELS: usize = 300;
 
-/// First frequency in vacuum \[Hz\] of a wing that is elastic, can be built and is not large; an error where rounding hides it.
+/// First frequency in vacuum \[Hz\] of a wing that is elastic, can be built and is not large; an error where
+/// rounding hides it.
 type First = Result<Option<f64>, StructureError>;
 
 /// Those of all wings; mirror images share theirs.
@@ -119,7 +121,8 @@ pub(super) fn doubts(wing: &Wing, w: &WingEstimate, list: &mut Doubts) {
     }
 }
 
-/// Bending and twist alone, of an even beam as stiff as this one is at half of its length: where one is soft the first frequency hides the other.
+/// Bending and twist alone, of an even beam as stiff as this one is at half of its length: where one is soft
+/// the first frequency hides the other.
 fn each_way(wing: &Wing, beam: &WingBeam, w: &WingEstimate, list: &mut Doubts) {
     let Some(beat) = w.first_frequency.zip(w.frequency_ratio).map(|(f, r)| f / r) else {
         return;

@@ -62,7 +62,8 @@ fn beyond(joint: &Joint, q: f64, [lower, upper]: [f64; 2]) -> Option<String> {
     })
 }
 
-/// Moment of inertia \[kg m2\] of the child about the axis of free direction `k`, of one that turns; its mass \[kg\] of one that slides.
+/// Moment of inertia \[kg m2\] of the child about the axis of free direction `k`, of one that turns; its mass
+/// \[kg\] of one that slides.
 fn inertia(setup: &FlightSetup, joint: &Joint, k: usize) -> Option<f64> {
     let system = system_of(setup).ok()?;
     let mass = system.bodies().get(joint.child)?.mass;

@@ -25,8 +25,8 @@ fn steps(setup: &FlightSetup) -> usize {
     }
 }
 
-/// Mean lift over weight of the second wingbeat of a tethered flight in blade elements, all wings rigid; none where these cannot
-/// follow a measured surface.
+/// Mean lift over weight of the second wingbeat of a tethered flight in blade elements, all wings rigid; none
+/// where these cannot follow a measured surface.
 pub(super) fn lift_over_weight(setup: &FlightSetup) -> Result<Option<f64>, AnalysisError> {
     let weight = setup.animal.mass() * setup.gravity.length();
     let (Some(period), Some(density)) = (setup.time.period, density(&setup.air)) else {

@@ -18,7 +18,8 @@ pub struct WingEstimate {
     pub reynolds: Option<f64>,
     /// Reduced frequency of the mean chord; none where nothing flaps or moves \[1\].
     pub reduced_frequency: Option<f64>,
-    /// First frequency in vacuum, the hinge held \[Hz\]; none of rigid wings and of structures too large to say it at once.
+    /// First frequency in vacuum, the hinge held \[Hz\]; none of rigid wings and of structures too large to say
+    /// it at once.
     pub first_frequency: Option<f64>,
     /// Whether stiffnesses differ by more than rounding, which hides it.
     pub hides_frequency: bool,

@@ -1,4 +1,5 @@
-//! Left and right wings that move unlike each other, as seen in a mirror: signs of one side taken for those of the other.
+//! Left and right wings that move unlike each other, as seen in a mirror: signs of one side taken for those of
+//! the other.
 
 use wingbeat_math::DVec3;
 use wingbeat_model::{AngleLaw, AngleLaws, Wing};
@@ -44,7 +45,8 @@ pub(super) fn against_each_other(wings: &[Wing]) -> Vec<String> {
     pairs.flat_map(|(a, b)| opposite(a, b)).collect()
 }
 
-/// The angles in which a wing and one on the other side go opposite ways. Where the strokes do, the others mean nothing.
+/// The angles in which a wing and one on the other side go opposite ways. Where the strokes do, the others mean
+/// nothing.
 fn opposite(a: &Wing, b: &Wing) -> Vec<String> {
     let laws = [a.motion.angles.clone(), b.motion.angles.mirrored()];
     let phases = [a.motion.phase, b.motion.phase];

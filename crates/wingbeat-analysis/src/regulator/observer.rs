@@ -1,5 +1,5 @@
-//! The steady Kalman filter on the map of a wingbeat: what the flyer does is estimated from what is seen, which is noisy,
-//! and from what was commanded, which is known.
+//! The steady Kalman filter on the map of a wingbeat: what the flyer does is estimated from what is seen, which
+//! is noisy, and from what was commanded, which is known.
 //!
 //! ```text
 //! x^[k]    = x-[k] + L (y[k] - x-[k])                       y: what is seen
@@ -7,8 +7,8 @@
 //! L = P (P + R)^-1,  P = M (P - L P) M^T + W                R: noise of what is seen, W: of the flight
 //! ```
 //!
-//! Free joints are states that are not seen: their noise R is beyond any measure, and what is expected of them is corrected by
-//! what is seen of the body.
+//! Free joints are states that are not seen: their noise R is beyond any measure, and what is expected of them
+//! is corrected by what is seen of the body.
 //!
 //! With the gains of the regulator on x^ this is the linear-quadratic-Gaussian regulator: the eigenvalues of the closed
 //! loop are those of regulator and filter.
@@ -94,7 +94,8 @@ impl Observer {
         &self.gains
     }
 
-    /// What is estimated where `seen` is seen at look number `look`; free joints last, at first as on the trimmed orbit.
+    /// What is estimated where `seen` is seen at look number `look`; free joints last, at first as on the
+    /// trimmed orbit.
     pub fn estimate(&self, look: usize, seen: &[f64; STATES]) -> Vec<f64> {
         let gain = &self.gains[look % self.gains.len()];
         let n = gain.len().isqrt();
@@ -142,8 +143,9 @@ pub struct Kalman {
     pub covariance: Vec<f64>,
 }
 
-/// The steady filters of a period of maps `x' = M x + w` where x itself is seen with noise: variances `w` of the process and
-/// `r` of what is seen, all independent. Riccati's difference equation, run through the periods until it stands.
+/// The steady filters of a period of maps `x' = M x + w` where x itself is seen with noise: variances `w` of
+/// the process and `r` of what is seen, all independent. Riccati's difference equation, run through the periods
+/// until it stands.
 ///
 /// # Errors
 /// An iteration that does not converge.

@@ -1,15 +1,16 @@
 //! The derivative of the free beat by differences of disturbed flights.
 //!
-//! A flight is disturbed by each component of a departure to either side, and departs by others soon after its start and a wingbeat
-//! later. What takes the differences of the former into those of the latter is the map over the beat.
+//! A flight is disturbed by each component of a departure to either side, and departs by others soon after its
+//! start and a wingbeat later. What takes the differences of the former into those of the latter is the map
+//! over the beat.
 
 use wingbeat_math::solve_small;
 
 use crate::AnalysisError;
 use crate::progress;
 
-/// Derivatives of `order` components of a departure at first and a beat later, by the sizes of as many disturbances, one column each;
-/// `fly` flies disturbance `k` of a size, which `step` gives.
+/// Derivatives of `order` components of a departure at first and a beat later, by the sizes of as many
+/// disturbances, one column each; `fly` flies disturbance `k` of a size, which `step` gives.
 ///
 /// # Errors
 /// What the flights report.

@@ -1,7 +1,8 @@
 //! How many modes of the wings Floquet's modes need: what changes where one fewer is taken along.
 //!
-//! With one mode of every wing fewer, the last is neither disturbed nor looked at: its columns and rows of the flown departures are
-//! left out before the map is made of them. So the check costs an eigenproblem and no flight.
+//! With one mode of every wing fewer, the last is neither disturbed nor looked at: its columns and rows of the
+//! flown departures are left out before the map is made of them. So the check costs an eigenproblem and no
+//! flight.
 
 use super::differences::map_between;
 use super::wings::{BODY, ElasticMonodromy};
@@ -42,11 +43,13 @@ impl ElasticMonodromy {
     }
 }
 
-/// Multipliers over which motions count as those of flight: what decays faster has lost three quarters after two wingbeats \[1\].
+/// Multipliers over which motions count as those of flight: what decays faster has lost three quarters after
+/// two wingbeats \[1\].
 const LASTING: f64 = 0.5;
 
-/// How far Floquet's multipliers of the motions that last move where one mode fewer of each wing is taken along: the largest distance of
-/// one of these to the nearest of those \[1\]. None where some wing has no mode to leave out.
+/// How far Floquet's multipliers of the motions that last move where one mode fewer of each wing is taken
+/// along: the largest distance of one of these to the nearest of those \[1\]. None where some wing has no mode
+/// to leave out.
 ///
 /// # Errors
 /// Numbers that are not finite; departures that depend on each other.

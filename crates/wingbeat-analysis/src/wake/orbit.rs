@@ -1,10 +1,10 @@
-//! The periodic beat of a flyer whose wings bend or whose strips leave wakes, in air without wakes in space: wings come back to shape
-//! and velocity, and wakes to their states, as the body does.
+//! The periodic beat of a flyer whose wings bend or whose strips leave wakes, in air without wakes in space:
+//! wings come back to shape and velocity, and wakes to their states, as the body does.
 //!
-//! A beat is flown again and again, the body put back to its start after each and the wings going on from where they are: air
-//! damps them so much that after a few beats they come back to where they began. States of wakes decay by their ways, which a
-//! beat tells: they go on from where they would be if the strips' motion repeated itself for ever. What the body has changed by in
-//! such a beat are the residuals of steady flight.
+//! A beat is flown again and again, the body put back to its start after each and the wings going on from where
+//! they are: air damps them so much that after a few beats they come back to where they began. States of wakes
+//! decay by their ways, which a beat tells: they go on from where they would be if the strips' motion repeated
+//! itself for ever. What the body has changed by in such a beat are the residuals of steady flight.
 
 use wingbeat_dynamics::BodyMotion;
 use wingbeat_flight::air::BladeAir;
@@ -17,8 +17,9 @@ use crate::AnalysisError;
 use crate::beat::periodic::check_periodic;
 use crate::beat::{changing_air, check_steady, steadied};
 
-/// Change of places over the wing length, of attitudes \[rad\], and of velocities over wing length and wingbeat, within which
-/// wings count as back, over the residuals that count as trimmed; and some ten times what a step leaves unbalanced.
+/// Change of places over the wing length, of attitudes \[rad\], and of velocities over wing length and
+/// wingbeat, within which wings count as back, over the residuals that count as trimmed; and some ten times
+/// what a step leaves unbalanced.
 const BACK: [f64; 2] = [1e-2, 1e-9];
 
 /// Beats within which they must be.
@@ -84,8 +85,8 @@ pub(super) struct PeriodicBeat {
     pub beats: usize,
 }
 
-/// The beat of `setup`, which is `steps` long, its wings and wakes sought from `past` on, or from rest, for residuals within
-/// `tolerance`.
+/// The beat of `setup`, which is `steps` long, its wings and wakes sought from `past` on, or from rest, for
+/// residuals within `tolerance`.
 ///
 /// # Errors
 /// What the flight reports; wings or wakes that do not come back.

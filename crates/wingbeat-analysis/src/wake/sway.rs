@@ -13,8 +13,8 @@ const HARMONICS: usize = 12;
 /// Amplitude over the largest one of place or attitude below which a coefficient is none: roundings.
 const NONE: f64 = 1e-9;
 
-/// The motion through `roots`, which are even in time, both ends of a beat of `frequency` \[Hz\] among them: places with their mean
-/// velocity, attitudes without what they have changed by.
+/// The motion through `roots`, which are even in time, both ends of a beat of `frequency` \[Hz\] among them:
+/// places with their mean velocity, attitudes without what they have changed by.
 pub(super) fn sway(roots: &[BodyMotion], frequency: f64) -> PrescribedMotion {
     let angles = |root: &BodyMotion| EulerSequence::BODY_231.angles(root.r);
     let mut position = series(roots, |root| root.p, frequency);

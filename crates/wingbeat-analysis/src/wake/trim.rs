@@ -50,7 +50,8 @@ pub struct WakeTrim {
     pub flights: usize,
     /// Mean velocity that was asked for, N components [m/s].
     pub velocity: DVec3,
-    /// Elastic wings and wakes of strips at the start of the periodic beat, where the air has no wakes in space; else empty.
+    /// Elastic wings and wakes of strips at the start of the periodic beat, where the air has no wakes in
+    /// space; else empty.
     pub past: Past,
     /// Motion of the body over that beat, whose means are velocity and attitude; where [`Self::past`] is empty, none.
     pub orbit: Option<PrescribedMotion>,
@@ -72,13 +73,13 @@ impl WakeTrim {
     }
 }
 
-/// Trims the flight of `setup` in air with memory, or with elastic wings: where the air has no wakes in space, as a periodic orbit of
-/// body, wings and wakes of strips.
+/// Trims the flight of `setup` in air with memory, or with elastic wings: where the air has no wakes in space,
+/// as a periodic orbit of body, wings and wakes of strips.
 ///
 /// # Errors
-/// As [`check_alike`]; a wingbeat that is not a whole number of steps; a steady turn, which a body that is held cannot fly;
-/// unknowns that the problem does not determine, or too few; a first flight that fails. A trim that does not converge
-/// is no error: see [`TrimSolution::converged`].
+/// As [`check_alike`]; a wingbeat that is not a whole number of steps; a steady turn, which a body that is held
+/// cannot fly; unknowns that the problem does not determine, or too few; a first flight that fails. A trim that
+/// does not converge is no error: see [`TrimSolution::converged`].
 pub fn trim_with_wake(
     setup: &FlightSetup,
     problem: &TrimProblem,
@@ -117,7 +118,8 @@ pub fn trim_with_wake(
     flights.run()
 }
 
-/// Right and left of a wingbeat after a hold part by less than this where wakes are chaotic, and where there are none \[1\].
+/// Right and left of a wingbeat after a hold part by less than this where wakes are chaotic, and where there
+/// are none \[1\].
 const ROUNDING: [f64; 2] = [1e-2, 1e-5];
 
 /// What to fly, and how often it was.
@@ -242,7 +244,8 @@ impl Flights<'_> {
         setup
     }
 
-    /// What is not periodic between the ends of the free beat, and how far right and left part (see [`Residuals::between`]).
+    /// What is not periodic between the ends of the free beat, and how far right and left part (see
+    /// [`Residuals::between`]).
     fn residuals_between(
         &self,
         setup: &FlightSetup,
@@ -263,7 +266,8 @@ impl Flights<'_> {
         self.residuals.between(self.problem, &size, &seen)
     }
 
-    /// The free beat of `setup`: its ends; of a periodic orbit elastic wings and wakes at its start, and the motion of the root.
+    /// The free beat of `setup`: its ends; of a periodic orbit elastic wings and wakes at its start, and the
+    /// motion of the root.
     fn beat(
         &mut self,
         setup: &FlightSetup,

@@ -1,10 +1,11 @@
-//! Floquet's modes of a flyer whose wings bend or whose strips leave wakes, in air without wakes in space: body, wings and wakes are
-//! disturbed.
+//! Floquet's modes of a flyer whose wings bend or whose strips leave wakes, in air without wakes in space:
+//! body, wings and wakes are disturbed.
 //!
-//! Of what wings can do their leading modes of vibration about their shape at the start of the beat are taken along: a
-//! departure of the wings is its projections on them, displacements and velocities, `phi^T M dq` and `phi^T M dv`. What other
-//! modes do has died before the beat is over. Wakes of strips are coordinates with all their states. Disturbed flights are looked at soon after their start and a wingbeat later; what
-//! takes the one into the other has Floquet's multipliers as its eigenvalues.
+//! Of what wings can do their leading modes of vibration about their shape at the start of the beat are taken
+//! along: a departure of the wings is its projections on them, displacements and velocities, `phi^T M dq` and
+//! `phi^T M dv`. What other modes do has died before the beat is over. Wakes of strips are coordinates with all
+//! their states. Disturbed flights are looked at soon after their start and a wingbeat later; what takes the
+//! one into the other has Floquet's multipliers as its eigenvalues.
 
 use faer::linalg::solvers::Solve;
 use faer::{Mat, c64};
@@ -36,8 +37,8 @@ const SETTLING: usize = 4;
 /// A map of departures over one wingbeat.
 #[derive(Clone, Debug)]
 pub struct ElasticMonodromy {
-    /// By rows: the nine components of [`Perturbation`], then wing by wing displacements and velocities of the modes, then strip by
-    /// strip the states of their wakes, all over their natural sizes \[1\].
+    /// By rows: the nine components of [`Perturbation`], then wing by wing displacements and velocities of the
+    /// modes, then strip by strip the states of their wakes, all over their natural sizes \[1\].
     pub matrix: Vec<f64>,
     /// Its order.
     pub order: usize,
@@ -99,8 +100,8 @@ pub fn elastic_modes(map: &ElasticMonodromy) -> Result<ModeSet, AnalysisError> {
     ))
 }
 
-/// What part body and wings have in each motion: the sum of their participation factors, which no unit of a component changes
-/// [Perez-Arriaga, Verghese & Schweppe 1982, IEEE Trans. Power Appar. Syst. 101:3117].
+/// What part body and wings have in each motion: the sum of their participation factors, which no unit of a
+/// component changes [Perez-Arriaga, Verghese & Schweppe 1982, IEEE Trans. Power Appar. Syst. 101:3117].
 fn own_parts(pairs: &[Eigenpair], wakes: usize) -> Vec<f64> {
     let n = pairs.len();
     let right = Mat::from_fn(n, n, |k, i| {
@@ -180,7 +181,8 @@ impl<'a> DisturbedFlights<'a> {
         self.wings.iter().map(|w| 2 * w.modes.len()).sum()
     }
 
-    /// Departures soon after the start and a wingbeat later of a flight whose component `k` is disturbed by `part` of its size.
+    /// Departures soon after the start and a wingbeat later of a flight whose component `k` is disturbed by
+    /// `part` of its size.
     fn fly(&self, k: usize, part: f64) -> Result<[Vec<f64>; 2], AnalysisError> {
         let mut setup = self.trim.setup.clone();
         let mut past = self.trim.past.clone();

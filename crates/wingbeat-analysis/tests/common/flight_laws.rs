@@ -136,8 +136,9 @@ impl Flyer {
         std::array::from_fn(|i| std::array::from_fn(|j| columns[j][i]))
     }
 
-    /// Mean moment about the mass centre that the masses ask for when the body turns steadily, derivatives by p, q, r, level
-    /// axes: what wings exert whose angular momentum is turned. By the forces on every mass, no angular momentum is summed.
+    /// Mean moment about the mass centre that the masses ask for when the body turns steadily, derivatives by
+    /// p, q, r, level axes: what wings exert whose angular momentum is turned. By the forces on every mass, no
+    /// angular momentum is summed.
     pub fn gyroscopic(&self, level: &Matrix, rate: f64) -> Matrix {
         let moment = |w: Vector| {
             let body = Motion {

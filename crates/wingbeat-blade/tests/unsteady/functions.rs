@@ -27,7 +27,8 @@ pub const KUESSNER: [(f64, f64); 8] = [
     (32.0, 0.9599),
 ];
 
-/// Theodorsen's function `H1 / (H1 + i H0)` of Hankel functions of the second kind, real and imaginary part; for k up to 3.
+/// Theodorsen's function `H1 / (H1 + i H0)` of Hankel functions of the second kind, real and imaginary part;
+/// for k up to 3.
 pub fn theodorsen(k: f64) -> [f64; 2] {
     let [j0, j1, y0, y1] = bessel(k);
     // H = J - i Y; H1 + i H0 = (J1 + Y0) + i (J0 - Y1).

@@ -115,8 +115,8 @@ fn published_answer_to_oscillations_is_theodorsens_function() {
     }
 }
 
-/// Amplitudes of lift and of moment about the axis, nose up, over those of the motion: plunge (velocity) or pitch (angle), of reduced
-/// frequency `k`, one after another of real and imaginary part.
+/// Amplitudes of lift and of moment about the axis, nose up, over those of the motion: plunge (velocity) or
+/// pitch (angle), of reduced frequency `k`, one after another of real and imaginary part.
 fn flown_amplitudes(k: f64, a: f64, pitches: bool) -> [[f64; 2]; 2] {
     const SIZE: f64 = 1e-5;
     let mut flown = Flown::new(section(a, Some(PETERS)));
@@ -232,7 +232,8 @@ fn published_lift_in_a_sharp_gust_is_kuessners_function() {
     }
 }
 
-/// A section that pitches and plunges up and down through air that streams, or blows as a steady wind: forces of the last period.
+/// A section that pitches and plunges up and down through air that streams, or blows as a steady wind: forces
+/// of the last period.
 fn pitching(stream: DVec3, wind: DVec3) -> Vec<Load> {
     let settings = BladeSettings {
         free_stream: stream,
@@ -324,7 +325,8 @@ fn order_of_downwash_that_is_no_straight_line_is_second() {
 
 #[test]
 fn behaves_smoothly_where_a_strip_turns_back() {
-    // A stroke through rest, broadside on and backwards: loads stay within those of the largest speed and change by little in a step.
+    // A stroke through rest, broadside on and backwards: loads stay within those of the largest speed and
+    // change by little in a step.
     let mut flown = Flown::new(wing_of_insect());
     let (steps, mut before, mut largest) = (4000, None, 0.0_f64);
     for k in 0..=3 * steps {

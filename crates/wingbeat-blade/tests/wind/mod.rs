@@ -12,8 +12,8 @@ const LAWS: [AddedMass; 4] = [
     AddedMass::Section,
 ];
 
-/// Velocity `u + s x` at a point x of N and its rate where the point stands still, on a wing that moves like `m` with its hinge at `p`;
-/// of the velocity u has come since the memory of the strips `change`.
+/// Velocity `u + s x` at a point x of N and its rate where the point stands still, on a wing that moves like
+/// `m` with its hinge at `p`; of the velocity u has come since the memory of the strips `change`.
 #[derive(Clone, Copy)]
 struct Field {
     u: DVec3,
@@ -81,7 +81,8 @@ fn massive(law: AddedMass) -> BladeSettings {
 
 #[test]
 fn exact_plate_at_rest_in_air_that_oscillates_feels_its_added_mass() {
-    // Air that swings as A sin(omega t) along the normal: rho pi/4 c^2 A omega cos(omega t) per unit of span, where the air stands still.
+    // Air that swings as A sin(omega t) along the normal: rho pi/4 c^2 A omega cos(omega t) per unit of span,
+    // where the air stands still.
     let plate = wing(BladeSettings::insect(RHO), 1, 1.0);
     let rest = WingFrame {
         rotation: DMat3::IDENTITY,
@@ -235,7 +236,8 @@ fn at(t: f64) -> (WingFrame, FrameAcceleration, Field) {
 
 #[test]
 fn agrees_force_in_a_changing_wind_with_the_rate_of_the_airs_impulse() {
-    // By the law of the impulse the force is the rate at which the momentum m (w n) that strips have given to the air at their mid chords falls.
+    // By the law of the impulse the force is the rate at which the momentum m (w n) that strips have given to
+    // the air at their mid chords falls.
     let w = wing(massive(AddedMass::Impulse), 4, 1.0);
     let impulse = |t: f64| {
         let (m, _, wind) = at(t);

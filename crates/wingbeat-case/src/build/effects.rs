@@ -85,7 +85,8 @@ pub(crate) fn check(case: &Case, setup: &FlightSetup, source: &CaseSource) -> Bu
     Ok(())
 }
 
-/// Frames of air without surfaces and wakes. Those that the file wants for a lattice stand by where the command line chose another model.
+/// Frames of air without surfaces and wakes. Those that the file wants for a lattice stand by where the command
+/// line chose another model.
 fn frames(case: &Case, source: &CaseSource) -> Built<()> {
     const KEY: &str = "output.frames_every";
     let wanted = case.output.frames_every > 0 && source.gives(KEY);

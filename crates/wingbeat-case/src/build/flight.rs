@@ -56,7 +56,8 @@ fn tethered(flight: &FlightCase) -> PrescribedMotion {
     on_tether(tether, [flight.position_m, flight.velocity_m_s, angles])
 }
 
-/// Oscillations about a constant velocity from a place \[m\] on, at an attitude \[rad\], from rest on if it is to start smoothly.
+/// Oscillations about a constant velocity from a place \[m\] on, at an attitude \[rad\], from rest on if it is
+/// to start smoothly.
 fn on_tether(tether: &TetherCase, [p, v, angles]: [[f64; 3]; 3]) -> PrescribedMotion {
     let paths = [&tether.x, &tether.y, &tether.z];
     let turns = [&tether.pitch, &tether.yaw, &tether.roll];

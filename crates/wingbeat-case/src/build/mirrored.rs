@@ -8,9 +8,9 @@ use crate::error::Fault;
 use crate::raw::{AirModel, Case, ElementCase, JointCase, JointKind, SeriesCase, TravelCase};
 use crate::sides::mirror_name;
 
-/// The joint of a right wing for a left wing that has none, and the other way round, unless that wing is not to be mirrored: points and displacements are
-/// mirrored, axes of rotation too, so that equal angles are mirror images. A spherical joint has no axes: the first and
-/// third component of its rotation vector change sign.
+/// The joint of a right wing for a left wing that has none, and the other way round, unless that wing is not to
+/// be mirrored: points and displacements are mirrored, axes of rotation too, so that equal angles are mirror
+/// images. A spherical joint has no axes: the first and third component of its rotation vector change sign.
 pub(super) fn mirrored(
     case: &Case,
     animal: &Animal,
@@ -48,7 +48,8 @@ pub(super) fn mirrored(
     Some((name, image))
 }
 
-/// Refuses joints of a right and a left wing whose springs, dampers or stops differ where one half of the air is computed.
+/// Refuses joints of a right and a left wing whose springs, dampers or stops differ where one half of the air
+/// is computed.
 pub(super) fn check_halves(case: &Case) -> Built<()> {
     if !case.air.mirror || case.air.model != AirModel::VortexLattice {
         return Ok(());

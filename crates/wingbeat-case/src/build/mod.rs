@@ -106,7 +106,8 @@ fn animal(case: &Case, name: &str) -> Built<Animal> {
     Ok(animal)
 }
 
-/// The animal, so many times as large; one that was sound before, and is not any more, has numbers that are too large or small.
+/// The animal, so many times as large; one that was sound before, and is not any more, has numbers that are too
+/// large or small.
 fn scaled(animal: &Animal, scale: f64) -> Built<Animal> {
     let fault = |e: ModelError| Fault::new("animal.scale", e.to_string(), "a number > 0", "");
     let scaled = animal.scaled(scale).map_err(fault)?;

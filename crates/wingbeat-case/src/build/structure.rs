@@ -162,7 +162,8 @@ fn shell(path: &str, case: &ShellCase) -> Built<WingShell> {
     Ok(wing)
 }
 
-/// Refuses a root that is free on a perimeter that is clamped, a perimeter that all nodes lie on, and a leading edge that is held anyway.
+/// Refuses a root that is free on a perimeter that is clamped, a perimeter that all nodes lie on, and a leading
+/// edge that is held anyway.
 fn check_clamps(path: &str, case: &ShellCase, [rows, cols]: [usize; 2]) -> Built<()> {
     if case.clamped_perimeter && rows.min(cols) < 2 {
         return Err(Fault::new(

@@ -50,7 +50,8 @@ const BLADES: [&str; 10] = [
     "induced_m_s",
 ];
 
-/// Checks what the case says of the air where there are no wings. Values that are the default may stand, as resolved cases have them.
+/// Checks what the case says of the air where there are no wings. Values that are the default may stand, as
+/// resolved cases have them.
 pub(super) fn check(case: &Case, source: &CaseSource) -> Built<()> {
     if !case.wing.is_empty() {
         return Ok(());

@@ -1,8 +1,8 @@
 //! Cases of insects that no preset holds: from a species, or from a few sizes and scaling laws, as a commented
 //! case file that hovers.
 //!
-//! The chapter in order: `species`, beside this one, is what is known, `scaling` fills in what is not given, `text` writes
-//! the case. The stroke is the one with which blade elements carry the weight on average
+//! The chapter in order: `species`, beside this one, is what is known, `scaling` fills in what is not given,
+//! `text` writes the case. The stroke is the one with which blade elements carry the weight on average
 //! ([`wingbeat_analysis::estimate`]).
 
 mod number;

@@ -40,8 +40,9 @@ pub struct AirCase {
     pub stream_m_s: [f64; 3],
     /// Whether head, thorax and abdomen are part of the lattice.
     ///
-    /// Change it to false where the body hardly moves the air at the wings: the flight is faster. Wings must be outside of its
-    /// parts; the circulation of wings whose roots lie on one goes on through it (docs/wings.md, "Wings on a body").
+    /// Change it to false where the body hardly moves the air at the wings: the flight is faster. Wings must be
+    /// outside of its parts; the circulation of wings whose roots lie on one goes on through it (docs/wings.md,
+    /// "Wings on a body").
     #[default = true]
     #[schemars(extend("with" = LATTICE))]
     pub body: bool,
@@ -66,17 +67,17 @@ pub struct AirCase {
     /// Core of the vortex filaments in the wakes: a physical input of hover. Default:
     /// algebraic, from 0.07 mean chords on.
     ///
-    /// Change it by a factor of two both ways to see what hangs on it; for the drag of attached wings in a stream to 0.01 chords,
-    /// with `wake_overlap = 0` (docs/wings.md, "Induced drag of attached wings").
+    /// Change it by a factor of two both ways to see what hangs on it; for the drag of attached wings in a
+    /// stream to 0.01 chords, with `wake_overlap = 0` (docs/wings.md, "Induced drag of attached wings").
     #[default(LambOseenCase::chords(0.07))]
     #[schemars(extend("with" = LATTICE))]
     pub wake_core: CoreCase,
-    /// Least core radius of a free wake filament over its length: keeps wakes resolved that the flow
-    /// stretches. Default: 1, or 0 where `wake_core` is a cut-off, which has no radius. Algebraic cores are no wider for
+    /// Least core radius of a free wake filament over its length: keeps wakes resolved that the flow stretches.
+    /// Default: 1, or 0 where `wake_core` is a cut-off, which has no radius. Algebraic cores are no wider for
     /// it than a quarter of the way along the sheet from its edge.
     ///
-    /// Change it to 0 for the drag of attached wings in a stream, and to compare with codes whose cores do not widen; long hover then
-    /// blows up.
+    /// Change it to 0 for the drag of attached wings in a stream, and to compare with codes whose cores do not
+    /// widen; long hover then blows up.
     #[schemars(extend("minimum" = 0, "with" = LATTICE))]
     #[serde(skip_serializing_if = "Open::is_open")]
     pub wake_overlap: Open<f64>,
@@ -141,17 +142,20 @@ pub struct AirCase {
     pub leading_edge_threshold_deg: Option<f64>,
     /// Leading-edge suction parameter that the leading edge of a strip holds: what is beyond it sheds.
     ///
-    /// Change it with the section of the wing: aerofoils hold about 0.18 times the root of their nose's radius over 0.008 chords.
+    /// Change it with the section of the wing: aerofoils hold about 0.18 times the root of their nose's radius
+    /// over 0.008 chords.
     #[default(0.15)]
     #[schemars(extend("exclusiveMinimum" = 0, "with" = [LATTICE, "leading_edge = suction | suction_implicit | vortex_lift", "shed = leading"]))]
     pub leading_edge_threshold: f64,
-    /// Part of the force of that suction which acts, and of all else that pulls along the wing: none on the thin edges of insects.
+    /// Part of the force of that suction which acts, and of all else that pulls along the wing: none on the
+    /// thin edges of insects.
     ///
     /// Change it to 1 for round leading edges.
     #[default(0.0)]
     #[schemars(extend("minimum" = 0, "maximum" = 1, "with" = [LATTICE, "leading_edge = suction | suction_implicit | vortex_lift", "shed = leading", "loads = joukowski"]))]
     pub leading_edge_suction_efficiency: f64,
-    /// Chords of travel, of each strip by the chord of its section normal to the edge, for which the vortex of a leading edge can be fed before its lift is lost.
+    /// Chords of travel, of each strip by the chord of its section normal to the edge, for which the vortex of
+    /// a leading edge can be fed before its lift is lost.
     ///
     /// Change it within what is measured, 3.4 to 4.5.
     #[default(4.0)]
@@ -176,7 +180,8 @@ pub struct AirCase {
     #[schemars(extend("with" = WIND, "always" = true))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub shear_1_s: Option<[[f64; 3]; 3]>,
-    /// A plane through which no air goes: stream, gusts and shear go along it, and bodies and wings stay on one side; left out: none.
+    /// A plane through which no air goes: stream, gusts and shear go along it, and bodies and wings stay on one
+    /// side; left out: none.
     ///
     /// Change it for take-off, landing and hovering near the ground.
     #[schemars(extend("with" = LATTICE, "always" = true))]
@@ -245,8 +250,8 @@ pub struct AirCase {
     pub section_drag: Option<SectionDragCase>,
     /// How the velocities of the wakes are summed.
     ///
-    /// Change it to `direct` to see what the approximations change: less than `summation_tolerance`. `mesh` asks for algebraic cores and a
-    /// `summation_tolerance` of 1e-3 or more.
+    /// Change it to `direct` to see what the approximations change: less than `summation_tolerance`. `mesh`
+    /// asks for algebraic cores and a `summation_tolerance` of 1e-3 or more.
     #[default(Method::Auto)]
     #[schemars(extend("with" = LATTICE))]
     pub summation: Method,
@@ -306,13 +311,14 @@ pub enum LeadingEdgeCase {
     Always,
     /// Strips whose effective angle of attack exceeds `leading_edge_threshold_deg`.
     AngleOfAttack,
-    /// What is beyond the leading-edge suction parameter `leading_edge_threshold`, so that the suction stays there [Ramesh et al.
-    /// 2014, J. Fluid Mech. 751:500].
+    /// What is beyond the leading-edge suction parameter `leading_edge_threshold`, so that the suction stays
+    /// there [Ramesh et al. 2014, J. Fluid Mech. 751:500].
     Suction,
     /// The same, found together with the circulations of the wings: the suction is not above the threshold but where a
     /// wing turns into what it has just shed (which is counted), and what is shed hangs less on panels and steps.
     SuctionImplicit,
-    /// Nowhere: what is beyond the threshold acts as the normal force of a leading-edge vortex that stays [Polhamus 1966, NASA TN
-    /// D-3767], until it has been fed for `leading_edge_formation_chords`. Smooth: for trim, modes and many flights.
+    /// Nowhere: what is beyond the threshold acts as the normal force of a leading-edge vortex that stays
+    /// [Polhamus 1966, NASA TN D-3767], until it has been fed for `leading_edge_formation_chords`. Smooth: for
+    /// trim, modes and many flights.
     VortexLift,
 }

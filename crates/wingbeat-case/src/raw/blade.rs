@@ -34,8 +34,9 @@ pub struct BladeCase {
     #[schemars(extend("with" = "rotation = circulation"))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub rotation_coefficient: Option<f64>,
-    /// Added mass, of the motion of the wings through the air: the rate at which the wind changes at a moving strip is in it (with `unsteady` that of
-    /// gusts without a front; Kuessner's function has the rest). A jump of a gust's table has no rate.
+    /// Added mass, of the motion of the wings through the air: the rate at which the wind changes at a moving
+    /// strip is in it (with `unsteady` that of gusts without a front; Kuessner's function has the rest). A jump
+    /// of a gust's table has no rate.
     ///
     /// Change it to reproduce a published model.
     #[default(AddedMass::Impulse)]
@@ -52,8 +53,8 @@ pub struct BladeCase {
     pub viscous: Option<ViscousCase>,
     /// How the circulation of a strip lags behind its motion, for the wake that it leaves.
     ///
-    /// Change it for wings that vibrate or meet gusts, in a stream or in forward flight; in hover wings meet their wakes again, of which
-    /// this knows nothing.
+    /// Change it for wings that vibrate or meet gusts, in a stream or in forward flight; in hover wings meet
+    /// their wakes again, of which this knows nothing.
     #[default(UnsteadyCase::None)]
     pub unsteady: UnsteadyCase,
     /// States of the wake of each strip.
@@ -153,8 +154,9 @@ pub struct BodyDragCase {
     /// Change it to what was measured.
     #[schemars(range(min = 0))]
     pub across: f64,
-    /// Where it acts, in the body frame in which hinges are given, before `animal.scale`: it follows the velocity of this point and turns the body by
-    /// its lever. Left out: the centre of the volume of the body's parts, without parts the mass centre of the body.
+    /// Where it acts, in the body frame in which hinges are given, before `animal.scale`: it follows the
+    /// velocity of this point and turns the body by its lever. Left out: the centre of the volume of the body's
+    /// parts, without parts the mass centre of the body.
     ///
     /// Change it to where the drag was found to act.
     #[serde(skip_serializing_if = "Option::is_none")]

@@ -138,7 +138,8 @@ pub struct PartCase {
     #[schemars(range(min = 0))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub mass_kg: Option<f64>,
-    /// Density of the part. Surfaces of revolution have the mass of the round solid, meshes that of the solid within their panels.
+    /// Density of the part. Surfaces of revolution have the mass of the round solid, meshes that of the solid
+    /// within their panels.
     ///
     /// Change it where no mass was measured: insect tissue has about 1000.
     #[schemars(range(min = 0), extend("or" = "mass_kg"))]

@@ -12,9 +12,9 @@ const ANY: &str = "control.controller = regulator | stabiliser | external";
 /// Keys of controllers that are laid out about a trimmed flight.
 const LAID_OUT: &str = "control.controller = regulator | stabiliser";
 
-/// Feedback: once or several times per wingbeat a controller sees the flyer and commands changes of the strokes. It acts from the
-/// release on. `regulator` and `stabiliser` are laid out about the trimmed flight of the animal in blade elements
-/// when the flight is built; see docs/control.md.
+/// Feedback: once or several times per wingbeat a controller sees the flyer and commands changes of the
+/// strokes. It acts from the release on. `regulator` and `stabiliser` are laid out about the trimmed flight of
+/// the animal in blade elements when the flight is built; see docs/control.md.
 #[derive(Clone, Debug, PartialEq, SmartDefault, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct ControlCase {
@@ -167,8 +167,8 @@ pub enum TargetCase {
     /// The trimmed flight in blade elements: its attitude, heading along n1; what trim adds to stroke
     /// amplitude and mean stroke angle is commanded too.
     Trim,
-    /// Attitude and velocity of a look as they are seen at the release, strokes as the case has them; the mean velocity is that of
-    /// `forward_m_s` and `climb_m_s`.
+    /// Attitude and velocity of a look as they are seen at the release, strokes as the case has them; the mean
+    /// velocity is that of `forward_m_s` and `climb_m_s`.
     Start,
 }
 
@@ -249,8 +249,8 @@ pub struct StiffnessCase {
     #[default(Stiffness::default().damping)]
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub damping: f64,
-    /// Rate at which departures of all loops are summed, per wingbeat: integral action, proportional-integral-derivative
-    /// loops. 0: none.
+    /// Rate at which departures of all loops are summed, per wingbeat: integral action,
+    /// proportional-integral-derivative loops. 0: none.
     ///
     /// Change it to 0.02 where a load or an air other than blade elements pulls the flyer away.
     #[default(Stiffness::default().integral)]

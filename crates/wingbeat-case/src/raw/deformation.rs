@@ -46,8 +46,9 @@ pub struct DeformationCase {
     pub surface: Option<SurfaceCase>,
 }
 
-/// A wing's surface at phases of its beat. Each point's course is a Fourier series, fitted by least squares. The planform is the
-/// wing at rest: it says where the nodes of the mesh lie, in parts of chord and span, and what its inertia is.
+/// A wing's surface at phases of its beat. Each point's course is a Fourier series, fitted by least squares.
+/// The planform is the wing at rest: it says where the nodes of the mesh lie, in parts of chord and span, and
+/// what its inertia is.
 #[derive(Clone, Debug, PartialEq, SmartDefault, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SurfaceCase {
@@ -56,9 +57,10 @@ pub struct SurfaceCase {
     /// Change it to what was measured.
     #[schemars(length(min = 3))]
     pub phases: Vec<f64>,
-    /// Points of the surface, phase by phase: rows at equal parts of the chord from the leading to the trailing edge, each with points
-    /// at equal parts of the span from root to tip. A point is [position along axis 1 from the hinge, distance outboard of the hinge along
-    /// axis 2 (positive on wings of either side), position along axis 3 from the hinge].
+    /// Points of the surface, phase by phase: rows at equal parts of the chord from the leading to the trailing
+    /// edge, each with points at equal parts of the span from root to tip. A point is [position along axis 1
+    /// from the hinge, distance outboard of the hinge along axis 2 (positive on wings of either side), position
+    /// along axis 3 from the hinge].
     ///
     /// Change it to what was measured.
     #[schemars(length(min = 3))]

@@ -25,10 +25,11 @@ pub struct FlightCase {
     ///
     /// Change it to the body angle of the flight.
     pub pitch_deg: f64,
-    /// Yaw, about b3 of the pitched body: the second angle theta of 2-3-1. Nose right of a body without pitch; a pitched one tilts, too.
+    /// Yaw, about b3 of the pitched body: the second angle theta of 2-3-1. Nose right of a body without pitch;
+    /// a pitched one tilts, too.
     ///
-    /// Change it for sideslip; of a body pitched by q turn the velocity or the stream instead, or head h to the right by pitch_deg =
-    /// atan(tan q / cos h), yaw_deg = asin(cos q sin h), roll_deg = -atan(sin q tan h).
+    /// Change it for sideslip; of a body pitched by q turn the velocity or the stream instead, or head h to the
+    /// right by pitch_deg = atan(tan q / cos h), yaw_deg = asin(cos q sin h), roll_deg = -atan(sin q tan h).
     pub yaw_deg: f64,
     /// Roll, right wing down: the third angle psi of 2-3-1.
     ///
@@ -48,8 +49,8 @@ pub struct FlightCase {
     /// Change it to 1 or 2 to release the body into a grown wake.
     #[schemars(range(min = 0), extend("with" = FREE))]
     pub held_beats: f64,
-    /// Motion of the tether on top of the constant velocity, in free flight while the body is held (`held_beats`), which is released
-    /// with the velocities that it has then; left out: none.
+    /// Motion of the tether on top of the constant velocity, in free flight while the body is held
+    /// (`held_beats`), which is released with the velocities that it has then; left out: none.
     ///
     /// Change it to move the body as an experiment did.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -100,8 +101,8 @@ pub struct TetherCase {
     /// Change it to move the body as an experiment did.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub roll: Option<AngleOscillation>,
-    /// Time in which all of the motion of a tethered body (`velocity_m_s`, rates, oscillations) rises from rest; from then on it is
-    /// late by half of that. Left out: at full speed from the first instant.
+    /// Time in which all of the motion of a tethered body (`velocity_m_s`, rates, oscillations) rises from
+    /// rest; from then on it is late by half of that. Left out: at full speed from the first instant.
     ///
     /// Change it for wings that are towed or revolved from rest.
     #[schemars(extend("exclusiveMinimum" = 0, "with" = "flight.mode = tethered"))]
@@ -185,8 +186,8 @@ pub struct DynamicsCase {
     #[default(StabilisationCase::Baumgarte)]
     #[schemars(extend("with" = "formulation = quaternion"))]
     pub stabilisation: StabilisationCase,
-    /// Integrator. Default: `hamming` with air, `bdf` where joints leave something free in a vortex lattice or beside elastic
-    /// wings, `order_eight` without air and elastic wings. A wake needs `hamming` or `bdf`.
+    /// Integrator. Default: `hamming` with air, `bdf` where joints leave something free in a vortex lattice or
+    /// beside elastic wings, `order_eight` without air and elastic wings. A wake needs `hamming` or `bdf`.
     ///
     /// Change it to see what hangs on the method; to `bdf` where forces alternate from step to step.
     #[serde(skip_serializing_if = "Open::is_open")]

@@ -23,8 +23,9 @@ pub struct SegmentCase {
     #[schemars(extend("exclusiveMinimum" = 0))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub mass_kg: Option<f64>,
-    /// Mass centre in body axes in the reference configuration, from the point the hinges of wings
-    /// are measured from; of a segment that a wing carries, itself or by other segments, in wing axes from the point of the joint at the wing. Left out: that point.
+    /// Mass centre in body axes in the reference configuration, from the point the hinges of wings are measured
+    /// from; of a segment that a wing carries, itself or by other segments, in wing axes from the point of the
+    /// joint at the wing. Left out: that point.
     ///
     /// Change it to what was measured.
     #[schemars(extend("with" = "inertia_about_centre_kg_m2"))]
@@ -40,10 +41,10 @@ pub struct SegmentCase {
 
 /// A joint between two bodies (`body`, wings and segments by their names).
 ///
-/// The joint's frame sits on the parent at `at_m` and is turned by `turn` and moved by `travel`; for
-/// a wing it is turned by the wing's motion instead. Axes are given in this frame: body axes for
-/// segments, wing axes for wings. A joint of a right wing is mirrored to a left wing that has
-/// none, and the other way round: points, displacements, axes, and angles of spherical joints. With `mirror = false` at the wing it is not.
+/// The joint's frame sits on the parent at `at_m` and is turned by `turn` and moved by `travel`; for a wing it
+/// is turned by the wing's motion instead. Axes are given in this frame: body axes for segments, wing axes for
+/// wings. A joint of a right wing is mirrored to a left wing that has none, and the other way round: points,
+/// displacements, axes, and angles of spherical joints. With `mirror = false` at the wing it is not.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct JointCase {
@@ -56,14 +57,15 @@ pub struct JointCase {
     ///
     /// Change it to name the body that moves.
     pub child: String,
-    /// Joint point in body axes in the reference configuration; where the parent is a wing, in wing axes from its hinge.
-    /// Left out for a wing: its hinge, which is no other place than `wing.NAME.hinge_m`.
+    /// Joint point in body axes in the reference configuration; where the parent is a wing, in wing axes from
+    /// its hinge. Left out for a wing: its hinge, which is no other place than `wing.NAME.hinge_m`.
     ///
     /// Change it to what was measured.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub at_m: Option<[f64; 3]>,
-    /// Joint point on the child, likewise. Left out: `at_m`. Another point opens a gap that only a
-    /// loop can close. Not at a wing: a wing closes loops by its hinge, and a segment on a wing by its own joint's point.
+    /// Joint point on the child, likewise. Left out: `at_m`. Another point opens a gap that only a loop can
+    /// close. Not at a wing: a wing closes loops by its hinge, and a segment on a wing by its own joint's
+    /// point.
     ///
     /// Change it for links of a loop.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -107,8 +109,8 @@ pub struct JointCase {
     #[schemars(extend("with" = "kind = revolute | universal | spherical"))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub start_deg: Option<Vec<f64>>,
-    /// Angular rates at the start; of a spherical joint the components of the angular velocity of the child against the parent in the
-    /// axes of the child. Left out: zeros.
+    /// Angular rates at the start; of a spherical joint the components of the angular velocity of the child
+    /// against the parent in the axes of the child. Left out: zeros.
     ///
     /// Change it to start moving.
     #[schemars(extend("with" = "kind = revolute | universal | spherical"))]
@@ -203,8 +205,8 @@ pub struct TravelCase {
 /// What acts along a free direction: any of spring, damper, stop, actuator. Rotations take the
 /// keys with `newton_m`, displacements those with `newton` and `m`.
 ///
-/// At a `spherical` joint springs, stops and `follow` act along components of the rotation vector, so that springs of any
-/// stiffness keep energy; dampers and `moment_newton_m` act about the axes of the child.
+/// At a `spherical` joint springs, stops and `follow` act along components of the rotation vector, so that
+/// springs of any stiffness keep energy; dampers and `moment_newton_m` act about the axes of the child.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct ElementCase {

@@ -230,7 +230,8 @@ pub struct CorrectorCase {
 #[derive(Clone, Debug, PartialEq, SmartDefault, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct OutputCase {
-    /// Write a row of history.csv every so many steps, and at every wingbeat, frame and end; sums and extremes in a row are those of all steps since the row before.
+    /// Write a row of history.csv every so many steps, and at every wingbeat, frame and end; sums and extremes
+    /// in a row are those of all steps since the row before.
     ///
     /// Change it to keep the history of a long flight small; means of wingbeats stay the same.
     #[default = 1]

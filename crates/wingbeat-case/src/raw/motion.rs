@@ -34,7 +34,8 @@ pub struct MotionCase {
     /// Change it to `impulsive` to begin inside the periodic beat; loads then jump at the first instant.
     #[default(StartCase::Smooth)]
     pub start: StartCase,
-    /// Length of a smooth start in wingbeats. Half of it is what the strokes are late from then on, behind laws of joints too.
+    /// Length of a smooth start in wingbeats. Half of it is what the strokes are late from then on, behind laws
+    /// of joints too.
     ///
     /// Change it to start more gently.
     #[schemars(extend("exclusiveMinimum" = 0, "with" = "start = smooth"))]
@@ -110,10 +111,10 @@ pub enum StartCase {
     Impulsive,
 }
 
-/// Motion of one wing. A wing that gives no angles takes what it leaves out from the mirror image of the motion of its
-/// counterpart; where either gives none, or this one gives angles, it comes from `[motion]`. Angles follow the right-hand
-/// rule about this wing's axes, so a left wing that mirrors a right one has phi and theta of
-/// opposite sign.
+/// Motion of one wing. A wing that gives no angles takes what it leaves out from the mirror image of the motion
+/// of its counterpart; where either gives none, or this one gives angles, it comes from `[motion]`. Angles
+/// follow the right-hand rule about this wing's axes, so a left wing that mirrors a right one has phi and theta
+/// of opposite sign.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct WingMotionCase {
@@ -122,18 +123,21 @@ pub struct WingMotionCase {
     /// Change it for wings that beat differently.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub data: Option<String>,
-    /// Flap (stroke) angle about axis 1 of the right wing, growing forward (in the downstroke); 0 is straight out. Left out: that of the data set, else 0.
+    /// Flap (stroke) angle about axis 1 of the right wing, growing forward (in the downstroke); 0 is straight
+    /// out. Left out: that of the data set, else 0.
     ///
     /// Change it for angles of your own.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub phi: Option<AngleCase>,
-    /// Deviation out of the stroke plane about axis 3 of the right wing, in hover growing downward. Left out: that of the data set, else 0.
+    /// Deviation out of the stroke plane about axis 3 of the right wing, in hover growing downward. Left out:
+    /// that of the data set, else 0.
     ///
     /// Change it for angles of your own.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub theta: Option<AngleCase>,
     /// Feathering about axis 2 of the right wing; in hover 0 is the chord along the normal of the stroke plane
-    /// and +-90 lies in the plane; near -50 in the downstroke, when the leading edge leads, near +50 in the upstroke. Left out: that of the data set, else 0.
+    /// and +-90 lies in the plane; near -50 in the downstroke, when the leading edge leads, near +50 in the
+    /// upstroke. Left out: that of the data set, else 0.
     ///
     /// Change it for angles of your own.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -269,7 +273,8 @@ fn half() -> f64 {
     0.5
 }
 
-/// Samples over one beat, the last row the first value one beat later; samples to be fitted (`harmonics`) may be those of several beats.
+/// Samples over one beat, the last row the first value one beat later; samples to be fitted (`harmonics`) may
+/// be those of several beats.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct TableCase {
@@ -297,8 +302,8 @@ pub struct TableCase {
     #[schemars(extend("with" = "file"))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub angle_column: Option<String>,
-    /// Wingbeats in one unit of the first column: the wingbeat frequency for times in seconds, frequency over frame rate for frames.
-    /// Left out: 1, phases.
+    /// Wingbeats in one unit of the first column: the wingbeat frequency for times in seconds, frequency over
+    /// frame rate for frames. Left out: 1, phases.
     ///
     /// Change it for recordings over time; with `harmonics` they may go on over several wingbeats.
     #[schemars(extend("exclusiveMinimum" = 0))]
@@ -311,14 +316,16 @@ pub struct TableCase {
     pub factor: Option<f64>,
     /// What is added to the angles of the table. Left out: 0.
     ///
-    /// Change it for angles with another zero: a rotation angle counted from the stroke plane is 90 deg less it (factor -1, offset 90).
+    /// Change it for angles with another zero: a rotation angle counted from the stroke plane is 90 deg less it
+    /// (factor -1, offset 90).
     #[serde(skip_serializing_if = "Option::is_none")]
     pub offset_deg: Option<f64>,
-    /// Harmonics of a Fourier series fitted to the samples by least squares; two neighbouring phases may be less than 1 / (2 harmonics)
-    /// wingbeats apart, phases may repeat or go on over several beats, which are folded into one, and the beat need not close. Left out: the spline, which goes through every sample.
+    /// Harmonics of a Fourier series fitted to the samples by least squares; two neighbouring phases may be
+    /// less than 1 / (2 harmonics) wingbeats apart, phases may repeat or go on over several beats, which are
+    /// folded into one, and the beat need not close. Left out: the spline, which goes through every sample.
     ///
-    /// Change it for samples that scatter: as many as stand out of the noise, 4 to 10 for strokes; `wingbeat check` tells how many do, and
-    /// what a fit leaves.
+    /// Change it for samples that scatter: as many as stand out of the noise, 4 to 10 for strokes; `wingbeat
+    /// check` tells how many do, and what a fit leaves.
     #[schemars(range(min = 1))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub harmonics: Option<usize>,

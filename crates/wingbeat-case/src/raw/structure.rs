@@ -23,14 +23,14 @@ pub struct StructureCase {
     #[schemars(extend("with" = "shell"))]
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub region: Vec<RegionCase>,
-    /// Time by which rates of strain add to strains (Kelvin and Voigt): the damping ratio of a mode is half this times its
-    /// angular frequency. In shells bending alone is damped, not stretching.
+    /// Time by which rates of strain add to strains (Kelvin and Voigt): the damping ratio of a mode is half
+    /// this times its angular frequency. In shells bending alone is damped, not stretching.
     ///
     /// Change it to the damping that was measured.
     #[schemars(range(min = 0))]
     pub damping_s: f64,
-    /// Rate by which momentum relative to the wing frame decays: the damping ratio of a mode is half this over its angular
-    /// frequency.
+    /// Rate by which momentum relative to the wing frame decays: the damping ratio of a mode is half this over
+    /// its angular frequency.
     ///
     /// Change it where damping does not grow with frequency.
     #[schemars(range(min = 0))]
@@ -77,8 +77,8 @@ pub struct BeamCase {
     #[schemars(length(min = 2), extend("or" = "flap_newton_m2"))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub flap_table_newton_m2: Option<Vec<[f64; 2]>>,
-    /// EI against bending in the plane of the wing at root and tip. Left out: a hundred times that out of the plane, and where
-    /// `axial_newton` is left out, too, the shear of a solid plate as stiff in its plane.
+    /// EI against bending in the plane of the wing at root and tip. Left out: a hundred times that out of the
+    /// plane, and where `axial_newton` is left out, too, the shear of a solid plate as stiff in its plane.
     ///
     /// Change it to what was measured.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -100,8 +100,8 @@ pub struct BeamCase {
     #[schemars(length(min = 2), extend("or" = "torsion_newton_m2"))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub torsion_table_newton_m2: Option<Vec<[f64; 2]>>,
-    /// EA against stretch at root and tip. Left out: that of a plate as stiff in its plane, of one a hundred times as stiff there as
-    /// out of it at least.
+    /// EA against stretch at root and tip. Left out: that of a plate as stiff in its plane, of one a hundred
+    /// times as stiff there as out of it at least.
     ///
     /// Change it where the beam is coupled to stretch, or built of parts.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -112,8 +112,9 @@ pub struct BeamCase {
     #[schemars(length(min = 2), extend("or" = "axial_newton"))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub axial_table_newton: Option<Vec<[f64; 2]>>,
-    /// GA against transverse shear, times the shear correction, at root and tip; along the chord and across it (Timoshenko).
-    /// Left out where `lag_newton_m2` or `axial_newton` is given: so large that shear changes nothing (Euler and Bernoulli).
+    /// GA against transverse shear, times the shear correction, at root and tip; along the chord and across it
+    /// (Timoshenko). Left out where `lag_newton_m2` or `axial_newton` is given: so large that shear changes
+    /// nothing (Euler and Bernoulli).
     ///
     /// Change it for sandwiches and short beams, where shear counts.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -124,18 +125,19 @@ pub struct BeamCase {
     #[schemars(length(min = 2), extend("or" = "shear_newton"))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub shear_table_newton: Option<Vec<[f64; 2]>>,
-    /// Stiffness that couples stretch, twist and bending, as rows [r/R, stretch-twist, stretch-flap, stretch-lag, twist-flap,
-    /// twist-lag, flap-lag]: the first three in N m, the others in N m2. Axes of the sections of a right wing: outward, to the
-    /// leading edge, to the upper side; curvatures are right-handed turns about them. A left wing is the mirror image.
-    /// The other keys of stiffness are the diagonal: that in the plane and that out of it about the elastic axis.
+    /// Stiffness that couples stretch, twist and bending, as rows [r/R, stretch-twist, stretch-flap,
+    /// stretch-lag, twist-flap, twist-lag, flap-lag]: the first three in N m, the others in N m2. Axes of the
+    /// sections of a right wing: outward, to the leading edge, to the upper side; curvatures are right-handed
+    /// turns about them. A left wing is the mirror image. The other keys of stiffness are the diagonal: that in
+    /// the plane and that out of it about the elastic axis.
     ///
     /// Change it for composite layups, and where the tension centre is off the elastic axis.
     #[schemars(length(min = 2))]
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub coupling_table_newton_m_m2: Vec<[f64; 7]>,
-    /// Mass per length at root and tip, instead of the mass of the wing spread evenly over its area. The length is that of the
-    /// span, across the chord: of a beam swept by 30 deg a metre along the beam has 0.87 times as much, while stiffnesses are those
-    /// along the beam. 0 is allowed beside lumped masses.
+    /// Mass per length at root and tip, instead of the mass of the wing spread evenly over its area. The length
+    /// is that of the span, across the chord: of a beam swept by 30 deg a metre along the beam has 0.87 times
+    /// as much, while stiffnesses are those along the beam. 0 is allowed beside lumped masses.
     ///
     /// Change it to what was measured.
     #[schemars(extend("or" = "wing.NAME.mass_kg"))]
@@ -153,8 +155,8 @@ pub struct BeamCase {
     #[default = 0.5]
     #[schemars(range(min = 0, max = 1))]
     pub mass_fraction: f64,
-    /// Moment of inertia of a section about its mass centre and the axis of the beam, per length of the span as `mass_kg_per_m`,
-    /// at root and tip. Left out: that of mass spread evenly over the chord.
+    /// Moment of inertia of a section about its mass centre and the axis of the beam, per length of the span as
+    /// `mass_kg_per_m`, at root and tip. Left out: that of mass spread evenly over the chord.
     ///
     /// Change it to what was measured.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -165,8 +167,9 @@ pub struct BeamCase {
     #[schemars(length(min = 2), extend("or" = "inertia_kg_m"))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub inertia_table_kg_m: Option<Vec<[f64; 2]>>,
-    /// Lumped masses, each rigid with a node of the beam: the one that it lies at (within a twentieth of an element), or one of its own, which divides its element. They are part of `mass_kg` of the wing and weigh less than it in all, or they are beside
-    /// `mass_kg_per_m`.
+    /// Lumped masses, each rigid with a node of the beam: the one that it lies at (within a twentieth of an
+    /// element), or one of its own, which divides its element. They are part of `mass_kg` of the wing and weigh
+    /// less than it in all, or they are beside `mass_kg_per_m`.
     ///
     /// Change it for stores, ballast, and models whose mass is given at nodes.
     #[serde(skip_serializing_if = "Vec::is_empty")]
@@ -192,7 +195,8 @@ pub struct BeamMassCase {
     /// Change it to where it sits.
     #[serde(default)]
     pub offset_m: [f64; 3],
-    /// Inertia matrix about its mass centre in wing axes of a right wing: xx, yy, zz, xy, xz, yz (elements of the matrix).
+    /// Inertia matrix about its mass centre in wing axes of a right wing: xx, yy, zz, xy, xz, yz (elements of
+    /// the matrix).
     ///
     /// Change it to that of its parts.
     #[serde(default)]
@@ -203,8 +207,9 @@ pub struct BeamMassCase {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum ShellRule {
-    /// EI of the wing along the span `10^0.08 R^2.97`, along the chord `10^-1.73 c^2.08` [Combes & Daniel 2003, J. Exp. Biol.
-    /// 206:2979], spread evenly; R and c before `animal.scale`, which enlarges the wing that the rule made.
+    /// EI of the wing along the span `10^0.08 R^2.97`, along the chord `10^-1.73 c^2.08` [Combes & Daniel 2003,
+    /// J. Exp. Biol. 206:2979], spread evenly; R and c before `animal.scale`, which enlarges the wing that the
+    /// rule made.
     CombesDaniel,
 }
 
@@ -239,8 +244,8 @@ pub struct ShellCase {
     #[schemars(extend("exclusiveMinimum" = 0, "with" = "young_pa"))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub shear_pa: Option<f64>,
-    /// Young's modulus against stretching in the plane, alike in all directions, where those above are of bending alone. Left
-    /// out: the same; with `rule` 3e9, that of cuticle.
+    /// Young's modulus against stretching in the plane, alike in all directions, where those above are of
+    /// bending alone. Left out: the same; with `rule` 3e9, that of cuticle.
     ///
     /// Change it for pleated and veined sheets, which bending finds many times stiffer than stretching does.
     #[schemars(extend("exclusiveMinimum" = 0))]
@@ -268,7 +273,8 @@ pub struct ShellCase {
     ///
     /// Change it for fabrics and laminates whose fibres run askew: bending then twists the wing.
     pub fibre_angle_deg: f64,
-    /// Tension at rest along and across the fibres, between parts that hold it. A free edge gives way to tension across it.
+    /// Tension at rest along and across the fibres, between parts that hold it. A free edge gives way to
+    /// tension across it.
     ///
     /// Change it for membranes that are stretched over a frame.
     #[schemars(inner(range(min = 0)))]
@@ -284,8 +290,8 @@ pub struct ShellCase {
     /// Change it to false for foils that are held along their leading part alone, or by veins.
     #[default = true]
     pub clamped_root: bool,
-    /// Whether its leading edge is clamped to the wing frame, all along the span. A vein along it bends nowhere and takes its mass from the
-    /// sheet alone.
+    /// Whether its leading edge is clamped to the wing frame, all along the span. A vein along it bends nowhere
+    /// and takes its mass from the sheet alone.
     ///
     /// Change it to true for sheets that hang in a stream like flags.
     pub clamped_leading_edge: bool,
@@ -293,20 +299,21 @@ pub struct ShellCase {
     ///
     /// Change it to true for membranes on a rigid frame.
     pub clamped_perimeter: bool,
-    /// Part of the chord behind the leading edge that is rigid with the wing frame, all along the span: the lines of nodes within it,
-    /// so up to a panel less where it does not end on one.
+    /// Part of the chord behind the leading edge that is rigid with the wing frame, all along the span: the
+    /// lines of nodes within it, so up to a panel less where it does not end on one.
     ///
     /// Change it for foils with a rigid leading part.
     #[schemars(range(min = 0), extend("exclusiveMaximum" = 1))]
     pub rigid_fraction: f64,
 }
 
-/// A vein: a round beam on the nodes of the mesh nearest to a straight line over the wing, along lines of the mesh and diagonals
-/// of its panels. Pairs are values at its two ends, linear between.
+/// A vein: a round beam on the nodes of the mesh nearest to a straight line over the wing, along lines of the
+/// mesh and diagonals of its panels. Pairs are values at its two ends, linear between.
 #[derive(Clone, Debug, PartialEq, SmartDefault, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct VeinCase {
-    /// Where it begins: r/R, and place behind the leading edge over the chord. Left out: at the root of the leading edge.
+    /// Where it begins: r/R, and place behind the leading edge over the chord. Left out: at the root of the
+    /// leading edge.
     ///
     /// Change it for veins that begin elsewhere.
     #[schemars(inner(range(min = 0, max = 1)))]
@@ -317,7 +324,8 @@ pub struct VeinCase {
     #[default(_code = "[1.0, 0.0]")]
     #[schemars(inner(range(min = 0, max = 1)))]
     pub to: [f64; 2],
-    /// Radius: of it and the modulus are bending and torsion; stretching, `EA = 4 EI / r^2`, follows from it in any case.
+    /// Radius: of it and the modulus are bending and torsion; stretching, `EA = 4 EI / r^2`, follows from it in
+    /// any case.
     ///
     /// Change it to what was measured.
     pub radius_m: Option<[f64; 2]>,
@@ -344,8 +352,8 @@ pub struct VeinCase {
     #[schemars(extend("or" = "young_pa", "with" = "bending_newton_m2"))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub torsion_newton_m2: Option<[f64; 2]>,
-    /// Density. Left out: its mass is part of that spread over the sheet. Given, it is taken out of the mass of the wing
-    /// before the rest is spread, or added to that of a sheet which has a density, too.
+    /// Density. Left out: its mass is part of that spread over the sheet. Given, it is taken out of the mass of
+    /// the wing before the rest is spread, or added to that of a sheet which has a density, too.
     ///
     /// Change it to that of the material: veins carry much of the mass of a wing.
     #[schemars(extend("exclusiveMinimum" = 0))]
@@ -373,8 +381,9 @@ pub struct RegionCase {
     #[default(_code = "[0.0, 1.0]")]
     #[schemars(inner(range(min = 0, max = 1)))]
     pub chord_range: [f64; 2],
-    /// Young's modulus, along the fibres if that across them is given, too. Where the shell has `stretching_young_pa`, or
-    /// `rule`, which sets it, the moduli and fibres of a region are those of bending alone.
+    /// Young's modulus, along the fibres if that across them is given, too. Where the shell has
+    /// `stretching_young_pa`, or `rule`, which sets it, the moduli and fibres of a region are those of bending
+    /// alone.
     ///
     /// Change it to that of the material.
     #[schemars(extend("exclusiveMinimum" = 0))]

@@ -80,8 +80,10 @@ pub struct SectionDragCase {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum FrictionCase {
-    /// Laminar flat plate, both faces: `2.656 / sqrt(Re) + 5.34 / Re^(7/8)` (Blasius, and what the trailing edge adds), Re
-    /// that of the velocity along the strip. Where leading edges shed, or have vortex lift, the face behind them has as much of its half as the edge holds of the suction of a plate at the strip's incidence.
+    /// Laminar flat plate, both faces: `2.656 / sqrt(Re) + 5.34 / Re^(7/8)` (Blasius, and what the trailing
+    /// edge adds), Re that of the velocity along the strip. Where leading edges shed, or have vortex lift, the
+    /// face behind them has as much of its half as the edge holds of the suction of a plate at the strip's
+    /// incidence.
     #[default]
     Blasius,
     /// None.

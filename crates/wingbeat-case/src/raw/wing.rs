@@ -18,7 +18,8 @@ pub struct WingCase {
     /// Change it for wings whose name does not tell the side.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub side: Option<Side>,
-    /// Whether the mirror image on the other side comes along when it is not given, and has the joint of this wing if it has none. Left out: true.
+    /// Whether the mirror image on the other side comes along when it is not given, and has the joint of this
+    /// wing if it has none. Left out: true.
     ///
     /// Change it to false for a single wing, or for a joint on one side alone.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -215,7 +216,8 @@ pub struct RectangleCase {
     pub axis_fraction: f64,
 }
 
-/// Edges as points [distance from the hinge along the span, position towards the leading edge], or as a file of points around the wing.
+/// Edges as points [distance from the hinge along the span, position towards the leading edge], or as a file of
+/// points around the wing.
 #[derive(Clone, Debug, PartialEq, SmartDefault, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct OutlineCase {
@@ -231,8 +233,9 @@ pub struct OutlineCase {
     #[schemars(length(min = 2), extend("or" = "file"))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub trailing_m: Option<Vec<[f64; 2]>>,
-    /// CSV file with a header, path relative to the case file: points once around the wing, in either sense, as they were digitised
-    /// from a picture. Its unit is that of the names of the columns (`x_mm`), or `file_unit_m`, or follows from `file_length_m`.
+    /// CSV file with a header, path relative to the case file: points once around the wing, in either sense, as
+    /// they were digitised from a picture. Its unit is that of the names of the columns (`x_mm`), or
+    /// `file_unit_m`, or follows from `file_length_m`.
     ///
     /// Change it for outlines digitised from pictures.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -273,15 +276,15 @@ pub struct OutlineCase {
     #[schemars(extend("with" = "file"))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub file_tip: Option<[f64; 2]>,
-    /// Any point of the file on the side of the leading edge. Left out: that side is to the left on the way from hinge to tip where
-    /// the second number is counted upwards.
+    /// Any point of the file on the side of the leading edge. Left out: that side is to the left on the way
+    /// from hinge to tip where the second number is counted upwards.
     ///
     /// Change it for pictures that count downwards, as most programs do, or show the other side of the wing.
     #[schemars(extend("with" = "file"))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub file_leading_edge: Option<[f64; 2]>,
-    /// Least chord relative to the largest: narrower places are widened to it, which gives pointed tips area (a triangle gets
-    /// 4 % by default, and 21 % of second moment).
+    /// Least chord relative to the largest: narrower places are widened to it, which gives pointed tips area (a
+    /// triangle gets 4 % by default, and 21 % of second moment).
     ///
     /// Change it to less, 0.02 say, for measured outlines with pointed tips.
     #[schemars(extend("exclusiveMinimum" = 0, "exclusiveMaximum" = 1))]

@@ -72,8 +72,8 @@ fn quantities(setup: &FlightSetup, history: &History, beats: &[BeatMeans]) -> Ve
     list
 }
 
-/// The phase mean of the wingbeats that the summary's means are of, with its spread, and the last wingbeat; of fewer than
-/// three of them, the last two. Dotted: the mean of the last.
+/// The phase mean of the wingbeats that the summary's means are of, with its spread, and the last wingbeat; of
+/// fewer than three of them, the last two. Dotted: the mean of the last.
 fn over_phase(
     setup: &FlightSetup,
     history: &History,

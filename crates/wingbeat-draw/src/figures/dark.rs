@@ -17,7 +17,8 @@ const BRIGHT: [Colour; COLOURS.len()] = [
 ];
 
 impl Drawing {
-    /// The same on a dark ground: what is near white comes near the ground and what is near black near white; hues stay.
+    /// The same on a dark ground: what is near white comes near the ground and what is near black near white;
+    /// hues stay.
     pub(super) fn on_dark(mut self) -> Self {
         self.ground = self.ground.on_dark();
         for mark in &mut self.marks {

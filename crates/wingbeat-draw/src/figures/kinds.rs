@@ -319,7 +319,8 @@ mod tests {
         );
     }
 
-    /// Fore wings beat, hind wings are a fixed tail: the fore wing's downstroke, which is the first half of the beat, is shaded.
+    /// Fore wings beat, hind wings are a fixed tail: the fore wing's downstroke, which is the first half of the
+    /// beat, is shaded.
     #[test]
     fn behaves_a_fixed_tail_does_not_stand_for_the_wings() {
         let still = ["left", "right"].map(|side| {

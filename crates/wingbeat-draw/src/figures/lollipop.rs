@@ -212,8 +212,8 @@ fn draw(setup: &FlightSetup, chords: &[Vec<Chord>; 2], when: &str, look: &Look) 
     drawing
 }
 
-/// Where the two half strokes are drawn in one scale, and the height of the whole: below each other, or beside each other where
-/// they are too tall for that.
+/// Where the two half strokes are drawn in one scale, and the height of the whole: below each other, or beside
+/// each other where they are too tall for that.
 fn frames(x: &mut [f64; 2], y: &mut [f64; 2], look: &Look) -> ([Area; 2], f64) {
     let left = 5.0 * look.font;
     let right = 1.6 * look.font;
@@ -238,8 +238,8 @@ fn frames(x: &mut [f64; 2], y: &mut [f64; 2], look: &Look) -> ([Area; 2], f64) {
     (areas, areas[1].top + height + 3.1 * look.font)
 }
 
-/// Names of the half strokes and of the axis along, by how far the normal of the stroke plane leans from the vertical (its
-/// sine): strokes that are level go along this axis, steep ones across it.
+/// Names of the half strokes and of the axis along, by how far the normal of the stroke plane leans from the
+/// vertical (its sine): strokes that are level go along this axis, steep ones across it.
 fn words(leans: f64) -> ([&'static str; 2], &'static str) {
     const STEEP: f64 = std::f64::consts::FRAC_1_SQRT_2;
     match leans < STEEP {

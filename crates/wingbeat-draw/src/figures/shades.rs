@@ -42,7 +42,8 @@ impl Shades {
         beating.into_iter().any(|w| !self.is_as_reference(w))
     }
 
-    /// What a title says of the shading: of which wing it is, where others beat otherwise and not `each` panel has its own.
+    /// What a title says of the shading: of which wing it is, where others beat otherwise and not `each` panel
+    /// has its own.
     pub fn words(&self, setup: &FlightSetup, each: bool) -> String {
         match reference_wing(setup) {
             Some((wing, _)) if self.differ() && !each => {

@@ -1,8 +1,8 @@
 //! Numbers of the frames as 16-bit whole numbers, for the page to unpack.
 //!
 //! A frame is: points of the wings (3 each), pressure jumps of all panels, points of the wake sheets,
-//! circulation of their rings, points of the vortex particles, their strengths (3 each). Points are counted in steps from the
-//! lowest corner of the frame's box; signed numbers in 1/32767 of the largest of the frame.
+//! circulation of their rings, points of the vortex particles, their strengths (3 each). Points are counted in
+//! steps from the lowest corner of the frame's box; signed numbers in 1/32767 of the largest of the frame.
 
 use serde::Serialize;
 

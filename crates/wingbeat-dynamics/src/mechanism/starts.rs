@@ -11,8 +11,8 @@ use crate::{BodyMotion, DynamicsError, JointType};
 const TOLERANCE: f64 = 1e-5;
 
 impl Mechanism {
-    /// Checks that coordinates and rates of joints that are given for the start are those of `motions`, where the loops are
-    /// closed.
+    /// Checks that coordinates and rates of joints that are given for the start are those of `motions`, where
+    /// the loops are closed.
     ///
     /// # Errors
     /// [`DynamicsError::NotTheStart`] names the first joint that starts otherwise.

@@ -35,8 +35,9 @@ impl BentStrips {
         at.shapes.get(self.wing).and_then(Option::as_ref)
     }
 
-    /// Forces of the air on the nodes into the scratch \[N\], N components, the whole returned about the origin of the wing; none
-    /// of a wing without a shape. `wind` is beside the stream, wing components; circulations lag behind as `lag` says.
+    /// Forces of the air on the nodes into the scratch \[N\], N components, the whole returned about the origin
+    /// of the wing; none of a wing without a shape. `wind` is beside the stream, wing components; circulations
+    /// lag behind as `lag` says.
     pub fn load(
         &self,
         blade: &BladeWing,
@@ -139,7 +140,8 @@ impl BentStrips {
 }
 
 impl BentScratch {
-    /// Nodes of a wing whose frame moves like `m` and accelerates like `acc` through the `stream` \[m/s\], N components.
+    /// Nodes of a wing whose frame moves like `m` and accelerates like `acc` through the `stream` \[m/s\], N
+    /// components.
     fn set_nodes(
         &mut self,
         m: &BodyMotion,

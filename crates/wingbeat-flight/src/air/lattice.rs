@@ -56,8 +56,9 @@ impl LatticeAir {
         Ok(Self { lattice, map })
     }
 
-    /// How the panels of a wing answer to accelerations without circulation: of a lattice that sheds nothing, its rings inside all
-    /// edges by a quarter panel, which makes added masses good to second order of the panel size.
+    /// How the panels of a wing answer to accelerations without circulation: of a lattice that sheds nothing,
+    /// its rings inside all edges by a quarter panel, which makes added masses good to second order of the
+    /// panel size.
     ///
     /// # Errors
     /// What the lattice refuses; a singular influence matrix.
@@ -320,8 +321,8 @@ impl Air for LatticeAir {
 /// Entries of an added mass smaller than this over the geometric mean of their diagonal ones are rounding \[1\].
 const NOTHING: f64 = 1e-12;
 
-/// The added mass of a wing that moves as a rigid body like `m`, from the `answer` of the normal forces of its panels to normal accelerations
-/// \[kg\], row by row; symmetric as energy asks.
+/// The added mass of a wing that moves as a rigid body like `m`, from the `answer` of the normal forces of its
+/// panels to normal accelerations \[kg\], row by row; symmetric as energy asks.
 fn rigid_added_mass(
     answer: &[f64],
     loads: &AirLoads,

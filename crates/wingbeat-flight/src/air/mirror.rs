@@ -6,10 +6,9 @@ use wingbeat_math::DVec3;
 use wingbeat_model::mesh::{QuadMesh, mirror};
 use wingbeat_model::{Animal, PairOnPart, Wing};
 
-/// The pairs of an animal that is its own mirror image in the plane of axes 1 and 3 of the body, at
-/// rest at `root`, in the order of the lattice's surfaces: wings, parts of the body, parts of segments, strips through bodies between the
-/// wings `carried`.
-/// None if a wing or a node has no counterpart.
+/// The pairs of an animal that is its own mirror image in the plane of axes 1 and 3 of the body, at rest at
+/// `root`, in the order of the lattice's surfaces: wings, parts of the body, parts of segments, strips through
+/// bodies between the wings `carried`. None if a wing or a node has no counterpart.
 pub fn mirror_pairs(
     animal: &Animal,
     (body_surfaces, carried): (bool, &[PairOnPart]),

@@ -67,9 +67,9 @@ struct CarryThrough {
 }
 
 impl SurfaceMap {
-    /// Wings first, in the animal's order (body `i + 1`), then the closed parts of the root body
-    /// and those of the segments when `body_surfaces` says so; strips through bodies last. The pairs of wings in `joined` share
-    /// the edge at their roots, the circulation of those in `carried` goes on through a body.
+    /// Wings first, in the animal's order (body `i + 1`), then the closed parts of the root body and those of
+    /// the segments when `body_surfaces` says so; strips through bodies last. The pairs of wings in `joined`
+    /// share the edge at their roots, the circulation of those in `carried` goes on through a body.
     pub fn new(
         animal: &Animal,
         body_surfaces: bool,
@@ -119,7 +119,8 @@ impl SurfaceMap {
         map
     }
 
-    /// Adds the strip from the root of the first of these wings to the middle between both roots, which lies `aside` by so much.
+    /// Adds the strip from the root of the first of these wings to the middle between both roots, which lies
+    /// `aside` by so much.
     fn carry(&mut self, wings: [usize; 2], aside: DVec3, animal: &Animal) {
         let nodes = wings.map(|k| self.nodes[k].clone());
         let roots = roots(animal, wings, nodes).nodes;
@@ -225,8 +226,8 @@ impl SurfaceMap {
         Ok(())
     }
 
-    /// The error of the lattice at this instant: a panel that is none belongs to a sheet that folded over, if its wing changes its
-    /// shape.
+    /// The error of the lattice at this instant: a panel that is none belongs to a sheet that folded over, if
+    /// its wing changes its shape.
     pub fn error_of(&self, error: AirError, at: &Instant<'_>) -> FlightError {
         let (AirError::Crossed { surface, panel, .. }
         | AirError::NoLength { surface, panel, .. }

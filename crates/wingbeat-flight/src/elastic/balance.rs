@@ -35,8 +35,8 @@ impl ElasticWings {
         })
     }
 
-    /// Adds to `out` what the elastic wings do to their frames beside the loads of the air and what rigid ones would do, N
-    /// components about the origins of the bodies.
+    /// Adds to `out` what the elastic wings do to their frames beside the loads of the air and what rigid ones
+    /// would do, N components about the origins of the bodies.
     pub fn wrenches(&self, motions: &[BodyMotion], s: &ElasticScratch, out: &mut [Wrench]) {
         out.fill(Wrench::default());
         for (k, (w, ws)) in self.wings.iter().zip(&s.wings).enumerate() {
@@ -60,8 +60,8 @@ impl ElasticWings {
         }
     }
 
-    /// The wings' answer to accelerations of their frames, beside that of rigid ones, as added masses into `out`; what they
-    /// exert under the accelerations that the wings are known to have is taken out of `loads`.
+    /// The wings' answer to accelerations of their frames, beside that of rigid ones, as added masses into
+    /// `out`; what they exert under the accelerations that the wings are known to have is taken out of `loads`.
     pub fn add_mass(
         &self,
         at: &Moment<'_>,

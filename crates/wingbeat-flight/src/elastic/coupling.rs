@@ -67,7 +67,8 @@ pub struct Moment<'a> {
     pub step: f64,
     /// Motions of all bodies.
     pub motions: &'a [BodyMotion],
-    /// Accelerations of all bodies; of wings in the first pass of a step that of the step before where they are not known.
+    /// Accelerations of all bodies; of wings in the first pass of a step that of the step before where they are
+    /// not known.
     pub accelerations: &'a [BodyAcceleration],
 }
 
@@ -84,7 +85,8 @@ impl ElasticWings {
         scratch
     }
 
-    /// Brings shapes and loads to agree at an instant: the loads of the air about the origins of the bodies stay in `out`.
+    /// Brings shapes and loads to agree at an instant: the loads of the air about the origins of the bodies
+    /// stay in `out`.
     ///
     /// # Errors
     /// What the air reports; shapes and loads that do not come to agree.
@@ -157,8 +159,8 @@ impl ElasticWings {
         if !s.unbalanced.is_finite() {
             return Err(self.failed(at.time, s));
         }
-        // Answers at once, without a wake between, hardly change while bodies and wings are brought to agree; on free joints
-        // passes need to know them well.
+        // Answers at once, without a wake between, hardly change while bodies and wings are brought to agree;
+        // on free joints passes need to know them well.
         let is_known = s.has_answers && air.follows_accelerations() && !self.on_joints;
         let is_known = is_known && s.passes == 1;
         if s.passes % RENEWAL == 1 && !is_known {
@@ -177,8 +179,8 @@ impl ElasticWings {
         }
     }
 
-    /// Before the first instant of a step of `step` \[s\]: what the shapes will be if nothing new happens. Accelerations of the
-    /// wings are those of the step before.
+    /// Before the first instant of a step of `step` \[s\]: what the shapes will be if nothing new happens.
+    /// Accelerations of the wings are those of the step before.
     pub fn predict(
         &self,
         step: f64,
@@ -267,8 +269,8 @@ impl ElasticWings {
         Ok(())
     }
 
-    /// New trials: what the elastic bodies do under loads that follow them as the air has answered, and what secants of former
-    /// passes make of that, all wings together; translations over the sizes of the wings.
+    /// New trials: what the elastic bodies do under loads that follow them as the air has answered, and what
+    /// secants of former passes make of that, all wings together; translations over the sizes of the wings.
     fn correct(&self, s: &mut ElasticScratch) -> Result<(), FlightError> {
         s.change.clear();
         s.share = 1.0;

@@ -1,8 +1,9 @@
 //! Wings whose shape is the mirror image of another's, in air of which one half is computed.
 //!
-//! With P the half turn about axis 2 of the wings, whose negative is the mirror, a node with the place u and the attitude R has its
-//! image at `-P u` with the attitude `P R Q`, Q the proper rotation by which it is so at rest. Velocities v and forces go over as
-//! places do; angular velocities and moments, in node components, by `Q^T`.
+//! With P the half turn about axis 2 of the wings, whose negative is the mirror, a node with the place u and
+//! the attitude R has its image at `-P u` with the attitude `P R Q`, Q the proper rotation by which it is so at
+//! rest. Velocities v and forces go over as places do; angular velocities and moments, in node components, by
+//! `Q^T`.
 
 use wingbeat_dynamics::{AddedMass, Wrench};
 use wingbeat_math::{DMat3, DQuat, DVec3};

@@ -11,11 +11,12 @@ use super::wing::{ElasticState, ElasticWing, Nodes};
 use crate::error::FlightError;
 use crate::interface::WingResponse;
 
-/// Forces that are left unbalanced at the end of a step over those at the nodes, without loads over those that hold the wing \[1\].
+/// Forces that are left unbalanced at the end of a step over those at the nodes, without loads over those that
+/// hold the wing \[1\].
 pub const TOLERANCE: f64 = 1e-10;
 
-/// The same of wings on free joints and of light flyers, whose small moments of inertia turn what is left into accelerations: passes of bodies and air
-/// would not see less than that.
+/// The same of wings on free joints and of light flyers, whose small moments of inertia turn what is left into
+/// accelerations: passes of bodies and air would not see less than that.
 pub(super) const FINE_TOLERANCE: f64 = 1e-12;
 
 /// Corrections that are the rounding of places: in stiff wings the forces of such are more than [`TOLERANCE`] \[1\].
@@ -55,7 +56,8 @@ pub(super) struct WingScratch {
     pub before: Vec<f64>,
     pub given: Vec<f64>,
     pub step: Vec<f64>,
-    /// What is unbalanced at first, how much of that stays so, and the velocities of the last trial that was in balance.
+    /// What is unbalanced at first, how much of that stays so, and the velocities of the last trial that was in
+    /// balance.
     first: Vec<f64>,
     kept: Vec<f64>,
     known: Vec<f64>,
@@ -105,8 +107,8 @@ impl WingScratch {
         self.scale = loads + w.rigid.mass * carried;
     }
 
-    /// Residual of the trial under the loads `given`; moments count over the size of the wing. A wing under tension without
-    /// loads is measured by what holds it.
+    /// Residual of the trial under the loads `given`; moments count over the size of the wing. A wing under
+    /// tension without loads is measured by what holds it.
     pub fn set_residual(&mut self, w: &ElasticWing) {
         let (trial, frame) = (&self.trial, &self.frame);
         let residual = (self.solver).residual(&w.structure, trial, frame, &self.given);
@@ -127,11 +129,12 @@ impl WingScratch {
         self.unbalanced = if largest == 0.0 { 0.0 } else { largest / scale };
     }
 
-    /// The elastic body brought to balance under loads that follow its motion as the air has answered. The motion that the
-    /// loads were taken for stays in `before`. Returns the share of what was unbalanced that is taken away \[1\].
+    /// The elastic body brought to balance under loads that follow its motion as the air has answered. The
+    /// motion that the loads were taken for stays in `before`. Returns the share of what was unbalanced that is
+    /// taken away \[1\].
     ///
-    /// A predicted motion is where the air was asked, not where balance is sought from: it stretches what hardly stretches.
-    /// It is taken away at once or, where Newton's iteration goes astray, part by part.
+    /// A predicted motion is where the air was asked, not where balance is sought from: it stretches what
+    /// hardly stretches. It is taken away at once or, where Newton's iteration goes astray, part by part.
     pub fn bend(&mut self, w: &ElasticWing) -> Result<f64, FlightError> {
         self.before.clone_from(&self.trial.velocity);
         if std::mem::take(&mut self.is_predicted) {
@@ -151,8 +154,8 @@ impl WingScratch {
         }
     }
 
-    /// The same from where it began, ever more of what is unbalanced at first taken away: as loads of a static problem are
-    /// put on step by step.
+    /// The same from where it began, ever more of what is unbalanced at first taken away: as loads of a static
+    /// problem are put on step by step.
     fn bend_by_parts(&mut self, w: &ElasticWing, target: f64) -> Result<f64, FlightError> {
         let (mut done, mut part) = (0.0, LARGEST_PART);
         while done < 1.0 && part >= SMALLEST_PART {
@@ -191,7 +194,8 @@ impl WingScratch {
         self.trial.add(&w.structure, &self.step);
     }
 
-    /// Newton's iteration until what is unbalanced, but for what is kept, is less than `target`: false where it goes astray.
+    /// Newton's iteration until what is unbalanced, but for what is kept, is less than `target`: false where it
+    /// goes astray.
     fn newton(&mut self, w: &ElasticWing, target: f64) -> Result<bool, FlightError> {
         let (at_first, mut last) = (self.unbalanced, f64::INFINITY);
         for _ in 0..MAX_NEWTON {

@@ -64,8 +64,9 @@ impl AirTangent {
     }
 }
 
-/// Added mass of a wing of attitude `r` whose mesh follows by `followers` in the configuration `at`, from how its panels answer to
-/// accelerations: force in W and moment in node components by accelerations of the nodes, rows of six numbers a node each.
+/// Added mass of a wing of attitude `r` whose mesh follows by `followers` in the configuration `at`, from how
+/// its panels answer to accelerations: force in W and moment in node components by accelerations of the nodes,
+/// rows of six numbers a node each.
 pub(super) fn added_mass(
     air: &WingResponse,
     r: DMat3,

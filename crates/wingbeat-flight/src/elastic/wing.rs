@@ -41,7 +41,8 @@ pub struct ElasticWing {
 pub struct ElasticState {
     /// Shape and velocities.
     pub structure: State,
-    /// Acceleration of the frame of the wing \[m/s2\], N components, and angular acceleration \[rad/s2\], wing components.
+    /// Acceleration of the frame of the wing \[m/s2\], N components, and angular acceleration \[rad/s2\], wing
+    /// components.
     pub frame: [DVec3; 2],
 }
 
@@ -106,8 +107,8 @@ impl ElasticWing {
         &self.followers
     }
 
-    /// Added mass of the air by what its panels answer to accelerations, the body moving like `m` and bent as in `at`: rows of six
-    /// numbers a node each, as [`wingbeat_structure::modes`] takes it.
+    /// Added mass of the air by what its panels answer to accelerations, the body moving like `m` and bent as
+    /// in `at`: rows of six numbers a node each, as [`wingbeat_structure::modes`] takes it.
     pub fn added_mass(&self, air: &WingResponse, m: &BodyMotion, at: &Configuration) -> Vec<f64> {
         added_mass(air, m.r, &self.followers, at)
     }
@@ -163,9 +164,9 @@ impl ElasticWing {
         ]
     }
 
-    /// From the derivative of what the wing exerts by the acceleration of its frame: what a mass beside that of the rigid wing
-    /// has. Of its symmetric part so much that both together are positive definite, as masses are; the answer of the air to
-    /// places and velocities within a step need not be.
+    /// From the derivative of what the wing exerts by the acceleration of its frame: what a mass beside that of
+    /// the rigid wing has. Of its symmetric part so much that both together are positive definite, as masses
+    /// are; the answer of the air to places and velocities within a step need not be.
     pub(super) fn carried(&self, response: &[[f64; 6]; 6]) -> AddedMass {
         let rigid = rigid_mass(&self.rigid);
         let mean = |i: usize, j: usize| -0.5 * (response[i][j] + response[j][i]);

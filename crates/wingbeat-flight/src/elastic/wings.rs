@@ -23,7 +23,8 @@ pub struct ElasticWings {
     pub(super) on_joints: bool,
     /// Whether wings or joints are driven.
     is_driven: bool,
-    /// Whether they do, or the flyer is light as a whole: small moments of inertia turn small forces into accelerations.
+    /// Whether they do, or the flyer is light as a whole: small moments of inertia turn small forces into
+    /// accelerations.
     is_delicate: bool,
 }
 
@@ -46,7 +47,8 @@ impl ElasticWings {
         })
     }
 
-    /// The same of an animal whose wings hang on free joints, if `on_joints`, or that is light as a whole, if `is_light`.
+    /// The same of an animal whose wings hang on free joints, if `on_joints`, or that is light as a whole, if
+    /// `is_light`.
     pub fn carried_by(self, on_joints: bool, is_light: bool) -> Self {
         Self {
             on_joints,
@@ -60,14 +62,14 @@ impl ElasticWings {
         Self { is_driven, ..self }
     }
 
-    /// Whether wings hang on free joints and nothing is driven: what joints do is then little beside what it takes to move a rigid wing
-    /// so, where joints jerk, and is counted by itself.
+    /// Whether wings hang on free joints and nothing is driven: what joints do is then little beside what it
+    /// takes to move a rigid wing so, where joints jerk, and is counted by itself.
     pub fn are_passive(&self) -> bool {
         !self.wings.is_empty() && self.on_joints && !self.is_driven
     }
 
-    /// The same in air of which one half is computed, wings of which these `pairs` are mirror images of each other: the shape of
-    /// the first of a pair is computed, and that of the second is its image.
+    /// The same in air of which one half is computed, wings of which these `pairs` are mirror images of each
+    /// other: the shape of the first of a pair is computed, and that of the second is its image.
     pub fn mirrored(self, pairs: &[[usize; 2]]) -> Self {
         let place = |wing: usize| self.wings.iter().position(|w| w.wing == wing);
         let image = |w: &ElasticWing| {
@@ -95,8 +97,9 @@ impl ElasticWings {
         self.image(k).map_or(k, |image| image.of)
     }
 
-    /// Where free joints carry wings: the share \[1\] of the fastest vibrations that is to be left from step to step, the least that any
-    /// of the structures asks for. Such joints take part in vibrations far above one over the step.
+    /// Where free joints carry wings: the share \[1\] of the fastest vibrations that is to be left from step to
+    /// step, the least that any of the structures asks for. Such joints take part in vibrations far above one
+    /// over the step.
     pub fn damping_on_joints(&self) -> Option<f64> {
         let radii = self.wings.iter().map(|w| w.spectral_radius);
         self.on_joints.then(|| radii.reduce(f64::min)).flatten()

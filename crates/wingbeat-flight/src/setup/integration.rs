@@ -29,8 +29,8 @@ pub enum IntegratorChoice {
     /// Hamming's modified predictor-corrector, order four: carries a wake along where the air that
     /// moves with the wings weighs less than a third of what carries it.
     Hamming,
-    /// Backward differences of order four: carries a wake along whatever the air weighs. Where elastic wings hang on free joints, a
-    /// formula of order two that damps the fastest vibrations as their structures do.
+    /// Backward differences of order four: carries a wake along whatever the air weighs. Where elastic wings
+    /// hang on free joints, a formula of order two that damps the fastest vibrations as their structures do.
     Bdf,
     /// Adams-Bashforth-Moulton, order four.
     Adams,

@@ -30,8 +30,8 @@ pub struct StartState {
     /// with this constant velocity (but for [`Self::held_motion`]) while the wings beat and the wake
     /// grows, then it is released. 0 releases at once.
     pub held_steps: usize,
-    /// How it moves about that attitude and path while it is held; none is still. It is released with the velocities that it has then,
-    /// and with [`Self::angular_velocity`] besides.
+    /// How it moves about that attitude and path while it is held; none is still. It is released with the
+    /// velocities that it has then, and with [`Self::angular_velocity`] besides.
     pub held_motion: Option<Box<PrescribedMotion>>,
 }
 

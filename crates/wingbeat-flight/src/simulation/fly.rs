@@ -6,8 +6,8 @@ use super::Simulation;
 use crate::error::FlightError;
 
 impl Simulation {
-    /// Makes the steps to the end ([`Self::finished`]), or as long as `each`, which sees the flight before every step and at
-    /// its end, lets it.
+    /// Makes the steps to the end ([`Self::finished`]), or as long as `each`, which sees the flight before
+    /// every step and at its end, lets it.
     ///
     /// # Errors
     /// Those of `each`, after which the flight may go on; those of [`Self::step`].

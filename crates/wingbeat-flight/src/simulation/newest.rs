@@ -36,8 +36,8 @@ impl Simulation {
         (self.equations().air).velocity(self.state.air.as_ref(), points)
     }
 
-    /// Whether there is air at `points` [m], N, at the newest step: not within body parts of the lattice nor beyond the ground, where
-    /// [`Self::air_velocity`] is that of vortices and images alone.
+    /// Whether there is air at `points` [m], N, at the newest step: not within body parts of the lattice nor
+    /// beyond the ground, where [`Self::air_velocity`] is that of vortices and images alone.
     pub fn is_in_air(&self, points: &[DVec3]) -> Vec<bool> {
         let AirModel::VortexLattice(air) = &self.setup.air else {
             return vec![true; points.len()];
@@ -60,8 +60,8 @@ impl Simulation {
         &self.equations().elastic
     }
 
-    /// Added mass of the air on elastic wing number `k` of [`Self::elastic_wings`] at the newest step: six numbers a node
-    /// ([`crate::elastic::ElasticWing::added_mass`]). None where the air has none.
+    /// Added mass of the air on elastic wing number `k` of [`Self::elastic_wings`] at the newest step: six
+    /// numbers a node ([`crate::elastic::ElasticWing::added_mass`]). None where the air has none.
     ///
     /// # Errors
     /// A singular influence matrix.

@@ -47,7 +47,8 @@ impl FlightState {
     }
 }
 
-/// Where a flight goes on from another one: all that is remembered beside the motion of rigid bodies, but for wakes in space.
+/// Where a flight goes on from another one: all that is remembered beside the motion of rigid bodies, but for
+/// wakes in space.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Past {
     /// Elastic wings, in their order; empty where there are none.

@@ -14,11 +14,12 @@
 //! difference of order two up to mu = 0.359, with that of order one up to 0.701; beyond, y alternates
 //! from step to step and grows, whatever the step.
 //!
-//! Undamped vibrations of the angular frequency w grow by the formula of order four where w h is more than a few tenths (by
-//! 1.4 % a step at 0.6, by 11 % at 1). That of order two damps vibrations of every frequency, and leaves the share rho of the fastest from step to step: the
-//! generalized-alpha method for equations of first order [Jansen, Whiting & Hulbert 2000], its rates at the middle of a step taken out.
-//! Its parameters are those of the method of second order [Chung & Hulbert 1993], by which elastic bodies go: velocities of bodies that
-//! carry each other then follow alike from their accelerations, however these jump:
+//! Undamped vibrations of the angular frequency w grow by the formula of order four where w h is more than a
+//! few tenths (by 1.4 % a step at 0.6, by 11 % at 1). That of order two damps vibrations of every frequency,
+//! and leaves the share rho of the fastest from step to step: the generalized-alpha method for equations of
+//! first order [Jansen, Whiting & Hulbert 2000], its rates at the middle of a step taken out. Its parameters
+//! are those of the method of second order [Chung & Hulbert 1993], by which elastic bodies go: velocities of
+//! bodies that carry each other then follow alike from their accelerations, however these jump:
 //!
 //! ```text
 //! predict  p = y[n] + h/2 (3 f[n] - f[n-1])
@@ -27,13 +28,14 @@
 //!          m = (2 - rho) / (1 + rho),  a = 1 / (1 + rho),  g = 1/2 + m - a
 //! ```
 //!
-//! It starts with a step of Euler's backward method, which knows no rate at the start: a jump there leaves nothing behind.
+//! It starts with a step of Euler's backward method, which knows no rate at the start: a jump there leaves
+//! nothing behind.
 
 use super::corrector::{Convergence, Passing, StepError, StepReport, agree};
 use super::hamming::Multistep;
 
-/// Weights, newest first: of past states and rates in the corrector over the sum of the former, of the new rate in it, and of rates
-/// in the predictor over their sum.
+/// Weights, newest first: of past states and rates in the corrector over the sum of the former, of the new rate
+/// in it, and of rates in the predictor over their sum.
 #[derive(Clone, Copy, Debug)]
 struct Weights {
     states: [f64; 4],
@@ -55,8 +57,9 @@ fn parameters(rho: f64) -> [f64; 3] {
     [m, a, 0.5 + m - a]
 }
 
-/// Weights of f0 to f3 in (y_k - y_0) / h of the first three steps of the method of order two that leaves the share `rho`: one of
-/// Euler's backward method, one in which the rate at the middle of the step before is that at its end, and one as all later ones.
+/// Weights of f0 to f3 in (y_k - y_0) / h of the first three steps of the method of order two that leaves the
+/// share `rho`: one of Euler's backward method, one in which the rate at the middle of the step before is that
+/// at its end, and one as all later ones.
 pub fn order_two_start(rho: f64) -> [[f64; 4]; 3] {
     let [m, a, g] = parameters(rho);
     let (now, before) = (g * a / m, 1.0 - g * a / m);

@@ -22,7 +22,8 @@ pub struct Convergence {
     pub max_passes: usize,
     /// Relaxation factor of a pass \[1\], above 0 and up to 1.
     pub relaxation: f64,
-    /// First pass from which least squares of the passes before speed the next ones up ([`Secants`]); none for plain passes.
+    /// First pass from which least squares of the passes before speed the next ones up ([`Secants`]); none for
+    /// plain passes.
     pub accelerated_from: Option<usize>,
 }
 
@@ -56,7 +57,8 @@ impl Passing {
         }
     }
 
-    /// The trial after pass number `pass`, which led from `trial` to `corrected`; components of infinite scale follow plainly.
+    /// The trial after pass number `pass`, which led from `trial` to `corrected`; components of infinite scale
+    /// follow plainly.
     pub fn go_on(
         &mut self,
         c: &Convergence,

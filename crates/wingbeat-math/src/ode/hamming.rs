@@ -24,8 +24,8 @@ pub struct Multistep {
     pub f: [Vec<f64>; 4],
     /// p - c of the last step \[unit of y\]; zero after the start.
     pub predicted_minus_corrected: Vec<f64>,
-    /// What corrector passes of the last steps have shown, oldest first, over the natural sizes of the components; empty where
-    /// nothing speeds them up.
+    /// What corrector passes of the last steps have shown, oldest first, over the natural sizes of the
+    /// components; empty where nothing speeds them up.
     #[serde(default)]
     pub shown: Vec<Shown>,
 }
@@ -112,8 +112,8 @@ impl Hamming {
         self.advance_asking(past, |_, y, dy| rates(y, dy))
     }
 
-    /// As [`Self::advance`] with rates that know what they are asked for. `rates(asked, y, dy)` is called at the new time only; its last
-    /// call is made with the accepted state.
+    /// As [`Self::advance`] with rates that know what they are asked for. `rates(asked, y, dy)` is called at
+    /// the new time only; its last call is made with the accepted state.
     ///
     /// # Errors
     /// The right-hand side fails; the corrector does not converge. `past` is then unchanged.

@@ -14,8 +14,8 @@ pub(crate) fn is_flat(mesh: &GridMesh) -> bool {
     edge(0).chain(edge(mesh.rows)).all(|z| z <= FLAT * length)
 }
 
-/// Leading edge and chord, from the trailing to the leading edge, of a column of nodes \[m\], wing components. On a flat mesh
-/// chords are along axis 1.
+/// Leading edge and chord, from the trailing to the leading edge, of a column of nodes \[m\], wing components.
+/// On a flat mesh chords are along axis 1.
 pub(crate) fn chord_line(mesh: &GridMesh, j: usize) -> [DVec3; 2] {
     let [lead, trail] = [0, mesh.rows].map(|i| mesh.nodes[mesh.node(i, j)]);
     let chord = lead - trail;
@@ -40,8 +40,8 @@ pub(crate) fn behind(mesh: &GridMesh, i: usize, j: usize) -> f64 {
     }
 }
 
-/// Directions of chord (forward) and span (outward) of the strip between columns j and j + 1, wing components; axes 1 and 2 on a
-/// flat mesh.
+/// Directions of chord (forward) and span (outward) of the strip between columns j and j + 1, wing components;
+/// axes 1 and 2 on a flat mesh.
 pub(crate) fn strip_axes(mesh: &GridMesh, j: usize) -> [DVec3; 2] {
     let [[a, inner], [b, outer]] = [j, j + 1].map(|j| chord_line(mesh, j));
     if is_flat(mesh) {

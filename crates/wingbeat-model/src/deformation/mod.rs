@@ -11,7 +11,8 @@
 //! 3. bending moves the section by `w(r, t)` towards -axis 3. It stays parallel to itself and at its
 //!    place along axis 2, so the surface is stretched at second order of the slope dw/dr.
 //!
-//! These axes are those of the wing frame, whatever incidence and dihedral the mesh has; `c` and `s` are measured along axis 1.
+//! These axes are those of the wing frame, whatever incidence and dihedral the mesh has; `c` and `s` are
+//! measured along axis 1.
 //!
 //! Towards -axis 3 is up for a wing at zero angles. Time enters through the phase of the wing's own
 //! beat, so a smooth start of the motion is one of the deformation too. Positions, velocities and

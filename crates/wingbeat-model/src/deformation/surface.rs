@@ -1,8 +1,9 @@
 //! A measured surface: the places of its points at some phases of the beat.
 //!
-//! Each point's course over the beat is a Fourier series, fitted by least squares to its places at the given phases; between
-//! points the surface is bilinear in the parts of chord and span. So places, velocities and accelerations are analytic,
-//! and the surface may do what no twist, camber and bending can: change its area, sweep and fold.
+//! Each point's course over the beat is a Fourier series, fitted by least squares to its places at the given
+//! phases; between points the surface is bilinear in the parts of chord and span. So places, velocities and
+//! accelerations are analytic, and the surface may do what no twist, camber and bending can: change its area,
+//! sweep and fold.
 //!
 //! Phases that do not determine the series are refused ([`Fourier::fitted`]).
 
@@ -17,9 +18,9 @@ use wingbeat_math::DVec3;
 pub struct MovingSurface {
     /// Phases of the wing's own beat \[wingbeats\], rising, all within one beat.
     pub phases: Vec<f64>,
-    /// Places \[m\] in the wing frame, phase by phase: rows at equal parts of the chord from the leading to the trailing
-    /// edge, each with points at equal parts of the span from root to tip. Along axis 2 the distance outboard of the hinge
-    /// counts, on wings of either side.
+    /// Places \[m\] in the wing frame, phase by phase: rows at equal parts of the chord from the leading to the
+    /// trailing edge, each with points at equal parts of the span from root to tip. Along axis 2 the distance
+    /// outboard of the hinge counts, on wings of either side.
     pub places: Vec<Vec<Vec<DVec3>>>,
     /// Harmonics of the series \[1\].
     pub harmonics: usize,
@@ -114,7 +115,8 @@ impl MovingSurface {
         [first.map_or(0, Vec::len), row.map_or(0, Vec::len)]
     }
 
-    /// Courses of the nodes of a mesh, which lie on the surface at the parts of chord and span at which they lie at rest.
+    /// Courses of the nodes of a mesh, which lie on the surface at the parts of chord and span at which they
+    /// lie at rest.
     pub(super) fn courses(&self, mesh: &GridMesh) -> Vec<Course> {
         let fit = FourierFit::new(&self.phases, self.harmonics).expect("a checked surface");
         let [inner, tip] = span(mesh);

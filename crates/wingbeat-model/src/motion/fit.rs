@@ -8,7 +8,8 @@ use crate::motion::fourier::Fourier;
 use std::f64::consts::TAU;
 use wingbeat_math::{SingularMatrix, SmallLu};
 
-/// Rows of the matrix that makes the coefficients (mean, cosines, sines in turn) of the values at some phases: least squares.
+/// Rows of the matrix that makes the coefficients (mean, cosines, sines in turn) of the values at some phases:
+/// least squares.
 pub(crate) struct FourierFit(Vec<Vec<f64>>);
 
 impl FourierFit {
@@ -116,13 +117,13 @@ fn check_not_falling(name: &str, rows: &[(f64, f64)]) -> Result<(), ModelError> 
 }
 
 impl Fourier {
-    /// The series of `harmonics` harmonics that is nearest to the rows `(phase \[wingbeats\], angle \[rad\])` by least squares, and
-    /// what is left of each row \[rad\]. Rows of several beats are folded into one, and phases may repeat. Of one beat a last row
-    /// a beat after the first is left out.
+    /// The series of `harmonics` harmonics that is nearest to the rows `(phase \[wingbeats\], angle \[rad\])`
+    /// by least squares, and what is left of each row \[rad\]. Rows of several beats are folded into one, and
+    /// phases may repeat. Of one beat a last row a beat after the first is left out.
     ///
     /// # Errors
-    /// [`ModelError::Table`] names the row: no harmonics, fewer than four rows, a number that is not finite, phases that fall, or
-    /// are too far apart for so many harmonics.
+    /// [`ModelError::Table`] names the row: no harmonics, fewer than four rows, a number that is not finite,
+    /// phases that fall, or are too far apart for so many harmonics.
     pub fn fitted(
         name: &str,
         rows: &[(f64, f64)],
@@ -162,8 +163,8 @@ mod tests {
         (left.iter().map(|x| x * x).sum::<f64>() / left.len() as f64).sqrt()
     }
 
-    /// A series of three harmonics at uneven phases comes back to roundings; one harmonic more than it needs changes nothing, one less
-    /// leaves the root mean square of what it lacks where phases are even.
+    /// A series of three harmonics at uneven phases comes back to roundings; one harmonic more than it needs
+    /// changes nothing, one less leaves the root mean square of what it lacks where phases are even.
     #[test]
     fn exact_series_come_back_from_their_samples() {
         let series = Fourier {

@@ -1,8 +1,9 @@
 //! Noise in measured angles: samples that scatter about the motion, all of which a spline goes through.
 //!
-//! The rates of a smooth motion fall from octave to octave of its harmonics: by a half for a triangle wave, whose corners are the
-//! sharpest that a stroke has, faster for others. Noise has the same amplitude at all of them, so its rates grow eightfold. Where the
-//! highest octave that the samples resolve has clearly more than the one below, and is no small part of the whole, it is noise.
+//! The rates of a smooth motion fall from octave to octave of its harmonics: by a half for a triangle wave,
+//! whose corners are the sharpest that a stroke has, faster for others. Noise has the same amplitude at all of
+//! them, so its rates grow eightfold. Where the highest octave that the samples resolve has clearly more than
+//! the one below, and is no small part of the whole, it is noise.
 
 use crate::motion::Fourier;
 use crate::motion::spline::PeriodicSpline;
@@ -13,8 +14,8 @@ use rustfft::num_complex::Complex;
 const SAMPLES: usize = 32;
 /// Harmonics that are looked at at most.
 const HARMONICS: usize = 256;
-/// Mean square rates of the highest octave over those of the one below from which on it is noise: triangle waves have 0.5, in 32 to 40 samples up to
-/// 1.1, noise 8, as it falls out 2 or more.
+/// Mean square rates of the highest octave over those of the one below from which on it is noise: triangle
+/// waves have 0.5, in 32 to 40 samples up to 1.1, noise 8, as it falls out 2 or more.
 const GROWTH: f64 = 1.5;
 /// The same over those of all below from which on it counts: rates of a tenth.
 const COUNTS: f64 = 0.01;
@@ -43,8 +44,8 @@ impl PeriodicSpline {
 }
 
 impl Fourier {
-    /// How the samples scatter that it was fitted to, by its own harmonics: whether the highest are noise. None where they are not,
-    /// or are too few to know.
+    /// How the samples scatter that it was fitted to, by its own harmonics: whether the highest are noise. None
+    /// where they are not, or are too few to know.
     pub fn scatter(&self, samples: usize) -> Option<Scatter> {
         let harmonics = self.cos.iter().zip(&self.sin).map(|(c, s)| c.hypot(*s));
         let amplitude: Vec<f64> = [self.mean.abs()].into_iter().chain(harmonics).collect();
@@ -109,7 +110,8 @@ mod tests {
         PeriodicSpline::new("q", &rows).expect("a table")
     }
 
-    /// A degree of white noise on a stroke of 140 deg is found, and how much it is; the harmonics of the motion stand out.
+    /// A degree of white noise on a stroke of 140 deg is found, and how much it is; the harmonics of the motion
+    /// stand out.
     #[test]
     fn exact_noise_is_found_with_its_size() {
         for samples in [64, 200] {
@@ -126,7 +128,8 @@ mod tests {
         }
     }
 
-    /// A series of 40 harmonics fitted to 100 samples follows their noise, one of 20 to samples without noise follows none.
+    /// A series of 40 harmonics fitted to 100 samples follows their noise, one of 20 to samples without noise
+    /// follows none.
     #[test]
     fn exact_harmonics_that_follow_noise_are_found() {
         let mut random = SplitMix64::new(7);

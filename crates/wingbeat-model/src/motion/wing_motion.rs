@@ -142,8 +142,8 @@ impl WingMotion {
         }
     }
 
-    /// The motion as it is once it has risen, at full rate at all times: by what the start delays it, its phase lags that of
-    /// [`Self::impulsive`]. Delays of whole wingbeats change nothing.
+    /// The motion as it is once it has risen, at full rate at all times: by what the start delays it, its phase
+    /// lags that of [`Self::impulsive`]. Delays of whole wingbeats change nothing.
     pub fn risen(&self) -> Self {
         let lag = self.frequency * self.start.delay();
         Self {

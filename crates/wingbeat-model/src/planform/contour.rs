@@ -15,8 +15,8 @@ pub struct Landmarks {
     pub hinge: [f64; 2],
     /// The wing tip, or any other point on the span axis \[`unit`\].
     pub tip: [f64; 2],
-    /// A point on the side of the leading edge \[`unit`\]. None: that side is to the left on the way from the hinge to the tip, the second
-    /// number counted upwards.
+    /// A point on the side of the leading edge \[`unit`\]. None: that side is to the left on the way from the
+    /// hinge to the tip, the second number counted upwards.
     pub leading_edge: Option<[f64; 2]>,
     /// Length of one unit of the picture \[m\].
     pub unit: f64,
@@ -35,7 +35,8 @@ impl Landmarks {
     /// Points of the picture as points (r, x) \[m\] of the wing.
     ///
     /// # Errors
-    /// A tip in the place of the hinge, a point of the leading edge on the line through both, numbers that are not finite.
+    /// A tip in the place of the hinge, a point of the leading edge on the line through both, numbers that are
+    /// not finite.
     pub fn place(&self, points: &[[f64; 2]]) -> Result<EdgePoints, ModelError> {
         let marks = [self.hinge, self.tip, self.leading_edge.unwrap_or(self.tip)];
         for (name, [x, y]) in ["hinge", "tip", "leading_edge"].into_iter().zip(marks) {
@@ -73,8 +74,9 @@ impl Landmarks {
     }
 }
 
-/// Leading and trailing edge of a closed polygon of points (r, x) \[m\]: the foremost and the rearmost of its points at each r
-/// that a corner has. What reaches behind the hinge, a twentieth of the length at most, is left out.
+/// Leading and trailing edge of a closed polygon of points (r, x) \[m\]: the foremost and the rearmost of its
+/// points at each r that a corner has. What reaches behind the hinge, a twentieth of the length at most, is
+/// left out.
 ///
 /// # Errors
 /// Fewer than three points, numbers that are not finite, a wing behind its hinge.

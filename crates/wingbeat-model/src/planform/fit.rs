@@ -1,9 +1,10 @@
 //! Edges of a mesh that has the area of its planform.
 //!
-//! Straight lines between places on the edge of a convex wing cut off a part of it: 1.4 % of the area and 2.2 % of its second
-//! moment about the hinge of a fruit fly's wing in ten panels, 5 and 8 % in five. So the edges of the mesh are the straight lines that are nearest to
-//! those of the planform in the sense of least squares: then area and its first moment are those of the planform on any mesh, the second
-//! within 0.1 % on five panels or more. Edges that are straight lines between the lines of the mesh stay as they are.
+//! Straight lines between places on the edge of a convex wing cut off a part of it: 1.4 % of the area and 2.2 %
+//! of its second moment about the hinge of a fruit fly's wing in ten panels, 5 and 8 % in five. So the edges of
+//! the mesh are the straight lines that are nearest to those of the planform in the sense of least squares:
+//! then area and its first moment are those of the planform on any mesh, the second within 0.1 % on five panels
+//! or more. Edges that are straight lines between the lines of the mesh stay as they are.
 
 use crate::error::ModelError;
 use crate::integrate::GAUSS;
@@ -16,7 +17,8 @@ const PARTS: usize = 256;
 /// No chord of the mesh is less than this part of the least of the planform, wherever an edge leaps.
 const LEAST: f64 = 0.5;
 
-/// Leading and trailing edge x at the lines of a mesh, which lie at the distances `r` from the hinge, root to tip \[m\].
+/// Leading and trailing edge x at the lines of a mesh, which lie at the distances `r` from the hinge, root to
+/// tip \[m\].
 pub(super) fn fit(edges: &Edges, r: &[f64]) -> Result<Vec<[f64; 2]>, ModelError> {
     if matches!(edges.curve, Curve::Straight(..)) {
         return Ok(r.iter().map(|&r| edges.at(r)).collect());

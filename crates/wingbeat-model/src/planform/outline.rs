@@ -37,7 +37,8 @@ pub enum Planform {
 }
 
 impl Planform {
-    /// Edges as points \[r, x\] \[m\] with r increasing, both from root to tip, nowhere less than `least_chord` of the largest chord apart.
+    /// Edges as points \[r, x\] \[m\] with r increasing, both from root to tip, nowhere less than `least_chord`
+    /// of the largest chord apart.
     pub fn outline(leading: &[[f64; 2]], trailing: &[[f64; 2]], least_chord: f64) -> Self {
         let points = |edge: &[[f64; 2]]| edge.iter().map(|&point| point.into()).collect();
         Self::Outline {
@@ -47,8 +48,9 @@ impl Planform {
         }
     }
 
-    /// A closed polygon of points (r, x) \[m\], in either sense. Where it has several points in front of one another, as in notches and
-    /// hooks, the edges are the foremost and the rearmost; what reaches behind the hinge, a twentieth of the length at most, is left out.
+    /// A closed polygon of points (r, x) \[m\], in either sense. Where it has several points in front of one
+    /// another, as in notches and hooks, the edges are the foremost and the rearmost; what reaches behind the
+    /// hinge, a twentieth of the length at most, is left out.
     ///
     /// # Errors
     /// Fewer than three points, numbers that are not finite, a polygon that reaches further behind the hinge.

@@ -27,25 +27,26 @@ pub struct WingBeam {
     pub stations: Option<Vec<f64>>,
     /// EI against bending out of the plane of the wing \[N m2\], over r/R.
     pub flap: SpanLaw,
-    /// EI against bending in the plane of the wing \[N m2\], over r/R; none is a hundred times that out of it, and shear that of a
-    /// plate.
+    /// EI against bending in the plane of the wing \[N m2\], over r/R; none is a hundred times that out of it,
+    /// and shear that of a plate.
     pub lag: Option<SpanLaw>,
     /// GJ against twist \[N m2\], over r/R.
     pub torsion: SpanLaw,
-    /// EA \[N\], over r/R; none is that of a plate as stiff in its plane, and of one a hundred times as stiff there as out of it at
-    /// least.
+    /// EA \[N\], over r/R; none is that of a plate as stiff in its plane, and of one a hundred times as stiff
+    /// there as out of it at least.
     pub axial: Option<SpanLaw>,
-    /// GA times the shear correction \[N\] along and across the chord, over r/R; none is so much that shear changes nothing (Euler and Bernoulli), but where
-    /// neither `lag` nor `axial` is given that of a plate.
+    /// GA times the shear correction \[N\] along and across the chord, over r/R; none is so much that shear
+    /// changes nothing (Euler and Bernoulli), but where neither `lag` nor `axial` is given that of a plate.
     pub shear: Option<SpanLaw>,
     /// Terms that couple stretch, twist and bending.
     pub coupling: Coupling,
-    /// Mass per length of the span, across the chord and not along a swept beam \[kg/m\], over r/R; none spreads the mass of the wing, less lumped masses, evenly over its area.
+    /// Mass per length of the span, across the chord and not along a swept beam \[kg/m\], over r/R; none
+    /// spreads the mass of the wing, less lumped masses, evenly over its area.
     pub mass: Option<SpanLaw>,
     /// Place of the mass centre behind the leading edge over the chord \[1\].
     pub mass_fraction: f64,
-    /// Moment of inertia about the mass centre of a section and its axis along the beam, per length \[kg m\], over r/R; none
-    /// is that of the mass spread evenly over the chord.
+    /// Moment of inertia about the mass centre of a section and its axis along the beam, per length \[kg m\],
+    /// over r/R; none is that of the mass spread evenly over the chord.
     pub inertia: Option<SpanLaw>,
     /// Lumped masses.
     pub masses: Vec<BeamMass>,

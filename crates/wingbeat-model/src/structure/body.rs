@@ -47,8 +47,8 @@ pub(super) fn check_not_negative(key: &str, law: &SpanLaw, root: f64) -> Result<
     Ok(())
 }
 
-/// What gives the fibres of a sheet a direction: moduli and tensions along and across them \[Pa, N/m\], and a shear modulus that
-/// may be that of no sheet alike in all directions.
+/// What gives the fibres of a sheet a direction: moduli and tensions along and across them \[Pa, N/m\], and a
+/// shear modulus that may be that of no sheet alike in all directions.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Fibres {
     pub young: [f64; 2],

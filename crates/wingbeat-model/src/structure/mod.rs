@@ -1,8 +1,8 @@
 //! What a wing is made of: how it bends and twists under loads.
 //!
-//! A wing with a structure is an elastic body that is clamped to the wing frame at its root; the nodes of its mesh follow
-//! the nodes of the elastic body. Stiffness is given from a few numbers, as laws along the span; mass is the wing's,
-//! spread over the structure.
+//! A wing with a structure is an elastic body that is clamped to the wing frame at its root; the nodes of its
+//! mesh follow the nodes of the elastic body. Stiffness is given from a few numbers, as laws along the span;
+//! mass is the wing's, spread over the structure.
 
 mod beam;
 mod body;
@@ -57,8 +57,8 @@ impl WingStructure {
         })
     }
 
-    /// Of a wing `s` times as large of the same materials: stiffnesses of sections (forces times areas) go with the fourth
-    /// power, times with the first.
+    /// Of a wing `s` times as large of the same materials: stiffnesses of sections (forces times areas) go with
+    /// the fourth power, times with the first.
     pub fn scaled(&self, s: f64) -> Self {
         let members = match &self.members {
             Members::Beam(beam) => Members::Beam(beam.scaled(s)),

@@ -21,15 +21,16 @@ pub struct WingShell {
     pub poisson: f64,
     /// Shear modulus \[Pa\]; none is that of a sheet alike in all directions.
     pub shear: Option<f64>,
-    /// Young's modulus against stretching in the plane \[Pa\], alike in all directions, where the moduli above are those of
-    /// bending alone: pleats and veins stiffen bending many times more than stretching; none where they are the same.
+    /// Young's modulus against stretching in the plane \[Pa\], alike in all directions, where the moduli above
+    /// are those of bending alone: pleats and veins stiffen bending many times more than stretching; none where
+    /// they are the same.
     pub stretching: Option<f64>,
     /// Thickness \[m\], over r/R.
     pub thickness: SpanLaw,
     /// Density \[kg/m3\]; none spreads the mass of the wing evenly over its area.
     pub density: Option<f64>,
-    /// Direction of the fibres, which `young` and `prestress` go along and across: from the span towards the leading edge
-    /// \[rad\].
+    /// Direction of the fibres, which `young` and `prestress` go along and across: from the span towards the
+    /// leading edge \[rad\].
     pub fibre_angle: f64,
     /// Tension at rest along and across the fibres \[N/m\].
     pub prestress: [f64; 2],
@@ -59,11 +60,11 @@ const CUTICLE: f64 = 1200.0;
 const CUTICLE_YOUNG: f64 = 3e9;
 
 impl WingShell {
-    /// A sheet with the bending stiffness of insects' wings, EI along the span `10^0.08 R^2.97`, along the chord
-    /// `10^-1.73 c^2.08` (R the wing length, c the mean chord; N m2, m) [Combes & Daniel 2003, J. Exp. Biol. 206:2979], as
-    /// thick as cuticle of the wing's mass is and no stiffer than it against stretching: what pleats and veins add to bending
-    /// they do not add to that. The shear modulus is the mean of both directions'. For a wing of this `length` \[m\], `area`
-    /// \[m2\] and `mass` \[kg\].
+    /// A sheet with the bending stiffness of insects' wings, EI along the span `10^0.08 R^2.97`, along the
+    /// chord `10^-1.73 c^2.08` (R the wing length, c the mean chord; N m2, m) [Combes & Daniel 2003, J. Exp.
+    /// Biol. 206:2979], as thick as cuticle of the wing's mass is and no stiffer than it against stretching:
+    /// what pleats and veins add to bending they do not add to that. The shear modulus is the mean of both
+    /// directions'. For a wing of this `length` \[m\], `area` \[m2\] and `mass` \[kg\].
     pub fn combes_daniel([length, area, mass]: [f64; 3], poisson: f64) -> Self {
         let chord = area / length;
         let thickness = mass / (CUTICLE * area);
@@ -135,7 +136,8 @@ impl WingShell {
         })
     }
 
-    /// Mass over area \[kg/m2\] of what has no density of its own: the mass of the wing less that of its veins, spread evenly.
+    /// Mass over area \[kg/m2\] of what has no density of its own: the mass of the wing less that of its veins,
+    /// spread evenly.
     fn spread(
         &self,
         wing: &Blank<'_>,
@@ -192,7 +194,8 @@ impl WingShell {
         Ok((0..count).map(lamina).collect())
     }
 
-    /// The element of panel `k`, none where it has no area; `even` is the mass over area of what has no density \[kg/m2\].
+    /// The element of panel `k`, none where it has no area; `even` is the mass over area of what has no density
+    /// \[kg/m2\].
     fn panel(
         &self,
         mesh: &ShellMesh,

@@ -9,8 +9,8 @@ use crate::deformation::{behind, column, span};
 use crate::error::{MemberError, ModelError, require};
 use crate::mesh::GridMesh;
 
-/// A vein, spar or batten: a round beam joined to the nodes of the mesh nearest to a straight line over the wing, along lines
-/// of the mesh and diagonals of its panels. Pairs are values at its two ends, linear between.
+/// A vein, spar or batten: a round beam joined to the nodes of the mesh nearest to a straight line over the
+/// wing, along lines of the mesh and diagonals of its panels. Pairs are values at its two ends, linear between.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Vein {
     /// Where it begins: r/R, and place behind the leading edge over the chord \[1\].

@@ -63,7 +63,8 @@ fn made(beam: &WingBeam, mesh: &GridMesh, mass: f64) -> ElasticBody {
 
 #[test]
 fn exact_first_frequency_with_a_mass_at_the_tip() {
-    // 1 + cos b cosh b + mu b (cos b sinh b - sin b cosh b) = 0, mu the mass at the tip over that of the beam, by bisection.
+    // 1 + cos b cosh b + mu b (cos b sinh b - sin b cosh b) = 0, mu the mass at the tip over that of the beam,
+    // by bisection.
     for mu in [0.5, 5.0] {
         let f =
             |b: f64| 1.0 + b.cos() * b.cosh() + mu * b * (b.cos() * b.sinh() - b.sin() * b.cosh());
@@ -228,8 +229,9 @@ fn twisting() -> WingBeam {
 
 #[test]
 fn exact_twist_of_a_coupled_cantilever_under_a_force_at_its_tip() {
-    // Curvatures are the inverse of [[GJ, K], [K, EI]] times (0, M), M = P (L - y): the tip turns by -K / (GJ EI - K^2) P L^2 / 2
-    // and rises by GJ / (GJ EI - K^2) P L^3 / 3. A force up is -w3; bending up turns about section axis 2 by less than nothing.
+    // Curvatures are the inverse of [[GJ, K], [K, EI]] times (0, M), M = P (L - y): the tip turns by -K / (GJ
+    // EI - K^2) P L^2 / 2 and rises by GJ / (GJ EI - K^2) P L^3 / 3. A force up is -w3; bending up turns about
+    // section axis 2 by less than nothing.
     let small = 1e-6;
     let [place, turn] = tip(&twisting(), &mesh(), -small * DVec3::Z, DVec3::ZERO);
     let determinant = 2.0 * 3.0 - 1.0;

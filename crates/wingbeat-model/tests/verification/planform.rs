@@ -148,8 +148,9 @@ fn exact_outline_of_a_trapezium_and_the_same_as_a_polygon() {
     );
 }
 
-/// An ellipse in a picture that counts downwards, turned, in pixels, its contour begun anywhere, with a hair and a notch behind it: area and
-/// second moment are `pi a b` and `pi a b (d^2 + a^2 / 4)`, d the distance of its centre.
+/// An ellipse in a picture that counts downwards, turned, in pixels, its contour begun anywhere, with a hair
+/// and a notch behind it: area and second moment are `pi a b` and `pi a b (d^2 + a^2 / 4)`, d the distance of
+/// its centre.
 #[test]
 fn exact_moments_of_an_ellipse_digitised_from_a_picture() {
     const N: usize = 720;
@@ -234,7 +235,8 @@ fn behaves_contours_and_landmarks_that_are_no_wing_are_refused() {
     }
 }
 
-/// Half of it where edges of the mesh need it: the mesh has the area of the planform, 1.04 with ends as wide as a fifth of the middle.
+/// Half of it where edges of the mesh need it: the mesh has the area of the planform, 1.04 with ends as wide as
+/// a fifth of the middle.
 #[test]
 fn exact_a_pointed_outline_keeps_its_area_and_half_of_its_least_chord() {
     let diamond = [(0.0, 0.0), (1.0, 0.5), (2.0, 0.0), (1.0, -0.5)];

@@ -22,8 +22,8 @@ fn wing(side: Side) -> Wing {
     Wing::new("wing", side, DVec3::ZERO, &shape, &mass, motion).unwrap()
 }
 
-/// Place of the point at these parts of chord and span, of two harmonics in the phase and bilinear in the parts, with its first two
-/// derivatives by the phase.
+/// Place of the point at these parts of chord and span, of two harmonics in the phase and bilinear in the
+/// parts, with its first two derivatives by the phase.
 fn place([s, t]: [f64; 2], x: f64) -> [DVec3; 3] {
     let wave = |k: f64, d: i32| (TAU * k).powi(d) * (TAU * k * x + f64::from(d) * TAU / 4.0).sin();
     let of = |d: i32| {

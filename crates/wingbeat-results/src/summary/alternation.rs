@@ -32,7 +32,8 @@ struct Seen {
 }
 
 impl Alternation {
-    /// Takes the next record; `wings` of its bodies behind the first are wings. Where steps were left out nothing is counted.
+    /// Takes the next record; `wings` of its bodies behind the first are wings. Where steps were left out
+    /// nothing is counted.
     pub fn take(&mut self, record: &Record, wings: usize) {
         let [first, count] = if wings == 0 { [0, 1] } else { [1, wings] };
         let forces = record.air.iter().skip(first).take(count).map(|w| w.force);
@@ -115,7 +116,8 @@ mod tests {
         assert!(longest(fast, 1) > 20);
         assert_eq!(longest(|k| smooth(k) + 0.005 * zigzag(k), 1), 0); // less than counts
         assert_eq!(longest(growing, 3), 0); // steps were left out
-        // A hawkmoth's wing that turns among its wakes, the body held: changes of its force, each back from the one before.
+        // A hawkmoth's wing that turns among its wakes, the body held: changes of its force, each back from the
+        // one before.
         let changes = [
             0.8, 0.16, 0.44, 0.2, 0.06, 0.08, 0.76, 1.0, 0.92, 0.36, 0.24,
         ];

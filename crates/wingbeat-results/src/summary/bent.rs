@@ -12,7 +12,8 @@ use super::verdict::Warnings;
 pub(super) struct Bent {
     /// Displacement of the tip over the larger of length and chord \[1\].
     displaced: f64,
-    /// Distance of the tip from the root over that at rest, of wings that are held at the root alone; 0 of others \[1\].
+    /// Distance of the tip from the root over that at rest, of wings that are held at the root alone; 0 of
+    /// others \[1\].
     stretched: f64,
 }
 

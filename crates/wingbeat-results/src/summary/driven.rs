@@ -1,8 +1,9 @@
 //! Whether passive joints keep their energy.
 //!
-//! The work of the joints in the balance of energy holds that of free ones as the energy of their motion: a method that damps such a
-//! motion, or lets it grow, takes from the balance what it takes from the motion. Work of the drives that follows from it, what springs,
-//! dampers and stops did by their own laws taken out, is therefore compared with the integral of the power of the drives.
+//! The work of the joints in the balance of energy holds that of free ones as the energy of their motion: a
+//! method that damps such a motion, or lets it grow, takes from the balance what it takes from the motion. Work
+//! of the drives that follows from it, what springs, dampers and stops did by their own laws taken out, is
+//! therefore compared with the integral of the power of the drives.
 
 use serde::{Deserialize, Serialize};
 use wingbeat_flight::Record;

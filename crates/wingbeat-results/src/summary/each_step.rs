@@ -1,5 +1,5 @@
-//! What a summary needs to know of every step, whichever of them a thinned history holds: balances, passes of the corrector, forces
-//! that turn back, wings that pass through each other, departures under feedback.
+//! What a summary needs to know of every step, whichever of them a thinned history holds: balances, passes of
+//! the corrector, forces that turn back, wings that pass through each other, departures under feedback.
 
 use serde::{Deserialize, Serialize};
 use wingbeat_flight::{FlightSetup, Record};

@@ -43,7 +43,8 @@ pub enum Members {
     Independent,
     /// They have not (yet): all are one flight, and errors are those of its beats.
     OneFlight,
-    /// They do not part at all: the same start makes the same flight, and there is nothing to take a mean of but its beats.
+    /// They do not part at all: the same start makes the same flight, and there is nothing to take a mean of
+    /// but its beats.
     Deterministic,
 }
 
@@ -62,14 +63,15 @@ pub struct Ensemble {
     /// The beats after the one in which members have parted (from the third on, if they have not) as one: its number is
     /// that of the first. None of fewer than three beats.
     pub means: Option<EnsembleBeat>,
-    /// The means over the members, beat by beat after the second, as those of one flight: whether the beats still change.
+    /// The means over the members, beat by beat after the second, as those of one flight: whether the beats
+    /// still change.
     #[serde(default)]
     pub course: Option<ManyBeats>,
 }
 
 impl Ensemble {
-    /// Of the beats of two members or more, whose noise differs if they are `noisy`; none of fewer, or if one has no whole
-    /// beat.
+    /// Of the beats of two members or more, whose noise differs if they are `noisy`; none of fewer, or if one
+    /// has no whole beat.
     pub fn of(members: &[Vec<BeatMeans>], is_noisy: bool) -> Option<Self> {
         let count = members.iter().map(Vec::len).min().filter(|n| *n > 0)?;
         if members.len() < 2 {
@@ -150,8 +152,8 @@ fn mean_of(members: &[Vec<BeatMeans>], beat: usize) -> BeatMeans {
     }
 }
 
-/// Index of the first beat behind the one, after those left out, in which the forces of members scatter as those of beats
-/// do: in that one they still have much in common.
+/// Index of the first beat behind the one, after those left out, in which the forces of members scatter as
+/// those of beats do: in that one they still have much in common.
 fn first_parted(members: &[Vec<BeatMeans>], count: usize) -> Option<usize> {
     let counted = LEFT_OUT..count;
     if counted.len() < FEWEST {
@@ -286,7 +288,8 @@ mod tests {
         );
         assert!(same.remark().contains("deterministic"));
     }
-    /// Members whose noise differs are flights of their own, however little the noise does; beats that fall are said to.
+    /// Members whose noise differs are flights of their own, however little the noise does; beats that fall are
+    /// said to.
     #[test]
     fn exact_errors_over_members_with_noise_of_their_own() {
         let of = |m: f64| member(&[1.2, 1.1, 1.0 + m, 0.9 + m, 0.8 + m, 0.7 + m]);

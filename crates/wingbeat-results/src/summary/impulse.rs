@@ -21,8 +21,8 @@ pub struct ImpulseBudget {
     pub absorbed_newton_s: f64,
     /// Vortex impulse and impulse of the inviscid force together \[N s\].
     pub residual_newton_s: f64,
-    /// The residual, with its parts across gravity, over the impulse of the inviscid force \[1\]. Beside a ground its part along
-    /// the ground alone, which bears a force normal to it.
+    /// The residual, with its parts across gravity, over the impulse of the inviscid force \[1\]. Beside a
+    /// ground its part along the ground alone, which bears a force normal to it.
     pub residual_relative: f64,
     /// Whether there is a ground.
     #[serde(default)]
@@ -30,8 +30,9 @@ pub struct ImpulseBudget {
 }
 
 impl ImpulseBudget {
-    /// Between two records; none without a lattice, with vortex particles, whose vorticity does not close, so that their impulse depends
-    /// on the origin, in wind that varies in space, which acts on the wakes, and of results of older versions, which lack the account.
+    /// Between two records; none without a lattice, with vortex particles, whose vorticity does not close, so
+    /// that their impulse depends on the origin, in wind that varies in space, which acts on the wakes, and of
+    /// results of older versions, which lack the account.
     pub(super) fn between(setup: &FlightSetup, from: &Record, to: &Record) -> Option<Self> {
         let AirModel::VortexLattice(air) = &setup.air else {
             return None;

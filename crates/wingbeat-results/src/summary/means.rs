@@ -39,10 +39,11 @@ pub struct ManyBeats {
     /// The same of the thrust \[1\].
     #[serde(default)]
     pub change_of_thrust: f64,
-    /// Whether both changes are less than a hundredth, or than twice the error of the difference between the halves, and this is less than a
-    /// tenth of the force.
+    /// Whether both changes are less than a hundredth, or than twice the error of the difference between the
+    /// halves, and this is less than a tenth of the force.
     pub is_steady: bool,
-    /// Whether the scatter of the beats tells that: not steady is what changes by more than it, unknown what scatters by more than a tenth.
+    /// Whether the scatter of the beats tells that: not steady is what changes by more than it, unknown what
+    /// scatters by more than a tenth.
     #[serde(default = "yes")]
     pub is_known: bool,
 }
@@ -87,7 +88,8 @@ impl ManyBeats {
     }
 }
 
-/// By how much values change from their first half to their second, and what of that their scatter would hide, over a size \[1\].
+/// By how much values change from their first half to their second, and what of that their scatter would hide,
+/// over a size \[1\].
 struct Change {
     change: f64,
     hidden: f64,
@@ -117,8 +119,8 @@ impl Change {
     }
 }
 
-/// Error of the mean of two values or more as they show it themselves: without what few of them hide, so that a change is
-/// felt rather too soon. Correlation r of neighbours makes n values `n (1 - r) / (1 + r)`.
+/// Error of the mean of two values or more as they show it themselves: without what few of them hide, so that a
+/// change is felt rather too soon. Correlation r of neighbours makes n values `n (1 - r) / (1 + r)`.
 fn shown_error(values: &[f64]) -> f64 {
     let n = values.len() as f64;
     let (mean, square) = moments(values);

@@ -43,7 +43,8 @@ pub struct Summary {
     pub turn_deg: [f64; 3],
     /// Largest energy residual over the largest energy or work in play \[1\].
     pub energy_residual_relative: f64,
-    /// What passive joints lose or gain beside their springs, dampers and stops, over the same \[1\]; 0 where there are none.
+    /// What passive joints lose or gain beside their springs, dampers and stops, over the same \[1\]; 0 where
+    /// there are none.
     #[serde(default)]
     pub joint_residual_relative: f64,
     /// Largest momentum residual over the largest impulse or momentum in play \[1\].
@@ -60,7 +61,8 @@ pub struct Summary {
     pub corrector_passes_mean: f64,
     /// Near-singular velocities that were regularised, all steps.
     pub regularised: usize,
-    /// Most steps in a row in which the force of the air on a wing turned back by no much smaller a change: some 2 in sound flights, up to 7 where wings turn among their wakes.
+    /// Most steps in a row in which the force of the air on a wing turned back by no much smaller a change:
+    /// some 2 in sound flights, up to 7 where wings turn among their wakes.
     #[serde(default)]
     pub alternating_steps: usize,
     /// Wake rings at the end.
@@ -150,7 +152,8 @@ impl Summary {
     }
 }
 
-/// The vectors of two flights with 0 for components that are rounding beside the largest of them all, or beside `least`.
+/// The vectors of two flights with 0 for components that are rounding beside the largest of them all, or beside
+/// `least`.
 fn without_rounding([a, b]: [[f64; 3]; 2], least: f64) -> [[f64; 3]; 2] {
     const ROUNDING: f64 = 1e-12;
     let largest = a.iter().chain(&b).fold(least, |m, x| m.max(x.abs()));

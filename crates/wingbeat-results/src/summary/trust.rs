@@ -16,16 +16,18 @@ const WHOLE: f64 = 1e-9;
 /// A balance with a larger residual is open; the tolerances are lower where the motion is smooth.
 const OPEN: f64 = 1e-2;
 
-/// The momentum of a held flyer is open from [`OPEN`] on and its motion is not resolved from here on. Presets in 30 steps a beat: 1e-5 to
-/// 4e-3; a stroke in 4 steps, whose lift is 11 % off: 0.3; a noisy table whose lift is 37 % off: 0.6.
+/// The momentum of a held flyer is open from [`OPEN`] on and its motion is not resolved from here on. Presets
+/// in 30 steps a beat: 1e-5 to 4e-3; a stroke in 4 steps, whose lift is 11 % off: 0.3; a noisy table whose lift
+/// is 37 % off: 0.6.
 const UNRESOLVED: f64 = 0.1;
 
-/// Energy that may be missing without a wake, over what is turned over. Of the presets of blade elements, free for six beats, lift is
-/// right to 0.3 % and place to 1.3 % below it (30 to 40 steps a beat), to 0.01 and 0.5 % at a fifth of it.
+/// Energy that may be missing without a wake, over what is turned over. Of the presets of blade elements, free
+/// for six beats, lift is right to 0.3 % and place to 1.3 % below it (30 to 40 steps a beat), to 0.01 and 0.5 %
+/// at a fifth of it.
 const SMOOTH: f64 = 5e-5;
 
-/// The same of the momentum of flyers whose elastic wings exchange it with the bodies step by step: of second order in the step,
-/// 3e-6 at 320 steps a beat.
+/// The same of the momentum of flyers whose elastic wings exchange it with the bodies step by step: of second
+/// order in the step, 3e-6 at 320 steps a beat.
 const ELASTIC_MOMENTUM: f64 = 1e-4;
 
 /// What a reader should know before using the numbers.
@@ -116,7 +118,8 @@ fn is_never_released(setup: &FlightSetup, summary: &Summary) -> bool {
     }
 }
 
-/// Wing lengths by which a flyer passes through the air in a wingbeat below which wings come back into their wakes \[1\].
+/// Wing lengths by which a flyer passes through the air in a wingbeat below which wings come back into their
+/// wakes \[1\].
 const PASSES: f64 = 2.0;
 
 /// What strips know of their wakes.
@@ -157,8 +160,8 @@ fn deformation(setup: &FlightSetup, list: &mut Warnings) {
 /// Wing lengths from its place at which a flyer under feedback is lost.
 const LOST: f64 = 20.0;
 
-/// The same of one that is turned by more than these degrees from its attitude at the release: one that was released tumbling and came
-/// back to its place is turned from that, too.
+/// The same of one that is turned by more than these degrees from its attitude at the release: one that was
+/// released tumbling and came back to its place is turned from that, too.
 const TURNED: [f64; 2] = [90.0, 5.0];
 
 /// How far a flight under feedback was from what it is to hold.
@@ -193,9 +196,10 @@ fn feedback(setup: &FlightSetup, summary: &Summary, list: &mut Warnings) {
     }
 }
 
-/// A balance worse than it should be. Without a wake the motion is smooth; a wake's loads jump where it starts and where it is regularised, and elastic wings are of second order in the
-/// step. The momentum of a tethered animal, or of one held at first, follows from its prescribed motion: what is open there is the
-/// quadrature of the support's reaction, which measures how well the steps follow that motion.
+/// A balance worse than it should be. Without a wake the motion is smooth; a wake's loads jump where it starts
+/// and where it is regularised, and elastic wings are of second order in the step. The momentum of a tethered
+/// animal, or of one held at first, follows from its prescribed motion: what is open there is the quadrature of
+/// the support's reaction, which measures how well the steps follow that motion.
 fn balances(setup: &FlightSetup, summary: &Summary, list: &mut Warnings) {
     let is_smooth = !setup.air.keeps_wake() && !setup.animal.is_elastic();
     let energy = if is_smooth { SMOOTH } else { OPEN };
@@ -241,8 +245,8 @@ fn is_free_and_elastic_by_momenta(setup: &FlightSetup) -> bool {
     is_free && by_momenta && setup.animal.is_elastic() && setup.joints.is_empty()
 }
 
-/// Motion along passive joints that gains or loses energy by the steps: 0.02 to 0.1 % in presets, 1 % of a wing on a hinge at 40 steps a
-/// beat.
+/// Motion along passive joints that gains or loses energy by the steps: 0.02 to 0.1 % in presets, 1 % of a wing
+/// on a hinge at 40 steps a beat.
 fn passive_joints(summary: &Summary, list: &mut Warnings) {
     let residual = summary.joint_residual_relative;
     let text = format!(

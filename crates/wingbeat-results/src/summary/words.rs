@@ -231,8 +231,8 @@ fn alone(x: f64, unit: &str) -> String {
     engineering(x, unit).trim().replace("  ", " ")
 }
 
-/// The factor and the letter of the prefix for this magnitude, which leaves one to three digits before the point; a blank where there
-/// is none.
+/// The factor and the letter of the prefix for this magnitude, which leaves one to three digits before the
+/// point; a blank where there is none.
 pub fn prefix(x: f64) -> (f64, &'static str) {
     const PREFIXES: [(f64, &str); 6] = [
         (1e3, "k"),

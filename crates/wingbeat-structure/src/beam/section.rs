@@ -34,9 +34,9 @@ impl Section {
         Self::with_offsets(s, [0.0; 2], [0.0; 2])
     }
 
-    /// Section whose tension centre (where an axial force does not bend) and shear centre (where a transverse force does
-    /// not twist: the elastic axis) lie at `tension` and `shear` \[m\] along axes 2 and 3. Strains there are
-    /// `gamma + kappa x r`.
+    /// Section whose tension centre (where an axial force does not bend) and shear centre (where a transverse
+    /// force does not twist: the elastic axis) lie at `tension` and `shear` \[m\] along axes 2 and 3. Strains
+    /// there are `gamma + kappa x r`.
     pub fn with_offsets(s: &Stiffness, tension: [f64; 2], shear: [f64; 2]) -> Self {
         let mut to_centres = [[0.0; 6]; 6];
         (0..6).for_each(|i| to_centres[i][i] = 1.0);
@@ -56,8 +56,8 @@ impl Section {
         }
     }
 
-    /// With mass: per length \[kg/m\], mass centre along axes 2 and 3 \[m\], and inertia per length \[kg m\] about the mass
-    /// centre for axes 2 and 3; that about axis 1 is their sum.
+    /// With mass: per length \[kg/m\], mass centre along axes 2 and 3 \[m\], and inertia per length \[kg m\]
+    /// about the mass centre for axes 2 and 3; that about axis 1 is their sum.
     #[must_use]
     pub fn with_mass(mut self, per_length: f64, centre: [f64; 2], inertia: [f64; 2]) -> Self {
         let [j2, j3] = inertia;
@@ -67,8 +67,8 @@ impl Section {
         self
     }
 
-    /// The same section seen in axes turned by `angle` \[rad\] about axis 1: its axis 2 stands at `angle` from axis 2 of
-    /// the new axes towards axis 3.
+    /// The same section seen in axes turned by `angle` \[rad\] about axis 1: its axis 2 stands at `angle` from
+    /// axis 2 of the new axes towards axis 3.
     #[must_use]
     pub fn turned(mut self, angle: f64) -> Self {
         let r = wingbeat_math::r1(angle);
@@ -86,8 +86,9 @@ impl Section {
         self
     }
 
-    /// Solid rectangle of `width` along axis 2 and `thickness` along axis 3 \[m\] of a material with Young's modulus and
-    /// shear modulus \[Pa\] and density \[kg/m3\]; torsion by Saint-Venant's series, shear correction 5/6.
+    /// Solid rectangle of `width` along axis 2 and `thickness` along axis 3 \[m\] of a material with Young's
+    /// modulus and shear modulus \[Pa\] and density \[kg/m3\]; torsion by Saint-Venant's series, shear
+    /// correction 5/6.
     pub fn rectangle([young, shear]: [f64; 2], density: f64, [width, thickness]: [f64; 2]) -> Self {
         let area = width * thickness;
         let second = [width * thickness.powi(3), thickness * width.powi(3)].map(|i| i / 12.0);
@@ -123,10 +124,10 @@ fn saint_venant(a: f64, b: f64) -> f64 {
     a * b.powi(3) / 3.0 * (1.0 - 192.0 * b / (PI.powi(5) * a) * series)
 }
 
-/// Stiffness \[N/m, N, N m\] of an element of `length` \[m\] whose axis points along `axis` in the section: the section's
-/// compliance, with that of the linear part of the bending moment, which an element of constant strain leaves out
-/// (residual bending flexibility [MacNeal, Comput. Struct. 8:175, 1978]). A straight element under loads at its ends is
-/// then exact.
+/// Stiffness \[N/m, N, N m\] of an element of `length` \[m\] whose axis points along `axis` in the section: the
+/// section's compliance, with that of the linear part of the bending moment, which an element of constant
+/// strain leaves out (residual bending flexibility [MacNeal, Comput. Struct. 8:175, 1978]). A straight element
+/// under loads at its ends is then exact.
 ///
 /// # Errors
 /// [`StructureError::Stiffness`].

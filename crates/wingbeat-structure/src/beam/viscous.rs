@@ -6,8 +6,8 @@ use crate::configuration::{Configuration, NODE};
 use crate::screw::Screw;
 
 impl Beam {
-    /// Adds `factor` times the derivative of the damping force `B^T K B v` by the numbers of the nodes, v held: `B^T K` by the
-    /// turning of the force, `B v` by that of the rates.
+    /// Adds `factor` times the derivative of the damping force `B^T K B v` by the numbers of the nodes, v held:
+    /// `B^T K` by the turning of the force, `B v` by that of the rates.
     pub(super) fn turning_of_damping(
         &self,
         (at, before): (&Configuration, &Configuration),

@@ -5,7 +5,8 @@ use wingbeat_math::{DQuat, DVec3};
 use crate::block::{Block, pair, six, transpose};
 use crate::configuration::{Configuration, NODE};
 
-/// Force and moment about the origin of W, W components, of six numbers at every node: forces in W, moments in node components.
+/// Force and moment about the origin of W, W components, of six numbers at every node: forces in W, moments in
+/// node components.
 pub fn resultant(at: &Configuration, numbers: &[f64]) -> [DVec3; 2] {
     let (mut force, mut moment) = (DVec3::ZERO, DVec3::ZERO);
     for (n, (u, r)) in at.position.iter().zip(&at.rotation).enumerate() {
@@ -16,8 +17,8 @@ pub fn resultant(at: &Configuration, numbers: &[f64]) -> [DVec3; 2] {
     [force, moment]
 }
 
-/// Force and moment about the origin of W by its acceleration and angular acceleration, six by six by rows, of loads that
-/// follow the accelerations of the nodes by the matrix `by` (rows of 6 N numbers) and nothing else.
+/// Force and moment about the origin of W by its acceleration and angular acceleration, six by six by rows, of
+/// loads that follow the accelerations of the nodes by the matrix `by` (rows of 6 N numbers) and nothing else.
 pub fn carried_by_frame(at: &Configuration, by: &[f64]) -> [[f64; 6]; 6] {
     let mut carried = Carried::default();
     let columns = std::array::from_fn(|j| carried.follow(at, by, j));
@@ -34,8 +35,9 @@ pub(super) struct Carried {
 }
 
 impl Carried {
-    /// For a unit acceleration of W along its axis j or, from 3 on, a unit angular acceleration about its axis j - 3: the loads that
-    /// follow the accelerations of the nodes by the matrix `by`, and their resultant, which is returned.
+    /// For a unit acceleration of W along its axis j or, from 3 on, a unit angular acceleration about its axis
+    /// j - 3: the loads that follow the accelerations of the nodes by the matrix `by`, and their resultant,
+    /// which is returned.
     pub fn follow(&mut self, at: &Configuration, by: &[f64], j: usize) -> [f64; NODE] {
         let (linear, angular) = match j {
             0..3 => (DVec3::AXES[j], DVec3::ZERO),

@@ -1,10 +1,10 @@
 //! Generalized-alpha on the Lie group of the nodes [Bruls & Cardona, J. Comput. Nonlinear Dyn. 5:031002, 2010; Chung &
 //! Hulbert, J. Appl. Mech. 60:371, 1993].
 //!
-//! `n = h v_n + h^2 ((1/2 - beta) a_n + beta a_{n+1})`, `q_{n+1} = q_n exp(n)`,
-//! `v_{n+1} = v_n + h ((1 - gamma) a_n + gamma a_{n+1})`,
-//! `(1 - alpha_m) a_{n+1} + alpha_m a_n = (1 - alpha_f) v'_{n+1} + alpha_f v'_n`, equilibrium at the new time. Second order;
-//! the highest frequencies lose `1 - rho` of their amplitude a step, the low ones hardly any.
+//! `n = h v_n + h^2 ((1/2 - beta) a_n + beta a_{n+1})`, `q_{n+1} = q_n exp(n)`, `v_{n+1} = v_n + h ((1 - gamma)
+//! a_n + gamma a_{n+1})`, `(1 - alpha_m) a_{n+1} + alpha_m a_n = (1 - alpha_f) v'_{n+1} + alpha_f v'_n`,
+//! equilibrium at the new time. Second order; the highest frequencies lose `1 - rho` of their amplitude a step,
+//! the low ones hardly any.
 
 use wingbeat_math::{DQuat, DVec3};
 
@@ -101,8 +101,8 @@ impl Trial {
         self.weights
     }
 
-    /// Takes all increments back: places and attitudes are those at the start of the step, stresses in balance there. Thin
-    /// bodies are sought from here: a motion carried on stretches what hardly stretches.
+    /// Takes all increments back: places and attitudes are those at the start of the step, stresses in balance
+    /// there. Thin bodies are sought from here: a motion carried on stretches what hardly stretches.
     pub fn take_back(&mut self) {
         for n in 0..self.configuration.len() {
             let back: [f64; NODE] = std::array::from_fn(|d| -self.increment[NODE * n + d]);
@@ -146,8 +146,8 @@ pub struct GeneralizedAlpha {
 }
 
 impl GeneralizedAlpha {
-    /// From the part of its amplitude that a motion of the highest frequencies keeps in a step, `rho` \[1\]: 1 keeps all
-    /// energy, 0 damps within a step; 0.8 to 0.95 is usual.
+    /// From the part of its amplitude that a motion of the highest frequencies keeps in a step, `rho` \[1\]: 1
+    /// keeps all energy, 0 damps within a step; 0.8 to 0.95 is usual.
     ///
     /// # Errors
     /// [`StructureError::Number`] if it is not in 0 to 1.

@@ -12,10 +12,11 @@ use crate::screw::right_jacobian;
 use crate::structure::Structure;
 
 impl Solver {
-    /// Derivative of what the body exerts on the one that carries it, all loads less all inertial forces (force, moment about the
-    /// origin of W), by the acceleration and angular acceleration of W over the step just solved, six by six by rows: the
-    /// body's effective mass in this step, less than nothing. What follows elastically is condensed by the factors of the step's
-    /// tangent, of which `loads` has to be the same; the last residual has to be that of the trial.
+    /// Derivative of what the body exerts on the one that carries it, all loads less all inertial forces
+    /// (force, moment about the origin of W), by the acceleration and angular acceleration of W over the step
+    /// just solved, six by six by rows: the body's effective mass in this step, less than nothing. What follows
+    /// elastically is condensed by the factors of the step's tangent, of which `loads` has to be the same; the
+    /// last residual has to be that of the trial.
     pub fn frame_response(
         &mut self,
         structure: &Structure,
@@ -49,8 +50,8 @@ impl Solver {
         response
     }
 
-    /// Fills the blocks of all nodes under loads that stay; returns the derivative of the resultant of inertial forces by the
-    /// acceleration of W, the shape kept.
+    /// Fills the blocks of all nodes under loads that stay; returns the derivative of the resultant of inertial
+    /// forces by the acceleration of W, the shape kept.
     fn set_blocks(&mut self, structure: &Structure, trial: &Trial, frame: &FrameMotion) -> Block {
         let (motion, s) = (trial.motion(), &mut self.response);
         s.to_root.clear();

@@ -13,8 +13,8 @@ use crate::inertia::{self, Motion};
 use crate::screw::right_jacobian;
 use crate::structure::{HELD, Structure};
 
-/// Derivatives of the loads on the nodes: matrices by rows of 6 N x 6 N numbers, N nodes; forces in W and moments in node
-/// components by the six numbers of each node or their rates. None is zero.
+/// Derivatives of the loads on the nodes: matrices by rows of 6 N x 6 N numbers, N nodes; forces in W and
+/// moments in node components by the six numbers of each node or their rates. None is zero.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct LoadTangent<'a> {
     /// By places and attitudes (dx, dtheta) [N/m, N, N m].
@@ -162,8 +162,8 @@ impl Solver {
         self.factor_from(structure, trial, frame, loads, false)
     }
 
-    /// Takes note of where the next stresses will be foreseen from: the trial before it is changed by `step`, increments of the
-    /// free unknowns.
+    /// Takes note of where the next stresses will be foreseen from: the trial before it is changed by `step`,
+    /// increments of the free unknowns.
     pub fn look_ahead(&mut self, structure: &Structure, trial: &Trial, step: &[f64]) {
         self.before.clone_from(&trial.configuration);
         self.ahead.clear();
@@ -254,14 +254,14 @@ impl Solver {
         }
     }
 
-    /// Solves with the factorised tangent: `x`, in the order of [`Structure::free_numbers`], is a force on the way in and
-    /// an increment on the way out.
+    /// Solves with the factorised tangent: `x`, in the order of [`Structure::free_numbers`], is a force on the
+    /// way in and an increment on the way out.
     pub fn solve(&mut self, x: &mut [f64]) {
         self.assembly.matrix.solve(x);
     }
 
-    /// Newton's correction of a trial, from the last residual and factors: returns its size \[1\], the largest of rotations
-    /// \[rad\] and translations over the size of the body.
+    /// Newton's correction of a trial, from the last residual and factors: returns its size \[1\], the largest
+    /// of rotations \[rad\] and translations over the size of the body.
     pub fn correct(&mut self, structure: &Structure, trial: &mut Trial) -> f64 {
         self.solve_residual(structure);
         apply(structure, &self.change, trial)
@@ -275,8 +275,8 @@ impl Solver {
         self.assembly.matrix.solve(&mut self.change);
     }
 
-    /// Ends a step: the trial, with what damping dissipated, becomes the state. To be called after [`Self::residual`] of
-    /// the same trial.
+    /// Ends a step: the trial, with what damping dissipated, becomes the state. To be called after
+    /// [`Self::residual`] of the same trial.
     pub fn accept(&self, trial: &Trial, state: &mut State) {
         let power = self.dissipation(trial);
         state.dissipated += 0.5 * trial.weights().step * (state.dissipation + power);
@@ -299,8 +299,9 @@ impl Solver {
 }
 
 impl Trial {
-    /// Changes the increments of the step by those of the free unknowns, in the order of [`Structure::free_numbers`]; returns
-    /// their size \[1\], the largest of rotations \[rad\] and translations over the size of the body.
+    /// Changes the increments of the step by those of the free unknowns, in the order of
+    /// [`Structure::free_numbers`]; returns their size \[1\], the largest of rotations \[rad\] and translations
+    /// over the size of the body.
     pub fn add(&mut self, structure: &Structure, change: &[f64]) -> f64 {
         apply(structure, change, self)
     }

@@ -71,9 +71,9 @@ impl Solver {
         Ok(())
     }
 
-    /// One step h \[s\] under loads that `loads` fills for each trial (six numbers a node, force in W components, moment in
-    /// node components; zero at first), in a frame whose motion at the end of the step is given. Returns the passes made.
-    /// `trial` is scratch that holds the end of the step afterwards.
+    /// One step h \[s\] under loads that `loads` fills for each trial (six numbers a node, force in W
+    /// components, moment in node components; zero at first), in a frame whose motion at the end of the step is
+    /// given. Returns the passes made. `trial` is scratch that holds the end of the step afterwards.
     ///
     /// # Errors
     /// [`StructureError`]: no convergence (the state is unchanged then), singular tangent.

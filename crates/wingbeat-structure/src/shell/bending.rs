@@ -1,9 +1,9 @@
 //! Bending and transverse shear of a quadrilateral: discrete Kirchhoff-Mindlin.
 //!
-//! An edge whose chord and mean normal are not perpendicular bends as a cubic: between its ends the normal has a quadratic
-//! part along the edge, `-3 gamma / (l (1 + phi))` at the middle, that the curvature of the element takes up; transverse
-//! shear proper is the part `phi / (1 + phi)` of gamma, `phi = 12 D / (S l^2)`. So shear never locks, nothing is stiffer
-//! than bending however thin the sheet is, and thick plates keep their shear
+//! An edge whose chord and mean normal are not perpendicular bends as a cubic: between its ends the normal has
+//! a quadratic part along the edge, `-3 gamma / (l (1 + phi))` at the middle, that the curvature of the element
+//! takes up; transverse shear proper is the part `phi / (1 + phi)` of gamma, `phi = 12 D / (S l^2)`. So shear
+//! never locks, nothing is stiffer than bending however thin the sheet is, and thick plates keep their shear
 //! [Batoz & Ben Tahar 1982 (DKQ); Katili 1993 (DKMQ)].
 
 use wingbeat_math::{DMat3, DVec2, DVec3};

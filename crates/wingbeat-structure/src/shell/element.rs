@@ -38,8 +38,8 @@ impl Shell {
     /// Two neighbouring corners may be the same node: a triangle.
     ///
     /// # Errors
-    /// [`ShellError`] names what is wrong with the corners (no such node, no area) or with the section (a stiffness that
-    /// is not positive definite, a fibre axis along the normal).
+    /// [`ShellError`] names what is wrong with the corners (no such node, no area) or with the section (a
+    /// stiffness that is not positive definite, a fibre axis along the normal).
     pub fn new(
         rest: &Configuration,
         corners: [usize; 4],
@@ -180,8 +180,9 @@ impl Element for Shell {
         self.tension.iter().any(|t| t.abs() > 0.0)
     }
 
-    /// Of the tangent the material's part, of bending alone. In a sheet that turns by much in a step the rates of its stretching
-    /// are errors of the step times its large stiffness; what they damp is beyond what steps resolve.
+    /// Of the tangent the material's part, of bending alone. In a sheet that turns by much in a step the rates
+    /// of its stretching are errors of the step times its large stiffness; what they damp is beyond what steps
+    /// resolve.
     fn dissipation(&self, at: &Configuration, out: &mut ElementForces) {
         out.resize(NODE * self.nodes.len());
         let gradient = self.gradient(&self.pose(at));

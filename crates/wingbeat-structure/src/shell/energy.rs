@@ -1,8 +1,9 @@
 //! Derivatives of the strain energy by the six numbers of each corner.
 //!
-//! With an axis `d` in node components, `v = R exp(theta) d`: `dv = R (theta x d)`, so a force p on v is the moment
-//! `d x R^T p` in node components, and the derivative of that moment by a further turn is `q d^T - (d . q) I`, q = R^T p,
-//! for a force that stays (the tangent of moments in node components is not symmetric away from equilibrium).
+//! With an axis `d` in node components, `v = R exp(theta) d`: `dv = R (theta x d)`, so a force p on v is the
+//! moment `d x R^T p` in node components, and the derivative of that moment by a further turn is `q d^T - (d .
+//! q) I`, q = R^T p, for a force that stays (the tangent of moments in node components is not symmetric away
+//! from equilibrium).
 
 use wingbeat_math::{DMat3, DVec3, tilde};
 
@@ -54,8 +55,8 @@ impl Gradient {
         }
     }
 
-    /// Derivatives by the numbers of the corners of what the strains change by per second under `rates`, six numbers of each
-    /// corner that are held.
+    /// Derivatives by the numbers of the corners of what the strains change by per second under `rates`, six
+    /// numbers of each corner that are held.
     pub fn of_rates(
         terms: &[Term],
         vectors: &Vectors,

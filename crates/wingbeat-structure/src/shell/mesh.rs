@@ -32,8 +32,8 @@ pub struct ShellMesh {
 const COINCIDENT: f64 = 1e-9;
 
 impl ShellMesh {
-    /// From the points \[m\] of a lattice of `rows` x `cols` panels, point (i, j) at `i (cols + 1) + j`, panel (i, j) at
-    /// `i cols + j` with the points (i, j), (i, j + 1), (i + 1, j + 1), (i + 1, j).
+    /// From the points \[m\] of a lattice of `rows` x `cols` panels, point (i, j) at `i (cols + 1) + j`, panel
+    /// (i, j) at `i cols + j` with the points (i, j), (i, j + 1), (i + 1, j + 1), (i + 1, j).
     ///
     /// # Errors
     /// [`ShellError::Lattice`] if the number of points is not `(rows + 1) (cols + 1)` or one is not finite.

@@ -1,8 +1,8 @@
 //! Shells and membranes: quadrilaterals between four nodes, or triangles between three.
 //!
-//! Geometrically exact Reissner-Mindlin kinematics [Simo & Fox 1989]: a place and a normal that turns with each node, no
-//! limit to displacement and rotation. Every strain is a bilinear form of places and nodal axes (`strain.rs`), so the
-//! energy is unchanged by rigid motions and force and tangent are its exact derivatives.
+//! Geometrically exact Reissner-Mindlin kinematics [Simo & Fox 1989]: a place and a normal that turns with each
+//! node, no limit to displacement and rotation. Every strain is a bilinear form of places and nodal axes
+//! (`strain.rs`), so the energy is unchanged by rigid motions and force and tangent are its exact derivatives.
 //!
 //! | part | how | source |
 //! |---|---|---|

@@ -36,7 +36,8 @@ pub struct Lamina {
 }
 
 impl Lamina {
-    /// A sheet alike in all directions: Young's modulus \[Pa\], Poisson's ratio \[1\], thickness \[m\], density \[kg/m3\].
+    /// A sheet alike in all directions: Young's modulus \[Pa\], Poisson's ratio \[1\], thickness \[m\], density
+    /// \[kg/m3\].
     pub fn isotropic(young: f64, poisson: f64, thickness: f64, density: f64) -> Self {
         Self {
             young: [young; 2],

@@ -1,8 +1,8 @@
 //! Strains of a quadrilateral as bilinear forms of the nodes' positions and axes.
 //!
-//! Every strain is a sum of products `(sum_i a_i x_i) . (sum_j b_j v_j)` where x are the places of the nodes and v places
-//! or one of three axes that turn with a node (the fibre axis, its perpendicular, the normal). Such forms do not change
-//! under any rigid motion, and their second derivatives are constants.
+//! Every strain is a sum of products `(sum_i a_i x_i) . (sum_j b_j v_j)` where x are the places of the nodes
+//! and v places or one of three axes that turn with a node (the fibre axis, its perpendicular, the normal).
+//! Such forms do not change under any rigid motion, and their second derivatives are constants.
 
 use wingbeat_math::DVec3;
 

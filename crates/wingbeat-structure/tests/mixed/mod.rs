@@ -86,7 +86,8 @@ fn cantilever(cols: usize) -> Structure {
     builder.build().unwrap()
 }
 
-/// `P L^3 / (3 EI)` with the stiffness of the composite section, and the shear of the sheet that is smaller than the tolerance.
+/// `P L^3 / (3 EI)` with the stiffness of the composite section, and the shear of the sheet that is smaller
+/// than the tolerance.
 #[test]
 fn exact_strip_with_two_veins_bends_as_a_composite_beam() {
     let cols = 4;
@@ -270,8 +271,8 @@ fn order_deflection_of_a_stretched_membrane_under_pressure() {
     );
 }
 
-/// However little it bends, Newton's iteration converges, also where pressure stretches the sheet to many times its tension;
-/// what bending adds goes with its stiffness, and 1e-12 of it is a membrane.
+/// However little it bends, Newton's iteration converges, also where pressure stretches the sheet to many times
+/// its tension; what bending adds goes with its stiffness, and 1e-12 of it is a membrane.
 #[test]
 fn limit_membrane_of_ever_less_bending() {
     let [stiff, soft, softer, none] = [1.0, 1e-2, 1e-4, 1e-12].map(|f| height(8, f, 20.0));

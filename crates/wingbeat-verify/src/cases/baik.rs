@@ -33,8 +33,9 @@ const GROUPS: [(usize, &str); 2] = [(2, "mean of W1 and W3"), (4, "mean of all f
 
 /// Span positions [chords] from the middle to the tip.
 const STATIONS: [f64; 8] = [0.0, 1.0, 2.0, 3.0, 4.5, 7.0, 11.0, 16.0];
-/// Travel [chords] until the last period ends, four periods of W1 and W4 and eight of the others: the measurement leaves out its first
-/// five, and what begins from rest lacks lift as long as the vortex of the start is near (Wagner), 4 % at 25 chords.
+/// Travel [chords] until the last period ends, four periods of W1 and W4 and eight of the others: the
+/// measurement leaves out its first five, and what begins from rest lacks lift as long as the vortex of the
+/// start is near (Wagner), 4 % at 25 chords.
 const TRAVEL: f64 = 25.0;
 const AXIS: f64 = 0.25;
 const MEAN: f64 = 8.0;

@@ -52,7 +52,8 @@ fn bee() -> Insect {
     }
 }
 
-/// The wings in level flight: the body, not in the air, has its nose up by 24.5 deg and the stroke plane is at 37.5 deg to it.
+/// The wings in level flight: the body, not in the air, has its nose up by 24.5 deg and the stroke plane is at 37.5
+/// deg to it.
 fn case(with: Choice) -> raw::Case {
     let mut case = bee().case(with);
     case.motion.stroke_plane_pitch_deg = (24.5 + 37.5).into();
@@ -60,7 +61,8 @@ fn case(with: Choice) -> raw::Case {
     case
 }
 
-/// Vertical and forward force [weights] and power over the mass [W/kg] of the last two beats, and half their differences.
+/// Vertical and forward force [weights] and power over the mass [W/kg] of the last two beats, and half their
+/// differences.
 fn flown(with: Choice) -> Result<[[f64; 2]; 3], VerifyError> {
     let flown = Flown::of(case(with))?;
     let beats = |series: &[f64]| -> [f64; 2] {

@@ -31,8 +31,9 @@ pub(super) const CASES: &[Case] = &[
     },
 ];
 
-/// Largest chord of the wings over their mean chord. So far apart are the hinges of the pairs: "about a wing's width"
-/// [Z. J. Wang, Physics Today 61(9), 2008]; flat wings nearer than a mean chord pass through each other in these motions.
+/// Largest chord of the wings over their mean chord. So far apart are the hinges of the pairs: "about a wing's
+/// width" [Z. J. Wang, Physics Today 61(9), 2008]; flat wings nearer than a mean chord pass through each other
+/// in these motions.
 const WIDEST: f64 = 1.25;
 
 /// Mean and harmonics (amplitude, phase) [deg]: mean + sum A cos(2 pi k t + phase).
@@ -137,7 +138,8 @@ impl Pair {
     }
 }
 
-/// Blade elements, with the force of feathering while sweeping and without: what computations leave out that know the angles of attack alone.
+/// Blade elements, with the force of feathering while sweeping and without: what computations leave out that
+/// know the angles of attack alone.
 const BLADES: [(&str, raw::RotationCase); 2] = [
     ("blade elements", raw::RotationCase::Circulation),
     ("blade elements without feathering", raw::RotationCase::None),

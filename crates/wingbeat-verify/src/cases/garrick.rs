@@ -29,7 +29,8 @@ struct Motion {
     axis: f64,
 }
 
-/// Amplitude of lift as a complex number, mean thrust, mean power: coefficients over `rho U^2 c / 2` (power also over U).
+/// Amplitude of lift as a complex number, mean thrust, mean power: coefficients over `rho U^2 c / 2` (power
+/// also over U).
 #[derive(Clone, Copy, Debug)]
 struct Forces {
     lift: [f64; 2],

@@ -30,8 +30,8 @@ type Mesh = [usize; 3];
 const MESH: Mesh = [24, 60, 7];
 const FINE: Mesh = [36, 90, 5];
 
-/// What becomes of the leading edge: nothing leaves it, or what exceeds the suction that round ones hold in the other experiments of the
-/// report, with the cores of that and wakes kept 0.1 chords off the foil.
+/// What becomes of the leading edge: nothing leaves it, or what exceeds the suction that round ones hold in the
+/// other experiments of the report, with the cores of that and wakes kept 0.1 chords off the foil.
 #[derive(Clone, Copy, PartialEq)]
 enum Edge {
     Attached,
@@ -191,7 +191,8 @@ fn beat(plate: &str, strouhal: f64, edge: Edge, mesh: Mesh) -> Beats {
     })
 }
 
-/// Value at `x` of a table with rising abscissae by straight lines over their square, as thrust goes; the outer ones go on beyond the ends.
+/// Value at `x` of a table with rising abscissae by straight lines over their square, as thrust goes; the outer
+/// ones go on beyond the ends.
 fn over_squares(s: &[f64], values: &[f64], x: f64) -> f64 {
     let from = s.iter().rposition(|a| *a <= x).unwrap_or(0);
     let k = from.min(s.len() - 2);

@@ -1,8 +1,8 @@
 //! A hummingbird's wings with the surface that cameras measured, prescribed as it is: what they carry.
 //!
-//! Of the bird itself neither mass nor force is known: hummingbirds of its species have 4 to 5 g, and one that hovers is carried
-//! and pushed nowhere. The distance of the wings' bases is not published either; they stand a tenth of the wing's length
-//! from the plane of symmetry.
+//! Of the bird itself neither mass nor force is known: hummingbirds of its species have 4 to 5 g, and one that
+//! hovers is carried and pushed nowhere. The distance of the wings' bases is not published either; they stand a
+//! tenth of the wing's length from the plane of symmetry.
 
 use crate::lab::insect::{Choice, DEFAULT, FREE_ROOTS, Flown, Fluid, MODELS, middle};
 use crate::lab::series::{Table, interpolate, mean};
@@ -40,7 +40,8 @@ enum Shape {
     Flat,
 }
 
-/// Surfaces phase by phase in wing axes [m]: rows from the leading edge, each from the base to the tip, axis 2 outboard.
+/// Surfaces phase by phase in wing axes [m]: rows from the leading edge, each from the base to the tip, axis 2
+/// outboard.
 fn measured() -> SurfaceCase {
     let table = Table::new(include_str!("../../data/maeda2017_wing_surface_mm.csv"));
     let along = |c: &str| table.numbers(c).into_iter().map(|x| -1e-3 * x); // y and z the other way
@@ -65,9 +66,9 @@ fn measured() -> SurfaceCase {
     }
 }
 
-/// The surface with columns across the wing. Stations along a feathered wing are not: lines through those of one number are up to 65 deg
-/// off the normal of the leading edge, and what leaves the edge of so sheared a mesh is resolved worse. At the tip it lacks 1 to 2 %
-/// of the area.
+/// The surface with columns across the wing. Stations along a feathered wing are not: lines through those of
+/// one number are up to 65 deg off the normal of the leading edge, and what leaves the edge of so sheared a
+/// mesh is resolved worse. At the tip it lacks 1 to 2 % of the area.
 fn across(mut surface: SurfaceCase) -> SurfaceCase {
     let places = lengthwise(&surface.nodes_m);
     let last = places[0].len() - 1;

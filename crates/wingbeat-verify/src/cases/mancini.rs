@@ -58,8 +58,8 @@ const FLIGHTS: [Flight; 2] = [
 const HALF_SPAN: f64 = 2.0;
 /// Travel [chords] over which others compare.
 const COMPARED: f64 = 5.0;
-/// By so much [chords] the measured lift of the fast ramp is late: both pulses of added mass, at the corners, have their peaks there, a chord
-/// apart, the first at 0.25.
+/// By so much [chords] the measured lift of the fast ramp is late: both pulses of added mass, at the corners,
+/// have their peaks there, a chord apart, the first at 0.25.
 const LATE: f64 = 0.25;
 /// Cut-off of the measurement's filter [1/chord]: 12 Hz at 0.26 m/s and a chord of 76.2 mm.
 const CUT_OFF: f64 = 12.0 * 0.0762 / 0.26;
@@ -109,7 +109,8 @@ fn lift(
     Ok([s, filtered])
 }
 
-/// What a filter without lag that halves what has the frequency of the cut-off leaves: a mean with the weights of a bell curve.
+/// What a filter without lag that halves what has the frequency of the cut-off leaves: a mean with the weights
+/// of a bell curve.
 fn filtered(s: &[f64], raw: &[f64], s0: f64) -> f64 {
     let width = (2.0 * LN_2).sqrt() / (TAU * CUT_OFF);
     let steps = -15..=15_i32;

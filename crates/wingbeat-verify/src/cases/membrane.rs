@@ -28,8 +28,8 @@ const MEAN: usize = 100;
 
 const SOURCE: &str = "Rojratsirikul, Genc, Wang & Gursul 2011, J. Fluids Struct. 27:1296, figures digitised by others";
 
-/// Mean of the largest displacement over the chord and of the normal force over dynamic pressure and area at a speed [m/s] and an angle of attack
-/// \[deg\].
+/// Mean of the largest displacement over the chord and of the normal force over dynamic pressure and area at a
+/// speed [m/s] and an angle of attack \[deg\].
 fn steady(
     speed: f64,
     angle: f64,

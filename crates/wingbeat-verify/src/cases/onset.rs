@@ -36,7 +36,8 @@ const SOURCE: &str =
 const BAND: &str = "two steps of theirs; by how much another program of the same rules is off";
 const CHANGE: &str = "8 x 24 panels and 40 steps a chord, on which others reproduce it; uncertainty: change by twice as many";
 
-/// Mean line over the chord at the part `x` of the chord: two parabolas of the largest camber of SD7003, 1.46 % at 0.35.
+/// Mean line over the chord at the part `x` of the chord: two parabolas of the largest camber of SD7003, 1.46 %
+/// at 0.35.
 fn mean_line(x: f64) -> f64 {
     let (most, at) = (0.0146, 0.35);
     match x < at {

@@ -98,8 +98,9 @@ fn body(
     Ok(body.map_err(wingbeat_model::ModelError::from)?.structure)
 }
 
-/// Displacement of the middle of the tip's chord along gravity over the span \[%\] and rotation of the chord \[deg\] under a weight
-/// `mass` \[kg\] whose centre is `ahead` \[m\] of the elastic axis, less those of the wing alone.
+/// Displacement of the middle of the tip's chord along gravity over the span \[%\] and rotation of the chord
+/// \[deg\] under a weight `mass` \[kg\] whose centre is `ahead` \[m\] of the elastic axis, less those of the
+/// wing alone.
 fn hung(setup: &FlightSetup, mass: f64, ahead: f64) -> Result<[f64; 2], VerifyError> {
     let at = |weight| -> Result<[f64; 2], VerifyError> {
         let body = body(setup, weight)?;

@@ -24,7 +24,8 @@ const ENDS: [f64; 2] = [0.15 / CHORD, 0.55 / CHORD];
 const FLAP_DEG: f64 = 30.0;
 const PITCH_DEG: f64 = 6.0;
 const AXIS: f64 = 0.25;
-/// Radius of the nose over the chord: that of the four-digit sections, 1.1019 times the square of the thickness [Abbott & von Doenhoff 1959].
+/// Radius of the nose over the chord: that of the four-digit sections, 1.1019 times the square of the thickness
+/// [Abbott & von Doenhoff 1959].
 const NOSE: f64 = 1.1019 * 0.09 * 0.09;
 /// Beats flown before the one compared: 12 to 37 chords of travel.
 const BEFORE: f64 = 0.5;
@@ -61,7 +62,8 @@ const MOTIONS: [Motion; 6] = [
     motion("15", [6.0, 1.5], 10.0, -1.0),
 ];
 
-/// Height of the mean line of NACA 64xx at this part of the chord, over the chord [Abbott & von Doenhoff 1959, sec. 6.4].
+/// Height of the mean line of NACA 64xx at this part of the chord, over the chord [Abbott & von Doenhoff 1959,
+/// sec. 6.4].
 fn mean_line(s: f64) -> f64 {
     const HEIGHT: f64 = 0.06;
     const PEAK: f64 = 0.4;

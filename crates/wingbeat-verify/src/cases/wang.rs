@@ -65,7 +65,8 @@ enum Flow {
 /// Mean force coefficients \[drag, lift\] of each fortieth of a beat, beat by beat.
 type Beats = Vec<[Vec<f64>; 2]>;
 
-/// Place of the mid chord along the stroke [chords], its speed, incidence from the direction of the stroke [rad] and its rate.
+/// Place of the mid chord along the stroke [chords], its speed, incidence from the direction of the stroke
+/// [rad] and its rate.
 fn stroke(s: f64) -> [f64; 4] {
     let (sin, cos) = (TAU * s).sin_cos();
     [

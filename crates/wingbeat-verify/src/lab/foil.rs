@@ -55,8 +55,8 @@ impl PlungingFoil {
     }
 }
 
-/// Bars without mass from end to end of every row of nodes behind the rigid third of the chord: both ends of the one panel
-/// along the span bend alike.
+/// Bars without mass from end to end of every row of nodes behind the rigid third of the chord: both ends of
+/// the one panel along the span bend alike.
 fn bars(rows: usize) -> String {
     let bar = |i: usize| {
         let x = format!("{:?}", i as f64 / rows as f64);

@@ -1,11 +1,11 @@
 //! Insects and their robots: one setting for all, nothing fitted.
 //!
-//! The setting: 5 x 10 panels a wing, 40 steps a beat, wakes from all edges but the root, the
-//! accurate scheme, forces on segments, algebraic cores (Lamb-Oseen ones beside blobs and particles) that begin at 0.01 mean chords on the wings (well below a
-//! panel) and at 0.07 in the wakes, spread with the medium's viscosity and are as wide in the wakes as
-//! filaments are long, wakes kept 0.1 mean chords off the wings; particles begin with 0.36 mean chords
-//! (about the distance of wake rows). It is that of the fruit-fly presets. Motions start smoothly
-//! over the first beat, after which they lag half a beat.
+//! The setting: 5 x 10 panels a wing, 40 steps a beat, wakes from all edges but the root, the accurate scheme,
+//! forces on segments, algebraic cores (Lamb-Oseen ones beside blobs and particles) that begin at 0.01 mean
+//! chords on the wings (well below a panel) and at 0.07 in the wakes, spread with the medium's viscosity and
+//! are as wide in the wakes as filaments are long, wakes kept 0.1 mean chords off the wings; particles begin
+//! with 0.36 mean chords (about the distance of wake rows). It is that of the fruit-fly presets. Motions start
+//! smoothly over the first beat, after which they lag half a beat.
 
 use wingbeat_air::{EdgeKind, LoadMethod};
 use wingbeat_case::LoadedCase;
@@ -176,8 +176,8 @@ impl Choice {
     }
 }
 
-/// What a flight leaves step by step, N components: force of the air on the wings [N], impulse of the inviscid force so far
-/// [N s], impulse of all vorticity [kg m/s], power [W].
+/// What a flight leaves step by step, N components: force of the air on the wings [N], impulse of the inviscid
+/// force so far [N s], impulse of all vorticity [kg m/s], power [W].
 #[derive(Default)]
 pub(crate) struct Flown {
     pub force: Vec<DVec3>,

@@ -1,9 +1,10 @@
 //! Flat wings that a rig moves in a stream: x along it, y to the right, z up.
 //!
-//! The setting is that of all insects ([`AirOptions::insect`], wakes kept 0.1 chords off the wings) and the same for
-//! all experiments: forces on segments, algebraic cores, wakes from trailing edges and tips, so with the suction of
-//! attached leading edges; with leading-edge vorticity these hold some suction and shed what is beyond it: thin ones as insects'
-//! do, round ones somewhat more, whose force acts, the more the rounder they are. Which they are is what the experiments' descriptions say.
+//! The setting is that of all insects ([`AirOptions::insect`], wakes kept 0.1 chords off the wings) and the
+//! same for all experiments: forces on segments, algebraic cores, wakes from trailing edges and tips, so with
+//! the suction of attached leading edges; with leading-edge vorticity these hold some suction and shed what is
+//! beyond it: thin ones as insects' do, round ones somewhat more, whose force acts, the more the rounder they
+//! are. Which they are is what the experiments' descriptions say.
 
 use wingbeat_air::{
     AirError, AirSettings, Friction, JoinedEdge, Lattice, LeadingEdge, MirrorPairs, NodeMotion,
@@ -44,13 +45,14 @@ pub(crate) enum Nose {
     Thin,
     /// Round edge of a plate: [`SD7003`], within what such plates hold, and all of its force.
     Blunt,
-    /// Nose of an aerofoil with this radius over the chord. Near it the flow is that around a parabola, and whether it separates there is decided by the
-    /// suction parameter over the root of the radius, and little by the Reynolds number [Rusak & Morris 2005, AIAA 2005-86]: that of SD7003, scaled; all of its force.
+    /// Nose of an aerofoil with this radius over the chord. Near it the flow is that around a parabola, and
+    /// whether it separates there is decided by the suction parameter over the root of the radius, and little
+    /// by the Reynolds number [Rusak & Morris 2005, AIAA 2005-86]: that of SD7003, scaled; all of its force.
     Aerofoil(f64),
 }
 
-/// Critical suction parameter of the section SD7003 at a Reynolds number of 3e4 [Ramesh et al. 2014, J. Fluid Mech. 751:500], and the radius of
-/// its nose over the chord, of the parabola through its foremost coordinates.
+/// Critical suction parameter of the section SD7003 at a Reynolds number of 3e4 [Ramesh et al. 2014, J. Fluid
+/// Mech. 751:500], and the radius of its nose over the chord, of the parabola through its foremost coordinates.
 const SD7003: [f64; 2] = [0.18, 0.008];
 
 impl Nose {
@@ -172,8 +174,8 @@ impl Wing {
         }
     }
 
-    /// A section of plane flow, of chord 1, its axis of pitch this part of the chord behind the leading edge, which is thin:
-    /// one panel along this span.
+    /// A section of plane flow, of chord 1, its axis of pitch this part of the chord behind the leading edge,
+    /// which is thin: one panel along this span.
     pub fn section(rows: usize, span: f64, axis: f64) -> Self {
         Self {
             free_root: false,

@@ -5,13 +5,13 @@
 //!
 //! `u = W x (p - o) - M`, `W = sum k l`, `M = sum k l x (a - o)`,
 //!
-//! where l and `l x (a - o)` are known before a target is: what is left for each pair of filament and target is k and six
-//! products and sums. The vector product of both distances that other cores need for the distance from the line
-//! is not taken, so of a node only its distance is kept, and W is the vorticity of
+//! where l and `l x (a - o)` are known before a target is: what is left for each pair of filament and target is
+//! k and six products and sums. The vector product of both distances that other cores need for the distance
+//! from the line is not taken, so of a node only its distance is kept, and W is the vorticity of
 //! [`crate::FastSum::add_velocity_and_vorticity`] at no cost.
 //!
-//! `W x (p - o)` and M are larger than their difference where the target is much nearer to a filament than to o. A digit or
-//! so is lost there; with more neighbours to one o it would be two.
+//! `W x (p - o)` and M are larger than their difference where the target is much nearer to a filament than to
+//! o. A digit or so is lost there; with more neighbours to one o it would be two.
 
 use crate::cores::vector::square;
 use crate::direct::block::{Block, Targets, load, load_softening, store};
@@ -20,8 +20,8 @@ use crate::direct::single::{MomentEdge, Single};
 use fearless_simd::{Level, dispatch, prelude::*};
 use std::ops::Range;
 
-/// Vectors of targets taken side by side: an edge is fetched once for all of them, and the quotient of one fills the time
-/// of the other's.
+/// Vectors of targets taken side by side: an edge is fetched once for all of them, and the quotient of one
+/// fills the time of the other's.
 const SIDE: usize = 2;
 
 /// Targets as the loop takes them, lengths in the unit of [`Single`].
@@ -36,8 +36,8 @@ struct Lanes<V> {
 /// Softened distances of the nodes in sight.
 type Window<V> = [[V; SIDE]; WINDOW];
 
-/// Adds to the first of `sums` the velocities [m/s] of the clusters with these numbers at the targets, and to a second one
-/// the sum [1/s] of Gamma / (4 pi) times the integral of dl over the cube of the softened distance.
+/// Adds to the first of `sums` the velocities [m/s] of the clusters with these numbers at the targets, and to a
+/// second one the sum [1/s] of Gamma / (4 pi) times the integral of dl over the cube of the softened distance.
 pub(crate) fn add_clusters<const K: usize>(
     level: Level,
     single: &Single,

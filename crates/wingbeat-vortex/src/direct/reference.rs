@@ -16,9 +16,9 @@ use glam::DVec3;
 /// (t^2 - l^2) (4 n1 n2 - t^2 + l^2) = 4 c^2, but for the cut-off.
 ///
 /// The cut-off adds to the denominator; the others multiply by a function of h^2 = c^2 / l^2: c^2 / (c^2 + e)
-/// for Scully, c^2 / sqrt(c^4 + e^2) for Vatistas, e = r_c^2 l^2. The algebraic one adds to n1^2 and n2^2 half of
-/// the squared core radius, here of a filament seen from a point: that is the integral along the filament of its kernel,
-/// for the squared distance stays a quadratic along it.
+/// for Scully, c^2 / sqrt(c^4 + e^2) for Vatistas, e = r_c^2 l^2. The algebraic one adds to n1^2 and n2^2 half
+/// of the squared core radius, here of a filament seen from a point: that is the integral along the filament of
+/// its kernel, for the squared distance stays a quadratic along it.
 ///
 /// On the line of the filament, its nodes included, the result is zero.
 ///

@@ -5,7 +5,8 @@ use crate::sources::Blob;
 use fearless_simd::prelude::*;
 use glam::DVec3;
 
-/// How vorticity is spread around a blob's position: with r = x - x_q it moves the air by `scale factor(r^2) alpha x r`.
+/// How vorticity is spread around a blob's position: with r = x - x_q it moves the air by `scale factor(r^2)
+/// alpha x r`.
 pub(crate) trait Smoothing {
     /// What is the same for all blobs.
     fn scale(&self) -> f64;

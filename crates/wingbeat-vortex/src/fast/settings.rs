@@ -26,7 +26,8 @@ pub enum Method {
     Single,
     /// Far sources by cells, near ones in single precision if the tolerance allows it.
     Tree,
-    /// Filaments of wide algebraic cores by Gaussians on meshes, narrow ones in single precision; the tolerance is at least 1e-3.
+    /// Filaments of wide algebraic cores by Gaussians on meshes, narrow ones in single precision; the tolerance
+    /// is at least 1e-3.
     Mesh,
 }
 

@@ -91,7 +91,8 @@ impl Soft {
         }
     }
 
-    /// Adds velocities, and vorticities if they are wanted, of so many `edges`; or adds nothing and says how many attempts were made.
+    /// Adds velocities, and vorticities if they are wanted, of so many `edges`; or adds nothing and says how
+    /// many attempts were made.
     pub fn add(
         &mut self,
         check: &Check,

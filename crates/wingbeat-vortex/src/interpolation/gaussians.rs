@@ -1,7 +1,7 @@
 //! The kernel as a sum of Gaussians: `x^(-3/2) = sum w exp(-t x)`, x between 1 and [`RANGE`].
 //!
-//! A Gaussian of `D^2 = dx^2 + dy^2 + dz^2 + q + e` is a product of functions of one difference each, so what the points of
-//! one grid do at the points of another one is summed direction by direction.
+//! A Gaussian of `D^2 = dx^2 + dy^2 + dz^2 + q + e` is a product of functions of one difference each, so what
+//! the points of one grid do at the points of another one is summed direction by direction.
 
 /// The largest x over the smallest.
 pub(crate) const RANGE: f64 = 25.0;
@@ -15,7 +15,8 @@ pub(crate) const GAUSSIANS: [(f64, f64); 5] = [
     (3.564_742_58, 6.986_905_72),
 ];
 
-/// exp(-x) for x >= 0 in plain arithmetic of single precision, to its last digits; nothing where that is less than 1e-36.
+/// exp(-x) for x >= 0 in plain arithmetic of single precision, to its last digits; nothing where that is less
+/// than 1e-36.
 #[inline(always)]
 pub(crate) fn exp_minus(x: f32) -> f32 {
     const SHIFT: f32 = 12_582_912.0; // 1.5 * 2^23: adding it rounds to a whole number

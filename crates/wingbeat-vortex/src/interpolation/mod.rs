@@ -1,17 +1,21 @@
-//! The sum over far filaments of algebraic cores: cells of sources act on cells of targets by interpolation of the kernel.
+//! The sum over far filaments of algebraic cores: cells of sources act on cells of targets by interpolation of
+//! the kernel.
 //!
-//! The kernel `1 / D^3`, `D^2 = r^2 + q + e` with half the squared core radii q of the target and e of the source, is a
-//! smooth function of four variables of the source, its place and e, and likewise of the target. Where a cell is small beside
-//! D, a polynomial between Chebyshev points stands for the function in it [Wang, Krasny & Tlupova 2020, Commun. Comput.
-//! Phys. 28:1415; of targets as well: Wilson, Vaughn & Krasny 2021, Comput. Phys. Commun. 265:108017]. Filaments of a cell
-//! become sources at its points, velocities at the points of a cell become those at its targets.
+//! The kernel `1 / D^3`, `D^2 = r^2 + q + e` with half the squared core radii q of the target and e of the
+//! source, is a smooth function of four variables of the source, its place and e, and likewise of the target.
+//! Where a cell is small beside D, a polynomial between Chebyshev points stands for the function in it [Wang,
+//! Krasny & Tlupova 2020, Commun. Comput. Phys. 28:1415; of targets as well: Wilson, Vaughn & Krasny 2021,
+//! Comput. Phys. Commun. 265:108017]. Filaments of a cell become sources at its points, velocities at the
+//! points of a cell become those at its targets.
 //!
-//! It converges as powers of (size of the cell) / D, not / r: wide cores make a kernel smoother, and a cell smaller than its
-//! cores is far even from what is inside it. That is what expansions of the bare kernel ([`crate::tree`]) cannot know.
+//! It converges as powers of (size of the cell) / D, not / r: wide cores make a kernel smoother, and a cell
+//! smaller than its cores is far even from what is inside it. That is what expansions of the bare kernel
+//! ([`crate::tree`]) cannot know.
 //!
-//! Steps: sort sources and targets into boxes of place and softening ([`boxes`]), spread the filaments over the points of
-//! their cells ([`grid`]), find which cells act on each other how ([`pairs`]), sum from grid to grid ([`translate`], by
-//! Gaussians, [`gaussians`]) and what is near one by one, and read the velocities at the targets.
+//! Steps: sort sources and targets into boxes of place and softening ([`boxes`]), spread the filaments over the
+//! points of their cells ([`grid`]), find which cells act on each other how ([`pairs`]), sum from grid to grid
+//! ([`translate`], by Gaussians, [`gaussians`]) and what is near one by one, and read the velocities at the
+//! targets.
 
 mod boxes;
 pub(crate) mod gaussians;
@@ -162,8 +166,8 @@ impl Interpolation {
         self.single.load_clusters(self.model, packed);
     }
 
-    /// Replaces the filaments of each cell by sources at the points of its grid: those of leaves one by one, those of others by
-    /// the points of their children, who come after their parents.
+    /// Replaces the filaments of each cell by sources at the points of its grid: those of leaves one by one,
+    /// those of others by the points of their children, who come after their parents.
     fn spread(&mut self, network: &Network) {
         let (sources, grid, len) = (&self.sources, &self.grid, self.grid.len());
         let quadrature = &self.quadrature;
@@ -219,7 +223,8 @@ impl Interpolation {
         self.targets.sort(self.fineness.shape(TARGET_LEAF));
     }
 
-    /// Finds which cells act on each other, of cells as large as they may be times `part`; returns what their sum costs.
+    /// Finds which cells act on each other, of cells as large as they may be times `part`; returns what their
+    /// sum costs.
     pub fn pair(&mut self, part: f64) -> Work {
         if self.sources.cells.is_empty() || self.targets.cells.is_empty() {
             return Work::default();

@@ -67,8 +67,8 @@ pub(crate) struct Pairs {
 }
 
 impl Pairs {
-    /// Finds all of them; cells are far from each other where half their diagonals together are less than `ratio` times their
-    /// softened distance.
+    /// Finds all of them; cells are far from each other where half their diagonals together are less than
+    /// `ratio` times their softened distance.
     pub fn find(&mut self, targets: &Boxes, sources: &Boxes, ratio: f64) {
         self.far.clear();
         self.near.clear();

@@ -1,8 +1,8 @@
 //! What sources at the points of a grid do at the points of another one, in single precision.
 //!
-//! A source of strength w at y makes `w x (p - y) / D^3` at p. As for filaments ([`crate::direct::moments`]) `W = sum k w`
-//! and `M = sum k w x (y - o)` are summed, `k = 1 / D^3`, and `W x (p - o) - M` is taken last. k is a sum of
-//! products of Gaussians ([`super::gaussians`]), so a sum over a grid is done direction by direction.
+//! A source of strength w at y makes `w x (p - y) / D^3` at p. As for filaments ([`crate::direct::moments`]) `W =
+//! sum k w` and `M = sum k w x (y - o)` are summed, `k = 1 / D^3`, and `W x (p - o) - M` is taken last. k is a
+//! sum of products of Gaussians ([`super::gaussians`]), so a sum over a grid is done direction by direction.
 
 use crate::interpolation::gaussians::{GAUSSIANS, RANGE, exp_minus};
 use crate::interpolation::grid::{Frame, Grid, MOST};

@@ -1,8 +1,9 @@
 //! A mesh of strengths convolved with a Gaussian, axis after axis: velocity and vorticity at its nodes.
 //!
-//! With S the strengths and g the Gaussian, the vorticity is `W = g * S` and the velocity `U = sum S x r g(r)`, r from the source to
-//! the node. Along an axis g is an even stencil, `x g` an odd one. So along z: A = even S, B = odd S; along y: even A, odd A and even B;
-//! along x: W = even A, and U the even stencil of (B_y - A'_z, -B_x, A'_x), A' = odd A, with the odd one of (0, A_z, -A_y).
+//! With S the strengths and g the Gaussian, the vorticity is `W = g * S` and the velocity `U = sum S x r g(r)`,
+//! r from the source to the node. Along an axis g is an even stencil, `x g` an odd one. So along z: A = even S,
+//! B = odd S; along y: even A, odd A and even B; along x: W = even A, and U the even stencil of (B_y - A'_z, -B_x,
+//! A'_x), A' = odd A, with the odd one of (0, A_z, -A_y).
 
 use crate::multilevel::spline::{FARTHEST, Stencil};
 use fearless_simd::prelude::*;

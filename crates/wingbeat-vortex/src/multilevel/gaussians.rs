@@ -1,9 +1,10 @@
 //! The kernel as a sum of Gaussians over any range of distances: `x^(-3/2) = sum c_k t_k^(3/2) exp(-t_k x)`.
 //!
-//! `x^(-3/2)` is the integral of `t^(1/2) exp(-t x)` over t, divided by Gamma(3/2). By the trapezium rule in the logarithm of t it is a
-//! sum over exponents t each [`RATIO`] times smaller than the one before, with equal numbers c [Beylkin & Monzon 2010, Appl. Comput.
-//! Harmon. Anal. 28:131]; the error swings with the logarithm of x and has the same size everywhere. At both ends, where the rule breaks off, c are
-//! fitted: least squares of the relative error.
+//! `x^(-3/2)` is the integral of `t^(1/2) exp(-t x)` over t, divided by Gamma(3/2). By the trapezium rule in
+//! the logarithm of t it is a sum over exponents t each [`RATIO`] times smaller than the one before, with equal
+//! numbers c [Beylkin & Monzon 2010, Appl. Comput. Harmon. Anal. 28:131]; the error swings with the logarithm
+//! of x and has the same size everywhere. At both ends, where the rule breaks off, c are fitted: least squares
+//! of the relative error.
 
 /// An exponent over the next one.
 const RATIO: f64 = 2.4;

@@ -6,7 +6,8 @@ use crate::multilevel::spline::{ORDER, Stencil, weights};
 use fearless_simd::{Level, Simd, dispatch, f32x8, prelude::*};
 use rayon::prelude::*;
 
-/// Exponents beyond which a Gaussian is no part of the kernel: 3 in a thousand of it where all of it is softening, nothing elsewhere.
+/// Exponents beyond which a Gaussian is no part of the kernel: 3 in a thousand of it where all of it is
+/// softening, nothing elsewhere.
 const LARGEST: f64 = 9.0;
 
 /// Planes of nodes that a task takes.
@@ -210,7 +211,8 @@ impl Mesh {
         self.exponent * softening <= LARGEST
     }
 
-    /// Velocity \[m/s\] and vorticity \[1/s\] of wide sources only, or of all, at a place from the corner of the box \[m\] with this softening \[m2\].
+    /// Velocity \[m/s\] and vorticity \[1/s\] of wide sources only, or of all, at a place from the corner of
+    /// the box \[m\] with this softening \[m2\].
     #[inline(always)]
     pub fn read<S: Simd>(
         &self,

@@ -1,21 +1,24 @@
 //! The sum over wide filaments of algebraic cores: Gaussians on meshes, each mesh as coarse as its Gaussian is wide.
 //!
-//! The kernel `1 / D^3`, `D^2 = r^2 + q + e` with half the squared core radii q of the target and e of the source, is a sum of
-//! Gaussians ([`gaussians`]), of which some ten hold over any range of D that a wake has:
+//! The kernel `1 / D^3`, `D^2 = r^2 + q + e` with half the squared core radii q of the target and e of the
+//! source, is a sum of Gaussians ([`gaussians`]), of which some ten hold over any range of D that a wake has:
 //!
 //! `1 / D^3 = sum w exp(-t e) . exp(-t r^2) . exp(-t q)`.
 //!
-//! To each of them the cores of source and target are mere factors, whatever they are and however much they differ from filament to filament:
-//! that is what cells of place and softening ([`crate::interpolation`]) cannot offer. So each Gaussian has a mesh ([`mesh`]), as in
-//! the multilevel summation of molecular dynamics [Skeel, Tezcan & Hardy 2002, J. Comput. Chem. 23:673]: filaments spread their strengths,
-//! times `w exp(-t e)`, over its nodes by cubic splines ([`spline`]), at as many Gauss points as `t l^2` asks for; the mesh is convolved
-//! with the Gaussian axis by axis ([`convolution`]); and splines read velocity and vorticity at the targets, times `exp(-t q)`.
-//! The meshes of wide Gaussians are coarse, so all of them together have hardly more nodes than the finest.
+//! To each of them the cores of source and target are mere factors, whatever they are and however much they
+//! differ from filament to filament: that is what cells of place and softening ([`crate::interpolation`])
+//! cannot offer. So each Gaussian has a mesh ([`mesh`]), as in the multilevel summation of molecular dynamics
+//! [Skeel, Tezcan & Hardy 2002, J. Comput. Chem. 23:673]: filaments spread their strengths, times `w exp(-t
+//! e)`, over its nodes by cubic splines ([`spline`]), at as many Gauss points as `t l^2` asks for; the mesh is
+//! convolved with the Gaussian axis by axis ([`convolution`]); and splines read velocity and vorticity at the
+//! targets, times `exp(-t q)`. The meshes of wide Gaussians are coarse, so all of them together have hardly
+//! more nodes than the finest.
 //!
-//! The finest one is made for the least D of two places of which one is wide. Pairs of narrow filaments with narrow targets are summed one
-//! by one, in single precision: sources spread to two sets of meshes, of which narrow targets read that of the wide ones. What
-//! is wide is chosen by what the sum costs ([`plan`]). In a wake that grows, narrow filaments are those shed last, and their number stays: cost and memory are
-//! those of sources, targets and nodes.
+//! The finest one is made for the least D of two places of which one is wide. Pairs of narrow filaments with
+//! narrow targets are summed one by one, in single precision: sources spread to two sets of meshes, of which
+//! narrow targets read that of the wide ones. What is wide is chosen by what the sum costs ([`plan`]). In a
+//! wake that grows, narrow filaments are those shed last, and their number stays: cost and memory are those of
+//! sources, targets and nodes.
 //!
 //! Same bits for any number of threads and any instructions: each node and each target adds up in a fixed order.
 
@@ -125,7 +128,8 @@ impl Multilevel {
         }
     }
 
-    /// Replaces the sources; returns what a sum costs for each target, in pairs of filament and target, if it can be made.
+    /// Replaces the sources; returns what a sum costs for each target, in pairs of filament and target, if it
+    /// can be made.
     pub fn load(&mut self, network: &Network) -> Option<f64> {
         self.domain = None;
         self.take(network);

@@ -3,7 +3,8 @@
 use crate::multilevel::gaussians::{count, gaussian};
 use crate::multilevel::mesh::nodes_along;
 
-/// What a node, and a filament or target at one Gaussian cost, in pairs of filament and target summed one by one; measured.
+/// What a node, and a filament or target at one Gaussian cost, in pairs of filament and target summed one by
+/// one; measured.
 const NODE: f64 = 450.0;
 const SPREAD: f64 = 500.0;
 const READ: f64 = 250.0;
@@ -18,8 +19,8 @@ const TARGETS: f64 = 1.5;
 const NODES: f64 = 150.0;
 pub(super) const MOST_NODES: f64 = 3e6;
 
-/// Standard deviation of a Gaussian over the distance of its nodes, and how far its stencil reaches: the first ones, whose mesh has
-/// the most nodes, are coarser, for only the cores of the narrowest see them whole.
+/// Standard deviation of a Gaussian over the distance of its nodes, and how far its stencil reaches: the first
+/// ones, whose mesh has the most nodes, are coarser, for only the cores of the narrowest see them whole.
 pub(super) const FINENESS: [(f64, usize); 3] = [(1.2, 4), (1.7, 6), (2.4, 8)];
 
 /// Fineness of Gaussian number k.
@@ -53,7 +54,8 @@ pub(super) struct Plan {
 }
 
 impl Plan {
-    /// The cheapest one for sources with these softenings, in rising order, in a box of these sides; None if memory forbids all of them.
+    /// The cheapest one for sources with these softenings, in rising order, in a box of these sides; None if
+    /// memory forbids all of them.
     pub fn cheapest(softenings: &[f64], sides: [f64; 3]) -> Option<Self> {
         const PARTS: usize = 32;
         let sources = softenings.len();

@@ -1,4 +1,5 @@
-//! Cubic splines, and what nodes of a mesh must do to each other so that two splines and the mesh between them make a Gaussian.
+//! Cubic splines, and what nodes of a mesh must do to each other so that two splines and the mesh between them
+//! make a Gaussian.
 
 use std::f64::consts::{PI, TAU};
 
@@ -28,8 +29,8 @@ pub(super) struct Stencil {
 }
 
 impl Stencil {
-    /// Of a Gaussian whose standard deviation is `width` nodes: what leaves the least error of all places between nodes [Hockney &
-    /// Eastwood 1988, sec. 8-3-3], cut off at `reach`.
+    /// Of a Gaussian whose standard deviation is `width` nodes: what leaves the least error of all places
+    /// between nodes [Hockney & Eastwood 1988, sec. 8-3-3], cut off at `reach`.
     pub fn new(width: f64, reach: usize) -> Self {
         const WAVES: usize = 512;
         let (mut even, mut odd) = ([0.0; FARTHEST + 1], [0.0; FARTHEST + 1]);

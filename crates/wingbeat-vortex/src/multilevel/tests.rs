@@ -203,8 +203,8 @@ fn exact_filament_on_the_mesh_of_a_gaussian() {
     assert!(exp_minus(9.0) < 1.3e-4);
 }
 
-/// What is wide follows from what it costs: nothing is narrow among equal cores as wide as their wake; filaments too thin for
-/// any mesh are left to other sums.
+/// What is wide follows from what it costs: nothing is narrow among equal cores as wide as their wake;
+/// filaments too thin for any mesh are left to other sums.
 #[test]
 fn limit_of_wide_and_of_thin_cores() {
     let all = vec![0.5; 20_000];

@@ -2,9 +2,10 @@
 //!
 //! 1. Each blob spreads its strength over the nodes around it by splines, on the mesh of its level, whose spacing
 //!    is a part of the level's width.
-//! 2. On each mesh the strengths are convolved with the velocity of one blob, by fast Fourier transforms on twice as many
-//!    nodes: so the air is unbounded \[Hockney & Eastwood 1988, Computer Simulation Using Particles, sec. 6-5\]. A blob
-//!    is smooth on the scale of the spacing, so this leaves out little; the splines' own smoothing is divided out.
+//! 2. On each mesh the strengths are convolved with the velocity of one blob, by fast Fourier transforms on
+//!    twice as many nodes: so the air is unbounded \[Hockney & Eastwood 1988, Computer Simulation Using
+//!    Particles, sec. 6-5\]. A blob is smooth on the scale of the spacing, so this leaves out little; the
+//!    splines' own smoothing is divided out.
 //! 3. From the widest level on, values are carried to the next finer mesh, which splines do exactly, and added up.
 //! 4. Splines give the velocity at the targets.
 //!
@@ -179,9 +180,9 @@ impl Level {
         self.nodes = nodes;
     }
 
-    /// Strengths to velocities. With a = w_x + i w_y and b = w_z, the kernel's K_x, K_y, K_z real and odd, the components
-    /// of w x K are u_x + i u_y = -i K_z * a + i (K_x + i K_y) * b, and u_z the imaginary part of -(K_x - i K_y) * a; the
-    /// spectra of K are -i times real numbers. Lines that hold zeros only are not transformed.
+    /// Strengths to velocities. With a = w_x + i w_y and b = w_z, the kernel's K_x, K_y, K_z real and odd, the
+    /// components of w x K are u_x + i u_y = -i K_z * a + i (K_x + i K_y) * b, and u_z the imaginary part of -(K_x -
+    /// i K_y) * a; the spectra of K are -i times real numbers. Lines that hold zeros only are not transformed.
     fn convolve(&mut self, has_any: bool) {
         if !has_any {
             return; // the nodes are zero

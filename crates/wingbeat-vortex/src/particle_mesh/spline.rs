@@ -14,7 +14,8 @@ pub(crate) const REFINE: [f32; ORDER + 1] = [
     1.0 / 32.0,
 ];
 
-/// The spline of order 12 at 0 to 5: what two of order six give together, one spreading, one gathering. In parts of 11!.
+/// The spline of order 12 at 0 to 5: what two of order six give together, one spreading, one gathering. In
+/// parts of 11!.
 const TWICE: [f64; ORDER] = [
     15_724_248.0,
     9_738_114.0,

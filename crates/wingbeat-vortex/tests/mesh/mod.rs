@@ -19,8 +19,8 @@ fn settings(method: Method) -> FastSettings {
     }
 }
 
-/// A column of polygons joined by filaments that grow and spread with age: lengths and cores from 0.1 to `wide`, cores that differ by
-/// a factor of three from node to node.
+/// A column of polygons joined by filaments that grow and spread with age: lengths and cores from 0.1 to
+/// `wide`, cores that differ by a factor of three from node to node.
 fn column(rings: usize, wide: f64) -> Network {
     const SIDES: usize = 16;
     let mut net = Network::default();
@@ -78,7 +78,8 @@ fn both(sum: &mut FastSum, at: &Points) -> [Points; 2] {
     [u, w]
 }
 
-/// Filaments as long as their cores are wide, cores that differ from node to node: velocity and vorticity at the nodes and between them.
+/// Filaments as long as their cores are wide, cores that differ from node to node: velocity and vorticity at
+/// the nodes and between them.
 #[test]
 fn agrees_with_the_direct_sum_for_long_filaments_of_unequal_cores() {
     for wide in [0.1, 0.4, 2.0] {
@@ -120,8 +121,8 @@ fn agrees_at_bare_points() {
     assert!(rms < 0.7 * MESH_TOLERANCE, "{rms:e}");
 }
 
-/// In a wake that gets longer and wider, as old filaments stretch, pairs are for the most part those of what was shed last, and targets read as many
-/// meshes as before.
+/// In a wake that gets longer and wider, as old filaments stretch, pairs are for the most part those of what
+/// was shed last, and targets read as many meshes as before.
 #[test]
 fn order_work_grows_little_faster_than_the_wake() {
     let work = |rings: usize, wide: f64| {
@@ -133,7 +134,8 @@ fn order_work_grows_little_faster_than_the_wake() {
     };
     let (few, many) = (work(300, 0.8), work(1200, 3.2));
     println!("{few:?} {many:?}");
-    // In pairs, as measured: 250 for a mesh read, 500 for each of the two filaments of a node on it. The sum one by one has a power of 2.
+    // In pairs, as measured: 250 for a mesh read, 500 for each of the two filaments of a node on it. The sum
+    // one by one has a power of 2.
     let cost = |[near, far, n]: [f64; 3]| n * (near + (250.0 + 2.0 * 500.0) * far);
     let power = (cost(many) / cost(few)).ln() / (many[2] / few[2]).ln();
     println!("{power}");
@@ -177,7 +179,8 @@ fn invariant_of_what_was_summed_before() {
     assert_eq!(both(&mut used, &small.nodes), expected);
 }
 
-/// Targets beside the sources enlarge the meshes; far away ones, and sources that no mesh serves, are summed one by one.
+/// Targets beside the sources enlarge the meshes; far away ones, and sources that no mesh serves, are summed
+/// one by one.
 #[test]
 fn limit_of_far_targets_and_thin_cores() {
     let net = column(150, 1.0);

@@ -159,7 +159,8 @@ fn invariant_second_use_gives_the_first_one_s_bits_with_algebraic_cores() {
     assert_eq!(bits(&v), bits(&expected));
 }
 
-/// Reflected sources make reflected velocities at reflected places: cells may be halved elsewhere, within the tolerance.
+/// Reflected sources make reflected velocities at reflected places: cells may be halved elsewhere, within the
+/// tolerance.
 #[test]
 fn invariant_under_a_mirror_to_the_tolerance() {
     let net = wake(8_000, [0.02, 0.5]);

@@ -64,8 +64,8 @@ pub(crate) enum Command {
     Power(analyse::power::PowerArgs),
     /// Frequencies and shapes of the vibrations of elastic wings, in vacuum and with the added mass of the air.
     Modes(analyse::modes::ModesArgs),
-    /// Find the speeds of a stream at which the vibrations of elastic wings grow: frequency and damping about the deformed
-    /// steady state.
+    /// Find the speeds of a stream at which the vibrations of elastic wings grow: frequency and damping about
+    /// the deformed steady state.
     Flutter(analyse::flutter::FlutterArgs),
     /// Trim, disturb, and fly under feedback.
     Stabilise(analyse::stabilise::StabiliseArgs),

@@ -27,7 +27,8 @@ pub(crate) struct EnsembleArgs {
     /// Set a key of the case, e.g. time.beats=3; KEY= takes it away (may be repeated).
     #[arg(long = "set", value_name = "KEY=VALUE")]
     set: Vec<String>,
-    /// Flights; in all but the first the air moves by a millionth of the wings' speed, and noise of the senses is another.
+    /// Flights; in all but the first the air moves by a millionth of the wings' speed, and noise of the senses
+    /// is another.
     #[arg(long, value_name = "N", default_value_t = DEFAULT_MEMBERS,
           value_parser = options::count::<2, MAX_MEMBERS>)]
     members: usize,

@@ -1,5 +1,5 @@
-//! Ctrl-C, SIGTERM and hang-up: the first ends a flight after its step, a second one at once. While a flight is being built, its
-//! controller laid out, the first ends the program: nothing is written yet.
+//! Ctrl-C, SIGTERM and hang-up: the first ends a flight after its step, a second one at once. While a flight is
+//! being built, its controller laid out, the first ends the program: nothing is written yet.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};

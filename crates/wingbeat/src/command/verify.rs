@@ -230,7 +230,8 @@ mod tests {
     use super::*;
     use wingbeat::verify::{Part, Row};
 
-    /// Two models beside one reference share a pair of axes; courses of other places have a figure of their own, and a case without courses has none.
+    /// Two models beside one reference share a pair of axes; courses of other places have a figure of their
+    /// own, and a case without courses has none.
     #[test]
     fn exact_courses_of_one_quantity_share_their_axes() {
         let course = |quantity: &'static str, name: &'static str| {

@@ -55,7 +55,8 @@ pub fn stroke(angle: i32) -> String {
     format!("phase,angle,other\n0,{angle},1\n0.25,0,2\n0.5,-{angle},3\n0.75,0,2\n1,{angle},1\n")
 }
 
-/// A file that a value names is part of the point: what is in it counts, not its name. Points that name none keep theirs.
+/// A file that a value names is part of the point: what is in it counts, not its name. Points that name none
+/// keep theirs.
 #[test]
 fn behaves_a_changed_file_that_a_value_names_is_flown_again() {
     let scratch = Scratch::new("campaign-named");
@@ -96,8 +97,8 @@ fn behaves_a_changed_file_that_a_value_names_is_flown_again() {
     assert_ne!(before[1], after[1]);
 }
 
-/// Files of every so many points: a campaign that grows flies those again that have none yet, and a point whose files were
-/// removed is flown again.
+/// Files of every so many points: a campaign that grows flies those again that have none yet, and a point whose
+/// files were removed is flown again.
 #[test]
 fn behaves_points_without_the_files_they_keep_are_flown_again() {
     let scratch = Scratch::new("campaign-files");
@@ -178,7 +179,8 @@ fn invariant_points_do_not_depend_on_the_files_that_are_kept() {
     assert!(said.contains("4 points, 4 of them done"), "{said}");
 }
 
-/// Points are counted in the order of the file: parameters that change places make another plan, with leases of its own.
+/// Points are counted in the order of the file: parameters that change places make another plan, with leases of
+/// its own.
 #[test]
 fn behaves_another_order_of_parameters_is_another_plan() {
     let scratch = Scratch::new("campaign-order");

@@ -164,8 +164,8 @@ list = [0.93e-6, 0.93e-3, 0.94e-3]
     assert_eq!(unique, warnings);
 }
 
-/// A history that leaves steps out changes nothing of verdict and summary, which are of all steps; means of its columns are
-/// refused, also where only a varied key leaves steps out.
+/// A history that leaves steps out changes nothing of verdict and summary, which are of all steps; means of its
+/// columns are refused, also where only a varied key leaves steps out.
 #[test]
 fn invariant_verdict_and_summary_are_of_all_steps() {
     let scratch = Scratch::new("campaign-thinned");

@@ -91,8 +91,8 @@ fn balances_a_tilted_flight_behind_slow_actuators() {
     );
 }
 
-/// A twentieth of the weight hangs on the body: proportional-derivative loops of altitude give way by `a / omega^2`, the
-/// integral action takes it back.
+/// A twentieth of the weight hangs on the body: proportional-derivative loops of altitude give way by `a /
+/// omega^2`, the integral action takes it back.
 #[test]
 fn exact_altitude_under_a_load_with_and_without_integral_action() {
     let sunk = [0.0, 0.02].map(|integral| {

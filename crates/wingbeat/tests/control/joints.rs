@@ -39,8 +39,8 @@ fn kicked() -> String {
     )
 }
 
-/// The regulator knows what the abdomen remembers, whose motion it does not see: a kick dies out. Laid out on the body alone it grew
-/// tenfold in 40 wingbeats with a latency of one, and without.
+/// The regulator knows what the abdomen remembers, whose motion it does not see: a kick dies out. Laid out on
+/// the body alone it grew tenfold in 40 wingbeats with a latency of one, and without.
 #[test]
 fn balances_a_flyer_whose_abdomen_nods_on_a_spring() {
     let pitch = kicked();
@@ -66,8 +66,8 @@ fn balances_a_flyer_whose_abdomen_nods_on_a_spring() {
     }
 }
 
-/// An abdomen whose spring nothing damps is held, too: what it does to the body is seen and damped. The trim is followed
-/// from the damped one. The stabiliser, laid out on means, takes no free joint.
+/// An abdomen whose spring nothing damps is held, too: what it does to the body is seen and damped. The trim is
+/// followed from the damped one. The stabiliser, laid out on means, takes no free joint.
 #[test]
 fn behaves_an_undamped_joint_is_held_and_the_stabiliser_refuses_joints() {
     let damping = "joint.waist.element[0].damping_newton_m_s_per_rad=";

@@ -218,7 +218,8 @@ fn balances_a_square_and_a_turn_along_waypoints() {
         .map(|_| flight.step().unwrap().reference[0])
         .last();
     let middle = middle.unwrap();
-    // Half the way at half the time; 35/16 of the mean velocity. The trimmed flight itself drifts by less than 1e-8 m/s.
+    // Half the way at half the time; 35/16 of the mean velocity. The trimmed flight itself drifts by less than
+    // 1e-8 m/s.
     let half = [
         middle.position.z - from + 3.75e-3,
         middle.velocity.z + 0.065625,

@@ -124,7 +124,8 @@ fn refuses_a_flyer_that_cannot_be_trimmed_when_it_is_built() {
     );
 }
 
-/// Wings that differ, and a wind across, are named as what [control] does not fly; unknowns of a trim are none of its keys.
+/// Wings that differ, and a wind across, are named as what [control] does not fly; unknowns of a trim are none
+/// of its keys.
 #[test]
 fn refuses_asymmetric_flights_in_words_of_the_case() {
     for key in [

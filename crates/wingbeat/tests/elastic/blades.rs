@@ -53,8 +53,8 @@ fn conserves_momentum_in_blade_elements_and_agrees_between_integrators() {
         let linear = largest(|r| r.momentum_residual.length()) / largest(|r| r.momentum.length());
         let angular = largest(|r| r.angular_momentum_residual.length())
             / largest(|r| r.angular_momentum.length());
-        // Momentum and impulse are integrated alike: some hundred roundings. Angular momentum is about the mass centre, its
-        // impulse about the origin: the error of the method, rigid wings have it, too.
+        // Momentum and impulse are integrated alike: some hundred roundings. Angular momentum is about the mass
+        // centre, its impulse about the origin: the error of the method, rigid wings have it, too.
         assert!(linear < 1e-12 && angular < 5e-4, "{linear:e} {angular:e}");
         let passes = records.iter().map(|r| r.elastic[0].passes).max().unwrap();
         assert!(passes <= 8, "{passes}");
@@ -216,7 +216,8 @@ fn agrees_a_trimmed_orbit_of_body_and_wings_with_flights_that_go_on_from_it() {
         (power.perfect_storage / mean - 1.0).abs() < 1e-2,
         "{power:?} {mean}"
     );
-    // Damping takes a part, the air the rest: the energy of elastic wings closes to second order, within 8 % in 32 steps.
+    // Damping takes a part, the air the rest: the energy of elastic wings closes to second order, within 8 % in
+    // 32 steps.
     let dissipated = flight.record().dissipated / setup.time.period.unwrap();
     let rest = mean - power.aerodynamic - dissipated;
     assert!(
@@ -225,7 +226,8 @@ fn agrees_a_trimmed_orbit_of_body_and_wings_with_flights_that_go_on_from_it() {
     );
 }
 
-/// What the free beats of the case that a trim writes change of the body, one after the other: drift over the wing length, attitude \[rad\].
+/// What the free beats of the case that a trim writes change of the body, one after the other: drift over the
+/// wing length, attitude \[rad\].
 pub(super) fn departures(case: &LoadedCase, trim: &WakeTrim, beats: usize) -> Vec<[f64; 2]> {
     let text = wake_trimmed_case(case, trim);
     let written = LoadedCase::from_text("written", &text, Path::new("."), &[]);
@@ -307,7 +309,8 @@ fn agrees_the_written_case_of_a_trimmed_hawkmoth_with_its_orbit() {
     );
 }
 
-/// The case that a trim wrote is trimmed where it begins: what is left is what twelve harmonics of the tether leave of the orbit.
+/// The case that a trim wrote is trimmed where it begins: what is left is what twelve harmonics of the tether
+/// leave of the orbit.
 #[test]
 fn agrees_a_trim_of_a_trimmed_case_with_the_first() {
     let case = hawkmoth_case(1.0);
@@ -340,8 +343,8 @@ fn agrees_a_trim_of_a_trimmed_case_with_the_first() {
     );
 }
 
-/// The motions of flight with one, two and three modes of each wing: each changes less than the one before, and the check without
-/// flights says by how much.
+/// The motions of flight with one, two and three modes of each wing: each changes less than the one before, and
+/// the check without flights says by how much.
 #[test]
 fn agrees_motions_of_flight_with_ever_more_modes_of_the_wings() {
     let trim = trimmed(&hawkmoth(1.0));

@@ -50,8 +50,8 @@ fn flown(hinge: &str, step: f64) -> [f64; 2] {
     largest
 }
 
-/// A spring that lets go has no more energy than it had, whatever the step: the root starts with an acceleration that no step
-/// resolves.
+/// A spring that lets go has no more energy than it had, whatever the step: the root starts with an
+/// acceleration that no step resolves.
 #[test]
 fn limit_a_wing_that_is_let_go_turns_no_farther_than_it_began() {
     let hinge = "start_deg = [1.0]

@@ -57,8 +57,8 @@ fn dragonfly(set: &[&str]) -> Vec<Record> {
 
 #[test]
 fn invariant_four_wings_with_suction_in_the_solution_fly_alike_on_either_side() {
-    // Held: free, the whole flyer is light in roll, which the half cannot do, and the air's answer to accelerations is a rate and no difference
-    // over steps.
+    // Held: free, the whole flyer is light in roll, which the half cannot do, and the air's answer to
+    // accelerations is a rate and no difference over steps.
     let set = [
         "flight={ mode = \"tethered\" }",
         "time.beats=1.25",

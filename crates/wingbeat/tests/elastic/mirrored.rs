@@ -1,5 +1,5 @@
-//! Air of which one half is computed, the other being its mirror image: the shape of one wing of a pair is computed then, too, and
-//! joints of both move alike.
+//! Air of which one half is computed, the other being its mirror image: the shape of one wing of a pair is
+//! computed then, too, and joints of both move alike.
 
 use super::{apart, beam, fly, strings};
 use wingbeat::flight::Record;
@@ -64,8 +64,9 @@ fn agrees_half_of_the_air_with_both_halves_for_wings_on_joints() {
         [&rigid(&[])[..], &soft].concat(),
         [&rigid(&held)[..], &soft].concat(),
     ];
-    // The added mass of a rigid wing holds its image where one half is computed, and what is taken for it is of second order in
-    // the step; elastic wings and air agree to 1e-10 of the natural sizes, which hinges of small inertia turn into accelerations.
+    // The added mass of a rigid wing holds its image where one half is computed, and what is taken for it is of
+    // second order in the step; elastic wings and air agree to 1e-10 of the natural sizes, which hinges of
+    // small inertia turn into accelerations.
     let bounds = [5e-3, 1e-3, 1e-3];
     for (kind, springs) in &kinds {
         let hinge = [kind, &[springs.as_str()][..]].concat();

@@ -137,7 +137,8 @@ fn agrees_orbit_and_modes_of_a_fly_with_wakes_with_flights_about_it() {
     let period = trim.setup.time.period.unwrap();
     let size = trim.setup.animal.wings[0].report().length;
     let (mass, speed) = (trim.setup.animal.mass(), size / period);
-    // The beat comes back to its start, wakes and all; the next one, without a new start of its method, to the error of 40 steps.
+    // The beat comes back to its start, wakes and all; the next one, without a new start of its method, to the
+    // error of 40 steps.
     let still = beats(&trim, &trim.past, DVec3::ZERO, 16);
     let change = |k: usize| (still[k].momentum - still[0].momentum).length() / mass / speed;
     assert!(change(1) < 1e-7, "{:e}", change(1));

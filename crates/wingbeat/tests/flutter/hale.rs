@@ -65,8 +65,8 @@ fn behaves_squares_of_a_response_that_grows_are_no_modes() {
 
 #[test]
 fn published_slender_wing_flutters_at_32_m_s_as_it_comes_to_rest() {
-    // 32.2 m/s (Patil, Hodges & Cesnik 2001). What is left of the way to rest decays within 8 to 12 s, without vibrating: 4000 long
-    // steps were too few.
+    // 32.2 m/s (Patil, Hodges & Cesnik 2001). What is left of the way to rest decays within 8 to 12 s, without
+    // vibrating: 4000 long steps were too few.
     let found = [31.0, 33.0].map(|speed| at(&[], speed, &FlutterSettings::default()));
     assert!(found.iter().all(|c| c.steady.drift < 1e-7));
     let [c] = crossings(&found)[..] else {

@@ -1,5 +1,5 @@
-//! Flutter of Goland's wing by frequencies: the first bending and the first torsion mode of the beam in strips of plane flow with
-//! Theodorsen's function.
+//! Flutter of Goland's wing by frequencies: the first bending and the first torsion mode of the beam in strips
+//! of plane flow with Theodorsen's function.
 
 #[allow(dead_code, reason = "shared with the tests of strips")]
 #[path = "../../../wingbeat-blade/tests/unsteady/functions.rs"]

@@ -75,7 +75,8 @@ fn exact_frequency_of_a_wing_with_two_spars() {
     assert!(error.abs() < 3e-3, "{error:e}");
 }
 
-/// Square plate clamped all around, `omega a^2 sqrt(m / D)` 35.985, 73.394 twice, 108.22 [Leissa 1973, J. Sound Vib. 31:257].
+/// Square plate clamped all around, `omega a^2 sqrt(m / D)` 35.985, 73.394 twice, 108.22 [Leissa 1973, J. Sound
+/// Vib. 31:257].
 #[test]
 fn order_frequencies_of_a_plate_on_a_frame() {
     let rigidity = 3e9 * 1e-4_f64.powi(3) / (12.0 * 0.91);
@@ -103,8 +104,8 @@ fn order_frequencies_of_a_plate_on_a_frame() {
     }
 }
 
-/// A square plate held at its leading edge is one held at its root, turned by a quarter; `omega a^2 sqrt(m / D)` of the cantilever 3.471, 8.507
-/// [Leissa 1969, table 4.46].
+/// A square plate held at its leading edge is one held at its root, turned by a quarter; `omega a^2 sqrt(m /
+/// D)` of the cantilever 3.471, 8.507 [Leissa 1969, table 4.46].
 #[test]
 fn agrees_a_plate_clamped_at_its_leading_edge_with_one_clamped_at_its_root() {
     let plate = [
@@ -130,8 +131,8 @@ fn agrees_a_plate_clamped_at_its_leading_edge_with_one_clamped_at_its_root() {
     }
 }
 
-/// A stretched square film whose bending is a millionth of a solid sheet's, `omega = pi sqrt((i^2 + j^2) T / m) / a`: nodes that turn by
-/// themselves vibrate below, and are left out.
+/// A stretched square film whose bending is a millionth of a solid sheet's, `omega = pi sqrt((i^2 + j^2) T / m)
+/// / a`: nodes that turn by themselves vibrate below, and are left out.
 #[test]
 fn exact_frequencies_of_a_film_without_those_of_turning_nodes() {
     let set = [
@@ -154,8 +155,8 @@ fn exact_frequencies_of_a_film_without_those_of_turning_nodes() {
     assert_eq!(right(&set[..4], "").left_out, [0; 2]);
 }
 
-/// Tension along the span, which the free tip cannot hold, is gone before the wing vibrates; tension along the chord, which the
-/// clamped root holds, pushes the sheet together there, and a thin one buckles.
+/// Tension along the span, which the free tip cannot hold, is gone before the wing vibrates; tension along the
+/// chord, which the clamped root holds, pushes the sheet together there, and a thin one buckles.
 #[test]
 fn limit_tension_that_nothing_holds_changes_no_frequency() {
     let tense = |tension: &str| {
@@ -180,8 +181,9 @@ fn limit_tension_that_nothing_holds_changes_no_frequency() {
     assert!(across.vacuum[0].growth > 0.0 && across.vacuum[0].frequency == 0.0);
 }
 
-/// A stretched film on a frame, without weight or air, has the frequencies of a membrane, `sqrt(T / m) pi sqrt(1 / a^2 + 1 / b^2)`
-/// and so on, and flies: nothing loads it, and what is left unbalanced is measured by what holds it.
+/// A stretched film on a frame, without weight or air, has the frequencies of a membrane, `sqrt(T / m) pi
+/// sqrt(1 / a^2 + 1 / b^2)` and so on, and flies: nothing loads it, and what is left unbalanced is measured by
+/// what holds it.
 #[test]
 fn exact_frequencies_of_a_film_under_tension_without_loads() {
     let film = |chordwise: usize, spanwise: usize| {

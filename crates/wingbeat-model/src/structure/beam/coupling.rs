@@ -3,18 +3,19 @@
 use crate::deformation::SpanLaw;
 use crate::error::ModelError;
 
-/// Off-diagonal stiffness of the sections along a beam: rows of r/R and six terms, straight lines between. Axes of a section of a
-/// right wing: 1 outward along the beam, 2 in the plane towards the leading edge, 3 the upper side; curvatures are the
-/// right-handed rates of turn about 2 (flap) and 3 (lag). A left wing is the mirror image.
+/// Off-diagonal stiffness of the sections along a beam: rows of r/R and six terms, straight lines between. Axes
+/// of a section of a right wing: 1 outward along the beam, 2 in the plane towards the leading edge, 3 the upper
+/// side; curvatures are the right-handed rates of turn about 2 (flap) and 3 (lag). A left wing is the mirror
+/// image.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Coupling(pub Vec<(f64, [f64; 6])>);
 
-/// Which two strains (stretch 0, twist 3, flap 4, lag 5) each term couples: stretch and twist, stretch and flap, stretch and lag
-/// [N m]; twist and flap, twist and lag, flap and lag [N m2].
+/// Which two strains (stretch 0, twist 3, flap 4, lag 5) each term couples: stretch and twist, stretch and
+/// flap, stretch and lag [N m]; twist and flap, twist and lag, flap and lag [N m2].
 const PLACES: [[usize; 2]; 6] = [[0, 3], [0, 4], [0, 5], [3, 4], [3, 5], [4, 5]];
 
-/// What stretch, shears, twist, flap and lag of a right wing are multiplied by to be those of its image on a left wing, axis 3 of whose
-/// sections points to the lower side \[1\].
+/// What stretch, shears, twist, flap and lag of a right wing are multiplied by to be those of its image on a
+/// left wing, axis 3 of whose sections points to the lower side \[1\].
 const MIRRORED: [f64; 6] = [1.0, 1.0, -1.0, -1.0, -1.0, 1.0];
 
 impl Coupling {

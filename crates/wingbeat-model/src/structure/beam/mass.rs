@@ -4,23 +4,24 @@ use wingbeat_math::{DMat3, DVec3, MassProperties};
 
 use crate::error::{ModelError, require};
 
-/// A rigid body on the beam of a wing: ballast, a store at the tip, the parts of a wing beside its spar. It moves with a
-/// node of the beam of its own, or with one that it lies at.
+/// A rigid body on the beam of a wing: ballast, a store at the tip, the parts of a wing beside its spar. It
+/// moves with a node of the beam of its own, or with one that it lies at.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BeamMass {
     /// Its place along the beam, r/R \[1\].
     pub at: f64,
     /// Mass \[kg\].
     pub mass: f64,
-    /// Mass centre from the elastic axis there, wing components of a right wing \[m\]; that of a left one is its mirror image.
+    /// Mass centre from the elastic axis there, wing components of a right wing \[m\]; that of a left one is
+    /// its mirror image.
     pub offset: DVec3,
     /// Inertia about the mass centre, wing components of a right wing \[kg m2\].
     pub inertia: DMat3,
 }
 
 impl BeamMass {
-    /// Mass properties about a node, in wing axes: `axis` is the place of the elastic axis seen from the node \[m\], `side` 1 on a
-    /// right wing and -1 on a left one.
+    /// Mass properties about a node, in wing axes: `axis` is the place of the elastic axis seen from the node
+    /// \[m\], `side` 1 on a right wing and -1 on a left one.
     pub(super) fn about_node(&self, axis: DVec3, side: f64) -> MassProperties {
         let mirror = DMat3::from_diagonal(DVec3::new(1.0, side, 1.0));
         let inertia = mirror * self.inertia * mirror;

@@ -1,6 +1,6 @@
-//! Displacements that the shapes of a wing are made of: an orthonormal basis over all nodes. What it lacks of the shape that it
-//! represents worst joins it, until every node of every shape is within the tolerance (a greedy reduced basis [Quarteroni, Manzoni and
-//! Negri 2016, chapter 7]).
+//! Displacements that the shapes of a wing are made of: an orthonormal basis over all nodes. What it lacks of
+//! the shape that it represents worst joins it, until every node of every shape is within the tolerance (a
+//! greedy reduced basis [Quarteroni, Manzoni and Negri 2016, chapter 7]).
 
 use wingbeat_math::DVec3;
 
@@ -18,7 +18,8 @@ pub(super) struct Basis {
     pub ends: [f64; 2],
     /// Shapes.
     pub count: usize,
-    /// What is lacking of the shape that has a node farthest from its place, beyond the tolerance: that distance, displacements \[m\].
+    /// What is lacking of the shape that has a node farthest from its place, beyond the tolerance: that
+    /// distance, displacements \[m\].
     worst: (f64, Vec<DVec3>),
 }
 

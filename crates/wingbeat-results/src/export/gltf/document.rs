@@ -126,7 +126,8 @@ impl Document {
         self.accessor(kind, FLOAT, items.len(), bounds)
     }
 
-    /// The surfaces of one body as one mesh; none without panels. Those of a wing that deforms (`basis`) have morph targets.
+    /// The surfaces of one body as one mesh; none without panels. Those of a wing that deforms (`basis`) have
+    /// morph targets.
     pub fn mesh(&mut self, poses: &Poses, body: usize, basis: Option<&Basis>) -> Option<usize> {
         let (mut points, mut corners) = (vec![], vec![]);
         for s in poses.surfaces.iter().filter(|s| s.body == body) {

@@ -1,6 +1,6 @@
-//! The moving animal and its wakes as glTF 2.0 in one binary file (.glb): a mesh per body, its way and
-//! turning as an animation, shapes of wings that deform as morph targets, and the wakes of the frames one after the other.
-//! Numbers are those of the Khronos specification.
+//! The moving animal and its wakes as glTF 2.0 in one binary file (.glb): a mesh per body, its way and turning
+//! as an animation, shapes of wings that deform as morph targets, and the wakes of the frames one after the
+//! other. Numbers are those of the Khronos specification.
 //!
 //! Viewers show metres and seconds, and an insect as a speck that trembles: a node over all others
 //! magnifies the animal to about the size of a hand, and the time runs slower, one second per wingbeat. Both

@@ -39,8 +39,8 @@ impl Shapes {
         self.wings.iter().map(|w| w.0)
     }
 
-    /// Hands over all shapes in the order of their times: number of the wing in [`Shapes::surfaces`], time \[s\], displacements
-    /// of its nodes from rest, wing axes \[m\].
+    /// Hands over all shapes in the order of their times: number of the wing in [`Shapes::surfaces`], time
+    /// \[s\], displacements of its nodes from rest, wing axes \[m\].
     ///
     /// # Errors
     /// A history or frames that cannot be read; what `take` answers.

@@ -1,4 +1,5 @@
-//! Global heap collections (III.E): objects of any length, numbered from 1 in each, that arrays and attributes refer to.
+//! Global heap collections (III.E): objects of any length, numbered from 1 in each, that arrays and attributes
+//! refer to.
 
 use std::collections::HashMap;
 
@@ -28,8 +29,8 @@ pub(super) fn collection<'a>(list: impl Iterator<Item = &'a [u8]>) -> Vec<u8> {
     out
 }
 
-/// Collections from `place` on that hold the texts of all lists, each once; and for each list what its array holds: length,
-/// place of the collection and number of the object of each text (IV.B).
+/// Collections from `place` on that hold the texts of all lists, each once; and for each list what its array
+/// holds: length, place of the collection and number of the object of each text (IV.B).
 pub(super) fn texts(lists: &[&[String]], place: u64) -> (Vec<u8>, Vec<Vec<u8>>) {
     let mut found: HashMap<&str, (u64, u32)> = HashMap::new();
     let (mut out, mut open, mut bytes): (Vec<u8>, Vec<&[u8]>, usize) = (vec![], vec![], 0);

@@ -10,12 +10,12 @@ use crate::summary::beats::BeatMeans;
 use crate::summary::numbers::Summary;
 use crate::summary::verdict::Warnings;
 
-/// Steps in a row in which the force of a wing turns back, from which on the integrator is not stable. Presets have 0 to 4;
-/// a body that is light in pitch, by `hamming`, all.
+/// Steps in a row in which the force of a wing turns back, from which on the integrator is not stable. Presets
+/// have 0 to 4; a body that is light in pitch, by `hamming`, all.
 const ALTERNATING: usize = 10;
 
-/// What a reader should know of the air: what it leaves out, where it was used beyond what it was made for, what was put in, and
-/// signs that it failed.
+/// What a reader should know of the air: what it leaves out, where it was used beyond what it was made for,
+/// what was put in, and signs that it failed.
 pub(super) fn warnings(
     setup: &FlightSetup,
     air: &AirOptions,

@@ -134,9 +134,9 @@ fn tell(report: &mut Report, c: &Condition) {
     }
 }
 
-/// Part of a response that is not linear, and part that no mode explains, from which on they are told \[1\]. Growth of the
-/// leading mode is known to about this part of one over the length of the response: a few per cent are as much as damping
-/// of a mode near flutter.
+/// Part of a response that is not linear, and part that no mode explains, from which on they are told \[1\].
+/// Growth of the leading mode is known to about this part of one over the length of the response: a few per
+/// cent are as much as damping of a mode near flutter.
 const NOT_LINEAR: f64 = 0.05;
 const UNEXPLAINED: f64 = 0.02;
 

@@ -32,7 +32,8 @@ const HEADING: &str = "Trim";
 /// What is trimmed and how.
 #[derive(Args)]
 pub(crate) struct Trimming {
-    /// Case file or preset in blade elements; trim, stability and power take the vortex lattice, too; - is the standard input.
+    /// Case file or preset in blade elements; trim, stability and power take the vortex lattice, too; - is the
+    /// standard input.
     #[arg(default_value = "fruit-fly-blade")]
     case: String,
     /// Set a key of the case, e.g. time.beats=3; KEY= takes it away (may be repeated).

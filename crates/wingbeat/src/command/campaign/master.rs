@@ -182,8 +182,8 @@ fn ended(worker: &mut Child) -> Option<End> {
     })
 }
 
-/// The program that runs now, and what stands before its commands (a script, where an interpreter carries us: that is called
-/// by the name that it was called by, which tells it its environment).
+/// The program that runs now, and what stands before its commands (a script, where an interpreter carries us:
+/// that is called by the name that it was called by, which tells it its environment).
 fn own_program() -> (PathBuf, Vec<OsString>) {
     let words: Vec<OsString> = std::env::args_os().collect();
     let command = words.iter().position(|w| w == "campaign").unwrap_or(1);
