@@ -2,6 +2,7 @@
 
 mod absurd;
 mod angle_tables;
+mod bodies_in_wind;
 mod defaults;
 mod differences;
 mod held;

@@ -37,6 +37,7 @@ mod free;
 mod impossible;
 mod interface;
 pub mod joints;
+mod late_gusts;
 mod light;
 mod memory;
 mod mirrored;

@@ -152,6 +152,22 @@ impl QuadMesh {
         }
     }
 
+    /// Mean width of the panels \[m\], weighted with their areas: area over the longest side.
+    pub fn mean_width(&self) -> f64 {
+        let [mut areas, mut widths] = [0.0; 2];
+        for q in 0..self.quads.len() {
+            let [a, b, c, d] = self.corners(q);
+            let area = 0.5 * (c - a).cross(d - b).length();
+            let sides = [[a, b], [b, c], [c, d], [d, a]].map(|[a, b]| a.distance(b));
+            let longest = sides.into_iter().fold(0.0, f64::max);
+            if longest > 0.0 {
+                areas += area;
+                widths += area * area / longest;
+            }
+        }
+        widths / areas
+    }
+
     /// Smallest and largest coordinate along each axis \[m\].
     pub fn bounds(&self) -> [DVec3; 2] {
         let far = DVec3::splat(f64::INFINITY);

@@ -21,8 +21,21 @@
 //! -p = rho (V' . x + 1/2 x . (H' + H H) x) + const
 //! ```
 //!
-//! Rates V', H' are differences over steps with the weights that the rate of the circulation has in the jump: what is
-//! added leaves no trace of its own order.
+//! Rates V', H' are differences over steps with the weights that the rate of the circulation has in the jump:
+//! what is added leaves no trace of its own order.
+//!
+//! Bernoulli's equation is that of irrotational air. In a wind U of vorticity w (a shear, a gust that travels)
+//! the body feels the pressure gradient of the wind itself, `rho DU/Dt`, where Bernoulli's equation has
+//! `rho (DU/Dt + W x w)`, W the velocity of the wind past the body. What the body does to that vorticity makes
+//! the rest a gradient again, to first order in w: a sphere in a shear has the lift `1/2 rho Vol W x w` [Auton
+//! 1987, J. Fluid Mech. 183], slender bodies in a gust have the force of its rate. So the outer pressure has
+//! besides
+//!
+//! ```text
+//! p = rho (g . x + 1/2 x . G x)        its gradient nearest to W x w in the volume, as H is to the velocity
+//! ```
+//!
+//! with `int w dVol = surface-integral n x U dA`, which knows fronts that jump, too.
 
 use crate::geometry::Panels;
 use crate::lattice::Lattice;
@@ -30,9 +43,11 @@ use crate::loads::rate::rate_weights;
 use crate::loads::values::AirLoads;
 use crate::state::{AirState, InnerFlow};
 use std::ops::Range;
-use wingbeat_math::{DMat3, DVec3, outer, solve_small, trace};
+use wingbeat_math::{DMat3, DVec3, outer, solve_small, tilde, trace};
 
-/// Adds to the panel forces of every closed surface what the inner fluid took.
+/// Adds to the panel forces of every closed surface what the inner fluid took, and makes of its pressure jumps
+/// ambient less outer pressure: so far as a constant goes by the dynamic pressure of the wind past its centroid,
+/// which is that of steady flow.
 pub(crate) fn outer_forces(lattice: &Lattice, state: &AirState, out: &mut AirLoads) {
     let rho = lattice.settings().density;
     let weights = rate_weights(lattice, state, out.dt);
@@ -46,20 +61,31 @@ pub(crate) fn outer_forces(lattice: &Lattice, state: &AirState, out: &mut AirLoa
         let solid = Solid::of(&out.panels, panels.clone());
         let now = solid.inner_flow(rho, &out.panels, panels.clone());
         out.inner.push(now);
-        if weights[0] == 0.0 {
-            continue; // without dGamma/dt the jump holds nothing of the inner fluid
+        let velocity = now.momentum / (rho * solid.volume);
+        let past = lattice.stream(solid.centroid, out.time) - velocity;
+        let stagnation = 0.5 * rho * past.length_squared();
+        let (mut gradient, mut bend) = (DVec3::ZERO, DMat3::ZERO);
+        // Without dGamma/dt the jump holds nothing of the inner fluid.
+        if weights[0] != 0.0 {
+            let flows = [now, state.inner[s], state.inner_before[s]];
+            let mut rate = InnerFlow::REST;
+            for (weight, flow) in weights.iter().zip(&flows) {
+                rate.momentum += *weight * flow.momentum;
+                rate.strain += flow.strain * *weight;
+            }
+            gradient = rate.momentum / solid.volume;
+            bend = (rate.strain + now.strain * now.strain) * (0.5 * rho);
         }
-        let flows = [now, state.inner[s], state.inner_before[s]];
-        let mut rate = InnerFlow::REST;
-        for (weight, flow) in weights.iter().zip(&flows) {
-            rate.momentum += *weight * flow.momentum;
-            rate.strain += flow.strain * *weight;
+        if !lattice.settings().wind.is_uniform() {
+            let lift = solid.lift_of_vorticity(lattice, velocity, out, panels.clone());
+            gradient -= rho * lift.0;
+            bend -= lift.1 * (0.5 * rho);
         }
-        let gradient = rate.momentum / solid.volume;
-        let bend = (rate.strain + now.strain * now.strain) * (0.5 * rho);
         for p in panels {
             let x = out.panels.point[p] - solid.centroid;
-            out.force[p] += (gradient.dot(x) + x.dot(bend * x)) * out.panels.vector_area[p];
+            let inner = gradient.dot(x) + x.dot(bend * x);
+            out.force[p] += inner * out.panels.vector_area[p];
+            out.pressure_jump[p] += inner - stagnation;
         }
     }
 }
@@ -119,6 +145,40 @@ impl Solid {
             momentum: rho * self.volume * velocity,
             strain: self.nearest_strain(through),
         }
+    }
+
+    /// Of the wind's velocity past the body times its vorticity, `W x w`: the mean [m/s2] and the gradient about
+    /// the centroid [1/s2], symmetric without trace, N components. The body has the velocity `velocity` \[m/s\].
+    fn lift_of_vorticity(
+        &self,
+        lattice: &Lattice,
+        velocity: DVec3,
+        loads: &AirLoads,
+        range: Range<usize>,
+    ) -> (DVec3, DMat3) {
+        let panels = &loads.panels;
+        let middle = lattice.stream(self.centroid, loads.time);
+        // Integrals over the volume: of the vorticity, of its moments `w x^T`, and of the wind less that at the
+        // centroid.
+        let (mut vorticity, mut moments) = (DVec3::ZERO, DMat3::ZERO);
+        let mut wind = DVec3::ZERO;
+        for p in range {
+            let x = panels.point[p] - self.centroid;
+            let u = lattice.stream(panels.point[p], loads.time) - middle;
+            let turn = panels.vector_area[p].cross(u);
+            vorticity += turn;
+            moments += DMat3::from_cols(turn * x.x, turn * x.y, turn * x.z);
+            wind += u * (x.dot(panels.vector_area[p]) / 4.0);
+        }
+        moments += tilde(wind); // less `e_j x int U dVol` in column j
+        let past = middle + wind / self.volume - velocity;
+        let lift = tilde(past) * moments;
+        let mut along = [0.0; 5];
+        for (sum, h) in along.iter_mut().zip(&QUADRATICS) {
+            *sum = trace(h.transpose() * lift);
+        }
+        let mean = past.cross(vorticity) / self.volume;
+        (mean, self.nearest_strain(along))
     }
 
     /// H from `surface-integral phi_i (v . n) dA`; none in a volume without extent in some direction.

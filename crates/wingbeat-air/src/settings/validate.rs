@@ -132,7 +132,11 @@ impl AirSettings {
         require(
             is_algebraic(self.bound_core) == self.is_symmetric(),
             "bound_core",
-            format!("{:?}", self.bound_core),
+            format!(
+                "{} beside {} in the wakes",
+                self.bound_core.name(),
+                self.wake_core.name()
+            ),
             "algebraic if and only if wake_core is: action equals reaction only if all filaments have cores of one kind; \
              set both",
         )?;

@@ -4,7 +4,7 @@ use crate::error::{AirError, require};
 use crate::images::{Mirror, Plane, ROUNDING};
 use crate::settings::street::VortexStreet;
 use crate::settings::turbulence::Turbulence;
-use wingbeat_math::{DMat3, DVec3, interpolate};
+use wingbeat_math::{DMat3, DVec3, interpolate, trace};
 
 /// How a gust rises and falls with its own time tau [s]: the share of its amplitude.
 #[derive(Clone, Debug, PartialEq)]
@@ -211,6 +211,13 @@ impl Wind {
     pub fn validate(&self) -> Result<(), AirError> {
         if let Some(shear) = self.shear {
             require(shear.is_finite(), "shear", shear, "finite numbers in 1/s")?;
+            let size = largest(shear.to_cols_array());
+            require(
+                trace(shear).abs() <= 1e-9 * size,
+                "shear",
+                trace(shear),
+                "a sum of 0 of the diagonal elements: air that flows apart everywhere loses its density",
+            )?;
         }
         if let Some(street) = &self.street {
             street.validate()?;

@@ -1,7 +1,9 @@
 //! Closed surfaces: potential flow about sphere and ellipsoid.
 
 use crate::common::{fly, order, sphere, total_force, translating};
-use wingbeat_air::{AirSettings, CirculationRate, Lattice, NodeMotion, Surface};
+use wingbeat_air::{
+    AirSettings, CirculationRate, Gust, GustShape, Lattice, NodeMotion, Surface, Wind,
+};
 use wingbeat_math::{DMat3, DVec3};
 
 const RHO: f64 = 1.3;
@@ -238,6 +240,74 @@ fn invariant_force_on_a_turning_ellipsoid_under_the_motion_of_the_observer() {
         still.distance(moving) < 1e-10 * moment,
         "{still} {moving} {moment}"
     );
+}
+
+/// Force on a body over `rho Vol` [m/s2] in the fourth step of 0.01, in this stream and wind, towed by `towed`.
+fn in_wind(n: usize, axes: DVec3, [stream, towed]: [DVec3; 2], wind: Wind) -> DVec3 {
+    let (lattice, nodes) = ellipsoid(n, axes, stream);
+    let settings = AirSettings {
+        wind,
+        ..lattice.settings().clone()
+    };
+    let lattice = Lattice::new(lattice.surfaces().to_vec(), settings).unwrap();
+    let at = |t: f64| nodes.iter().map(|x| *x + towed * t).collect();
+    let motion = |t| translating(at(t), towed);
+    let run = fly(&lattice, motion, 0.01, 4, |_, _, _, _| {}).unwrap();
+    total_force(&run.loads) / (RHO * volume(axes))
+}
+
+/// A weak shear across the stream lifts a sphere by half its displaced mass times `U x w` [Auton 1987, J. Fluid
+/// Mech. 183, 199], whatever the observer.
+#[test]
+fn exact_lift_of_a_sphere_in_a_shear() {
+    let shear = DMat3::from_cols(DVec3::ZERO, DVec3::ZERO, 0.01 * DVec3::X); // du/dz
+    let wind = Wind {
+        shear: Some(shear),
+        ..Wind::default()
+    };
+    let u = DVec3::new(-1.0, 0.0, 0.0);
+    let exact = 0.5 * u.cross(0.01 * DVec3::Y);
+    let error = |n: usize, flows: [DVec3; 2]| {
+        let force = in_wind(n, DVec3::ONE, flows, wind.clone());
+        (force - exact).length() / exact.length()
+    };
+    let [coarse, fine] = [6, 12].map(|n| error(n, [u, DVec3::ZERO]));
+    let towed = error(6, [DVec3::ZERO, -u]);
+    println!("sphere in a shear {coarse:.4} {fine:.4} {towed:.4}");
+    // First order: panels are flat.
+    assert!((2.0 * fine - coarse).abs() < 0.03 && order(coarse, fine) > 0.9);
+    assert!((towed - coarse).abs() < 1e-3);
+}
+
+/// A gust that the stream carries along, frozen, whose pressure is even: the force is that of the added mass
+/// alone, `k w_t`, a sphere's 1/2, and nearly 1 of a body eight times as long as wide; so it is where the body
+/// is towed through it.
+#[test]
+fn exact_force_of_a_frozen_gust_on_bodies() {
+    let (u, rate) = (DVec3::new(-10.0, 0.0, 0.0), 2.0);
+    let gust = |slowness: DVec3| Wind {
+        gusts: vec![Gust {
+            amplitude: DVec3::Z,
+            start: -2.0,
+            slowness,
+            shape: GustShape::Table(vec![(0.0, 0.0), (10.0, 10.0 * rate)]),
+        }],
+        ..Wind::default()
+    };
+    let slow = |slowness: f64| gust(slowness * DVec3::X);
+    for (axes, k) in [
+        (DVec3::ONE, 0.5),
+        (DVec3::new(2.0, 1.0, 1.0), spheroid_inertia(2.0, 1.0)[1]),
+    ] {
+        let [coarse, fine] = [6, 12].map(|n| in_wind(n, axes, [u, DVec3::ZERO], slow(-0.1)));
+        println!(
+            "gust on {axes}: {:.4} {:.4} of {k:.4}",
+            coarse.z / rate,
+            fine.z / rate
+        );
+        let error = |force: DVec3| (force.z / rate / k - 1.0).abs();
+        assert!(error(fine) < 0.05 && error(fine) < error(coarse));
+    }
 }
 
 /// The null space is removed: no circulation on average, no net flux, no air goes through; a

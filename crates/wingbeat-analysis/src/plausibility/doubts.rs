@@ -138,6 +138,17 @@ const BOUND_CORE_ACROSS: Limit = Limit {
     ],
 };
 
+/// Added mass of a sphere and of a spheroid ten times as long as wide is 4 and 29 % high with 0.28 and 0.65 of
+/// the width.
+const BOUND_CORE_OF_BODY: Limit = Limit {
+    low: 0.0,
+    high: 0.2,
+    hints: [
+        "",
+        "its added mass and moments come out high, the more so the more panels there are: give air.bound_core a tenth of the width or less, or the part fewer panels",
+    ],
+};
+
 const CLEARANCE: Limit = Limit {
     low: 0.0,
     high: 0.5,
@@ -173,8 +184,10 @@ pub(super) fn doubts(setup: &FlightSetup, e: &Estimate) -> Vec<String> {
         MotionMode::Tethered(_) => list.see(&TETHERED_LIFT, LIFT_NAME, e.lift_over_weight, ""),
     }
     joints::doubts(setup, e.frequency, &mut list);
+    bodies(setup, &mut list);
     let Doubts(mut list) = list;
     list.extend(air_from_behind(setup, e));
+    list.extend(setup.gusts_that_never_arrive());
     list.extend(drag_of_small_insects(setup, e));
     list.extend(doubtful_masses(setup));
     let mut said = std::collections::BTreeSet::new();
@@ -345,6 +358,20 @@ fn lattice_sizes(air: &AirOptions, wing: &Wing, chord: f64, list: &mut Doubts) {
     let what = "vortex core of the wing";
     list.see(&BOUND_CORE_ACROSS, what, across, " columns of panels");
     list.see(&CLEARANCE, "clearance", s.clearance / chord, " mean chords");
+}
+
+/// Bound core over the mean width of the panels of parts of the body.
+fn bodies(setup: &FlightSetup, list: &mut Doubts) {
+    let AirModel::VortexLattice(air) = &setup.air else {
+        return;
+    };
+    let parts = setup.animal.parts.iter().filter(|_| air.body_surfaces);
+    for part in parts {
+        let width = part.mesh.mean_width();
+        let core = radius(&air.lattice.bound_core).map(|r| r / width);
+        let what = format!("vortex core of the surfaces on the part `{}`", part.name);
+        list.see(&BOUND_CORE_OF_BODY, &what, core, " widths of its panels");
+    }
 }
 
 /// Radius of a core \[m\]; a cut-off has none.

@@ -1,18 +1,17 @@
 //! Lengths of the air in metres or in mean chords, and the cores of vortices.
 
 use wingbeat_air::CoreModel;
-use wingbeat_math::DVec3;
-use wingbeat_model::{Animal, BodyPart};
+use wingbeat_model::Animal;
 
 use super::fault::Built;
 use crate::error::Fault;
 use crate::raw::{AIR, CoreCase};
 
-/// The mean chord of all wings; of an animal without wings the largest extent of a part of its body.
+/// The mean chord of all wings; of an animal without wings the mean width of the panels of its body.
 pub(super) struct Chord(Option<f64>);
 
 impl Chord {
-    /// Area over length of all wings, or that extent \[m\].
+    /// Area over length of all wings, or that width \[m\].
     pub fn of(animal: &Animal) -> Self {
         let wings = animal.wing_reports();
         let [area, length] = [
@@ -22,14 +21,8 @@ impl Chord {
         if !wings.is_empty() {
             return Self(Some(area / length));
         }
-        let extent = |part: &BodyPart| {
-            let nodes = part.mesh.nodes.iter();
-            let [least, most] = nodes.fold([DVec3::INFINITY, DVec3::NEG_INFINITY], |[a, b], x| {
-                [a.min(*x), b.max(*x)]
-            });
-            (most - least).max_element()
-        };
-        Self(animal.parts.iter().map(extent).reduce(f64::max))
+        let widths = animal.parts.iter().map(|p| p.mesh.mean_width());
+        Self(widths.reduce(f64::min))
     }
 
     /// A length \[m\] that the case gives as `STEM_m` or `STEM_chords`; none where it gives neither.

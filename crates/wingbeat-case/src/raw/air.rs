@@ -58,7 +58,8 @@ pub struct AirCase {
     #[default(vec![EdgeKind::Trailing, EdgeKind::Tip, EdgeKind::Leading])]
     #[schemars(extend("with" = LATTICE))]
     pub shed: Vec<EdgeKind>,
-    /// Core of the vortex filaments on the surfaces. Default: algebraic, 0.01 mean chords.
+    /// Core of the vortex filaments on the surfaces. Default: algebraic, 0.01 mean chords; of animals without
+    /// wings 0.01 mean widths of the panels of their bodies, which stand for the chord there.
     ///
     /// Change it with care: a core wider than half a panel spoils the Kutta condition.
     #[default(LambOseenCase::chords(0.01))]

@@ -50,6 +50,17 @@ pub enum CoreModel {
 }
 
 impl CoreModel {
+    /// The name that case files have for its kind.
+    pub const fn name(&self) -> &'static str {
+        match self {
+            Self::CutOff { .. } => "cut_off",
+            Self::Vatistas { .. } => "vatistas",
+            Self::Scully { .. } => "scully",
+            Self::LambOseen { .. } => "lamb_oseen",
+            Self::Algebraic { .. } => "algebraic",
+        }
+    }
+
     /// Whether its numbers are finite and none is below 0.
     pub fn is_sound(&self) -> bool {
         let sound = |x: f64| x.is_finite() && x >= 0.0;
