@@ -30,6 +30,11 @@ pub struct Passive {
 }
 
 impl Mechanism {
+    /// Whether any joint has springs, dampers, stops or drives.
+    pub fn has_elements(&self) -> bool {
+        self.joints().iter().any(|j| !j.model.elements.is_empty())
+    }
+
     /// What springs, dampers and stops of each joint do at time `t` \[s\], in the order of the joints;
     /// `coordinates` are those of [`Self::coordinates`], with their rates.
     pub fn passive<'a>(

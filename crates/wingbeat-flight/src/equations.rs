@@ -86,6 +86,10 @@ pub struct Scratch {
     pub relative: [f64; 2],
     /// Power of what deforms each body against the air [W]; empty where nothing is deformed.
     pub deformation: Vec<f64>,
+    /// Coordinates along the free directions of all joints, with their rates [rad or m].
+    joints: Vec<[f64; 2]>,
+    /// Power that dampers and stops of joints take up [W].
+    dissipation: f64,
     dynamics: Workspace,
     /// Rates before the mirror has taken anything from them.
     rates: Vec<f64>,
@@ -118,6 +122,8 @@ impl Scratch {
             solution: Solution::new(system),
             relative: [0.0; 2],
             deformation: vec![0.0; if equations.air.deforms() { bodies } else { 0 }],
+            joints: vec![],
+            dissipation: 0.0,
             dynamics: equations.core.workspace(),
             rates: vec![],
             air_scratch: equations.air.scratch(),
@@ -219,6 +225,7 @@ impl Equations {
             false => relative_energy(self.core.system(), &s.motions, &s.solution.bodies),
         };
         self.deformation_power(t, s);
+        self.dissipation(t, s);
         self.quadrature_rates(s).write(dy);
         Ok(())
     }

@@ -3,10 +3,10 @@
 use wingbeat_math::DVec3;
 
 /// Quadratures appended to the state of the core.
-pub const QUADRATURES: usize = 10;
+pub const QUADRATURES: usize = 11;
 
 /// Which of them are works.
-pub(crate) const WORKS: [usize; 4] = [0, 1, 2, 9];
+pub(crate) const WORKS: [usize; 5] = [0, 1, 2, 9, 10];
 
 /// Works and impulses since the start.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -25,6 +25,8 @@ pub struct Quadratures {
     pub angular_impulse: DVec3,
     /// Work of what deforms the wings against the air [J].
     pub deformation_work: f64,
+    /// Energy that dampers and stops of joints took up [J].
+    pub dissipated: f64,
 }
 
 impl Quadratures {
@@ -38,6 +40,7 @@ impl Quadratures {
             impulse: DVec3::new(q[3], q[4], q[5]),
             angular_impulse: DVec3::new(q[6], q[7], q[8]),
             deformation_work: q[9],
+            dissipated: q[10],
         }
     }
 
@@ -56,6 +59,7 @@ impl Quadratures {
             m.y,
             m.z,
             self.deformation_work,
+            self.dissipated,
         ]);
     }
 }

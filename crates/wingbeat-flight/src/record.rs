@@ -182,9 +182,9 @@ impl Record {
         self.hinges.iter().zip(deforming).map(|(h, d)| h.power + d)
     }
 
-    /// Puts in what springs, dampers and stops of all joints do, by their coordinates; `work` is what they did
-    /// up to the record before.
-    pub fn count_passive(&mut self, mechanism: &Mechanism, work: &mut PassiveWork) {
+    /// Puts in what springs, dampers and stops of all joints do, by their coordinates; `work` makes of the time
+    /// [s] and of that the work up to this record [J].
+    pub fn put_passive(&mut self, mechanism: &Mechanism, work: impl FnOnce(f64, &Passive) -> f64) {
         let mut sum = Passive::default();
         for joint in mechanism.passive(self.time, &self.joints) {
             sum.power += joint.power;
@@ -192,7 +192,7 @@ impl Record {
             sum.dissipation += joint.dissipation;
         }
         self.passive_power = sum.power;
-        self.passive_work = work.count(self.time, &sum);
+        self.passive_work = work(self.time, &sum);
     }
 
     /// Power of all actuators and of all prescribed deformation [W].
@@ -223,28 +223,6 @@ impl AirImpulse {
     pub fn count(&mut self, time: f64, force: DVec3) -> DVec3 {
         self.sum += 0.5 * (time - self.time) * (self.force + force);
         (self.time, self.force) = (time, force);
-        self.sum
-    }
-}
-
-/// The work of springs, dampers and stops, counted step by step: what is stored by its difference, what is
-/// dissipated by the trapezoidal rule.
-#[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
-pub struct PassiveWork {
-    /// Time \[s\], energy stored \[J\], power dissipated \[W\].
-    last: Option<[f64; 3]>,
-    sum: f64,
-}
-
-impl PassiveWork {
-    /// Counts on to `time` [s], where all joints together do `now`; returns the work up to there [J]. The first
-    /// call sets the start.
-    fn count(&mut self, time: f64, now: &Passive) -> f64 {
-        if let Some([before, stored, dissipation]) = self.last {
-            let dissipated = 0.5 * (time - before) * (dissipation + now.dissipation);
-            self.sum += stored - now.stored - dissipated;
-        }
-        self.last = Some([time, now.stored, now.dissipation]);
         self.sum
     }
 }

@@ -12,7 +12,7 @@ use crate::equations::{Equations, Scratch};
 use crate::error::FlightError;
 use crate::memory::{AirMemory, wakes_of};
 use crate::quadratures::Quadratures;
-use crate::record::{AirImpulse, PassiveWork, Record};
+use crate::record::{AirImpulse, Record};
 use crate::turns;
 
 /// Below this |cos theta| Euler angles and their rates are not evaluated but kept: they lose
@@ -37,8 +37,8 @@ pub struct Ledger {
     pub rates: Vec<f64>,
     /// Coordinates along the free directions of all joints last recorded [rad or m].
     pub joints: Vec<f64>,
-    /// Work of springs, dampers and stops of the joints up to the last record.
-    pub passive: PassiveWork,
+    /// Energy stored in springs and stops of the joints at the start [J].
+    pub stored: Option<f64>,
     /// Regularised events of the air up to the last record.
     pub events: u64,
     /// Impulse of the air on all bodies up to the last record.
@@ -108,7 +108,10 @@ impl Sources<'_> {
         (r.step, r.time) = (step, time);
         self.write_motion(time, ledger, r)?;
         self.write_loads(r);
-        r.count_passive(&self.equations.mechanism, &mut ledger.passive);
+        let dissipated = Quadratures::from_state(self.y).dissipated;
+        r.put_passive(&self.equations.mechanism, |_, now| {
+            *ledger.stored.get_or_insert(now.stored) - now.stored - dissipated
+        });
         self.write_balances(ledger, r);
         self.write_air(time, ledger, r);
         Ok(())

@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
-use wingbeat_dynamics::Mechanism;
-use wingbeat_flight::record::{AirImpulse, PassiveWork};
+use wingbeat_dynamics::{Mechanism, Passive};
+use wingbeat_flight::record::AirImpulse;
 use wingbeat_flight::{AirModel, FlightSetup, Record, system_of};
 use wingbeat_math::DVec3;
 
@@ -100,7 +100,7 @@ impl Records {
             self.record.air_impulse = impulse.count(self.record.time, self.record.air_force());
         }
         if let Some((mechanism, work)) = &mut self.passive {
-            self.record.count_passive(mechanism, work);
+            (self.record).put_passive(mechanism, |time, now| work.count(time, now));
         }
         if self.takes_whole_for_inviscid {
             self.record.inviscid_impulse = self.record.air_impulse;
@@ -119,5 +119,27 @@ impl Records {
             }
         }
         Ok(())
+    }
+}
+
+/// The work of springs, dampers and stops where a history does not have it, counted step by step: what is stored
+/// by its difference, what is dissipated by the trapezoidal rule.
+#[derive(Clone, Copy, Debug, Default)]
+struct PassiveWork {
+    /// Time \[s\], energy stored \[J\], power dissipated \[W\].
+    last: Option<[f64; 3]>,
+    sum: f64,
+}
+
+impl PassiveWork {
+    /// Counts on to `time` [s], where all joints together do `now`; returns the work up to there [J]. The first
+    /// call sets the start.
+    fn count(&mut self, time: f64, now: &Passive) -> f64 {
+        if let Some([before, stored, dissipation]) = self.last {
+            let dissipated = 0.5 * (time - before) * (dissipation + now.dissipation);
+            self.sum += stored - now.stored - dissipated;
+        }
+        self.last = Some([time, now.stored, now.dissipation]);
+        self.sum
     }
 }

@@ -393,7 +393,8 @@ fn joints(case: &Case) -> Built<()> {
     for (name, joint) in &case.joint {
         let path = |key: &str| format!("joint.{name}.{key}");
         let JointCase { child, travel, .. } = joint;
-        let on_wing = is_wing(child) || joint.parent.as_deref().is_some_and(is_wing);
+        let carried = joint.parent.as_deref().is_some_and(is_wing);
+        let on_wing = is_wing(child) || carried && super::joint::carries(case, joint);
         if joint.at_child_m.is_some() && on_wing {
             return Err(idle(
                 path("at_child_m"),

@@ -16,6 +16,7 @@ use super::numbers::vector;
 use super::{element, segment, wing};
 use crate::error::Fault;
 use crate::raw::{Case, JointCase, JointKind, TravelCase, TurnCase};
+use crate::sides::mirror_name;
 
 /// All joints, those mirrored to left wings among them.
 pub(super) fn build_all(case: &Case, animal: &Animal) -> Built<Vec<Joint>> {
@@ -23,9 +24,10 @@ pub(super) fn build_all(case: &Case, animal: &Animal) -> Built<Vec<Joint>> {
     check_halves(case)?;
     let mut joints = vec![];
     for (name, joint) in &case.joint {
-        joints.push(build(case, animal, name, joint)?);
+        let carries = carries(case, joint);
+        joints.push(build(case, animal, name, joint, carries)?);
         if let Some((name, image)) = mirrored(case, animal, name, joint) {
-            joints.push(build(case, animal, &name, &image)?);
+            joints.push(build(case, animal, &name, &image, carries)?);
         }
     }
     segment::check_carried(animal, &joints)?;
@@ -50,12 +52,19 @@ fn check_scale(case: &Case) -> Built<()> {
     ))
 }
 
-fn build(case: &Case, animal: &Animal, name: &str, joint: &JointCase) -> Built<Joint> {
+/// A joint that carries its child or closes a loop.
+fn build(
+    case: &Case,
+    animal: &Animal,
+    name: &str,
+    joint: &JointCase,
+    carries: bool,
+) -> Built<Joint> {
     let path = format!("joint.{name}");
     let bodies = bodies(animal, &path, joint)?;
     check_hinge(case, animal, &path, joint, bodies)?;
     check_carrier(animal, &path, bodies)?;
-    let (anchor_parent, anchor_child) = anchors(animal, &path, joint, bodies)?;
+    let (anchor_parent, anchor_child) = anchors(case, animal, &path, (joint, carries), bodies)?;
     check_turn(animal, &path, joint, bodies)?;
     let frequency = case.motion.frequency_hz.value();
     let law = match &joint.turn {
@@ -174,9 +183,10 @@ fn check_turn(animal: &Animal, path: &str, joint: &JointCase, [_, child]: [usize
 
 /// Joint point on parent and child. On a wing it is given in wing axes from its hinge.
 fn anchors(
+    case: &Case,
     animal: &Animal,
     path: &str,
-    joint: &JointCase,
+    (joint, carries): (&JointCase, bool),
     [parent, child]: [usize; 2],
 ) -> Built<(DVec3, DVec3)> {
     let wings = animal.wings.len();
@@ -197,12 +207,53 @@ fn anchors(
         i if i <= wings => DVec3::ZERO,
         i => animal.segments[i - wings - 1].origin_b,
     };
-    let on_child = match wing(child) {
-        Some(_) => DVec3::ZERO,
-        None if wing(parent).is_some() => DVec3::ZERO,
-        None => joint.at_child_m.map_or(at, vector) - origin(child),
+    let names = body_names(animal);
+    let frames = [parent, child].map(|i| frame(case, animal, names[i]));
+    let on_child = match joint.at_child_m.map(vector) {
+        _ if wing(child).is_some() || carries && wing(parent).is_some() => DVec3::ZERO,
+        Some(given) => given - origin(child),
+        None if frames[0] == frames[1] => at - origin(child),
+        None if frames[1].is_some() => DVec3::ZERO,
+        None => {
+            return Err(Fault::new(
+                format!("{path}.at_child_m"),
+                format!(
+                    "this key is missing: `{}` moves with a wing, in whose axes at_m is, and `{}` does not",
+                    names[parent], names[child]
+                ),
+                "the joint point on the child in body axes",
+                "add `at_child_m = [..., ..., ...]`",
+            ));
+        }
     };
     Ok((at - origin(parent), on_child))
+}
+
+/// Whether this joint carries its child, and does not close a loop: the first joint of a child does.
+pub(super) fn carries(case: &Case, joint: &JointCase) -> bool {
+    let first = case.joint.values().find(|j| j.child == joint.child);
+    first.is_none_or(|first| first.parent == joint.parent)
+}
+
+/// The body on a wing, or the wing, whose axes and origin the points of the body `name` are given in; none of
+/// body axes.
+fn frame(case: &Case, animal: &Animal, name: &str) -> Option<String> {
+    let is_wing = |name: &str| animal.wings.iter().any(|w| w.name == name);
+    let carrier = |name: &str| case.joint.values().find(|j| j.child == name);
+    let mut body = name.to_owned();
+    // No chain is longer than there are joints.
+    for _ in 0..=case.joint.len() {
+        if is_wing(&body) {
+            return Some(body);
+        }
+        // Mirror images are carried as what they are images of.
+        let image = || mirror_name(&body).and_then(|other| carrier(&other));
+        match carrier(&body).or_else(image)?.parent.as_deref()? {
+            parent if is_wing(parent) => return Some(body),
+            parent => body = parent.to_owned(),
+        }
+    }
+    None
 }
 
 fn unit(key: &str, v: [f64; 3]) -> Built<DVec3> {

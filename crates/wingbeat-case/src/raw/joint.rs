@@ -58,14 +58,15 @@ pub struct JointCase {
     /// Change it to name the body that moves.
     pub child: String,
     /// Joint point in body axes in the reference configuration; where the parent is a wing, in wing axes from
-    /// its hinge. Left out for a wing: its hinge, which is no other place than `wing.NAME.hinge_m`.
+    /// its hinge, and where a wing carries the parent, in wing axes from the joint at the wing. Left out for a wing: its hinge, which is no other place than `wing.NAME.hinge_m`.
     ///
     /// Change it to what was measured.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub at_m: Option<[f64; 3]>,
-    /// Joint point on the child, likewise. Left out: `at_m`. Another point opens a gap that only a loop can
-    /// close. Not at a wing: a wing closes loops by its hinge, and a segment on a wing by its own joint's
-    /// point.
+    /// Joint point on the child, likewise. Left out: `at_m`. At a joint that closes a loop another point is a gap
+    /// that the loop closes; at one that carries its child it moves the child. Not where the child is a wing, which
+    /// closes loops by its hinge, or is carried by one. A segment that a wing carries closes loops by its own joint's
+    /// point if this is left out; it is needed where the parent moves with a wing and the child does not.
     ///
     /// Change it for links of a loop.
     #[serde(skip_serializing_if = "Option::is_none")]

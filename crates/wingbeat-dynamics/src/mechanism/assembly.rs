@@ -4,6 +4,7 @@
 use wingbeat_math::{DMat3, DQuat, DVec3};
 
 use super::form::{AbsoluteForm, AbsoluteScratch};
+use super::given::Given;
 use super::partition::{Dependent, NEARLY_SINGULAR, Partition, RANK_TOLERANCE, partition};
 use crate::error::quoted_once;
 use crate::{BodyMotion, DynamicsError};
@@ -30,14 +31,33 @@ impl AbsoluteForm {
         guess: &[BodyMotion],
         held: &[usize],
     ) -> Result<Vec<f64>, DynamicsError> {
+        let mut y = vec![0.0; self.dim()];
+        let motions = self.assembled(t, guess, held, false)?;
+        // Which coordinates follow from which is a choice: those that joints are given for the start need not.
+        let starts = |m: &[BodyMotion]| self.mechanism().check_starts(m).is_ok();
+        let kept = match starts(&motions) {
+            true => None,
+            false => self.assembled(t, guess, held, true).ok(),
+        };
+        let motions = kept.filter(|m| starts(m)).unwrap_or(motions);
+        self.pack(&motions, &mut y);
+        Ok(y)
+    }
+
+    /// Motions that fulfil all constraints; with `keeps` those, too, that joints are given for the start.
+    fn assembled(
+        &self,
+        t: f64,
+        guess: &[BodyMotion],
+        held: &[usize],
+        keeps: bool,
+    ) -> Result<Vec<BodyMotion>, DynamicsError> {
         let mut s = self.scratch();
         s.motions.copy_from_slice(guess);
         let free = self.free_columns(held);
-        self.close(t, &mut s, &free)?;
-        self.match_velocities(t, &mut s, &free)?;
-        let mut y = vec![0.0; self.dim()];
-        self.pack(&s.motions, &mut y);
-        Ok(y)
+        self.close(t, &mut s, &free, keeps)?;
+        self.match_velocities(t, &mut s, &free, keeps)?;
+        Ok(s.motions)
     }
 
     /// Names of joints that nearly ask for the same thing twice where the bodies are like `motions` at
@@ -66,14 +86,21 @@ impl AbsoluteForm {
     }
 
     /// Newton's iteration for the positions.
-    fn close(&self, t: f64, s: &mut AbsoluteScratch, free: &[bool]) -> Result<(), DynamicsError> {
+    fn close(
+        &self,
+        t: f64,
+        s: &mut AbsoluteScratch,
+        free: &[bool],
+        keeps: bool,
+    ) -> Result<(), DynamicsError> {
         self.find_rows(t, s);
         let mut size = self.residual(s).0;
         for iteration in 0..=ITERATIONS {
             if size <= TOLERANCE * (1.0 + self.far(s)) {
                 return self.check_branches(t, s);
             }
-            let p = self.eliminated(s, free, |r| -r.value);
+            let given = self.given(t, &s.motions, 0, keeps);
+            let p = self.eliminated_with(given, s, free, |r| -r.value);
             let start = s.motions.clone();
             let mut factor = 1.0;
             let better = loop {
@@ -135,6 +162,20 @@ impl AbsoluteForm {
         self.eliminated_to(RANK_TOLERANCE, s, free, what)
     }
 
+    /// The same beside what joints are given for the start.
+    fn eliminated_with(
+        &self,
+        given: Given,
+        s: &AbsoluteScratch,
+        free: &[bool],
+        what: impl Fn(&super::joint::Row) -> f64,
+    ) -> Partition {
+        let (mut a, mut b) = self.scaled(s, free.len(), what);
+        a.extend(given.0);
+        b.extend(given.1);
+        partition(a, b, free, RANK_TOLERANCE)
+    }
+
     /// The same with pivots below `zero` taken for zero.
     fn eliminated_to(
         &self,
@@ -143,12 +184,23 @@ impl AbsoluteForm {
         free: &[bool],
         what: impl Fn(&super::joint::Row) -> f64,
     ) -> Partition {
+        let (a, b) = self.scaled(s, free.len(), what);
+        partition(a, b, free, zero)
+    }
+
+    /// Rows of the scaled constraints in `n` columns, and their right-hand sides.
+    fn scaled(
+        &self,
+        s: &AbsoluteScratch,
+        n: usize,
+        what: impl Fn(&super::joint::Row) -> f64,
+    ) -> (Vec<Vec<f64>>, Vec<f64>) {
         let length = self.mechanism().units().length;
         let (mut a, mut b) = (vec![], vec![]);
         for (joint, r) in Self::rows(s) {
             let joint = &self.mechanism().joints()[*joint];
             let unit = if r.is_length { 1.0 / length } else { 1.0 };
-            let mut row = vec![0.0; free.len()];
+            let mut row = vec![0.0; n];
             for (body, f) in [(joint.parent, &r.parent), (Some(joint.child), &r.child)] {
                 for (c, x) in body.into_iter().flat_map(|b| {
                     let columns = (0..6).map(move |c| 6 * b + c);
@@ -161,7 +213,7 @@ impl AbsoluteForm {
             a.push(row);
             b.push(what(r) * unit);
         }
-        partition(a, b, free, zero)
+        (a, b)
     }
 
     /// Velocities that fulfil the constraints, and the check for what is asked twice.
@@ -170,8 +222,10 @@ impl AbsoluteForm {
         t: f64,
         s: &mut AbsoluteScratch,
         free: &[bool],
+        keeps: bool,
     ) -> Result<(), DynamicsError> {
-        let p = self.eliminated(s, free, |r| -r.rate);
+        let given = self.given(t, &s.motions, 1, keeps);
+        let p = self.eliminated_with(given, s, free, |r| -r.rate);
         self.refuse_contradiction(t, s, &p)?;
         self.refuse_redundance(t, s)?;
         let length = self.mechanism().units().length;

@@ -10,6 +10,7 @@
 pub(crate) mod assembly;
 mod equations;
 pub(crate) mod form;
+mod given;
 pub(crate) mod joint;
 pub(crate) mod partition;
 mod starts;

@@ -193,6 +193,15 @@ impl Equations {
         (self.air).deformation_power(&at, accelerations, &s.air_scratch, &mut s.deformation);
     }
 
+    /// What dampers and stops of joints take up at the state last evaluated.
+    pub(super) fn dissipation(&self, t: f64, s: &mut Scratch) {
+        if self.mechanism.has_elements() {
+            (self.mechanism).coordinates(t, &s.motions, &mut s.joints);
+            let joints = self.mechanism.passive(t, &s.joints);
+            s.dissipation = joints.map(|j| j.dissipation).sum();
+        }
+    }
+
     /// Powers and external forces at the state last evaluated.
     pub(super) fn quadrature_rates(&self, s: &Scratch) -> Quadratures {
         let power = |loads: &[Wrench]| -> f64 {
@@ -208,6 +217,7 @@ impl Equations {
             impulse,
             angular_impulse,
             deformation_work: deformation,
+            dissipated: s.dissipation,
         }
     }
 }

@@ -243,7 +243,8 @@ impl Dop853 {
             third += (gap / unit).powi(2);
         }
         let sum = fifth + 0.01 * third;
-        let n = self.scales.len() as f64;
+        // Components of infinite scale follow and do not count.
+        let n = self.scales.iter().filter(|s| s.is_finite()).count().max(1) as f64;
         if sum > 0.0 {
             h.abs() * fifth / (n * sum).sqrt()
         } else {
