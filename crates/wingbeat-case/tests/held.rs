@@ -121,3 +121,20 @@ segment.bob = { mass_kg = 0.1, centre_m = [0, 0, 0], inertia_about_centre_kg_m2 
         }
     }
 }
+
+#[test]
+fn behaves_an_animal_that_is_held_all_the_time_is_named() {
+    let said = |beats: &str| {
+        let set = [
+            format!("time.beats={beats}"),
+            "flight.held_beats=2".to_owned(),
+        ];
+        let setup = LoadedCase::find("fruit-fly-blade", &set).unwrap().setup;
+        let doubts = wingbeat_analysis::estimate(&setup).doubts;
+        doubts
+            .iter()
+            .filter(|d| d.contains("flight.held_beats"))
+            .count()
+    };
+    assert_eq!([said("2"), said("3")], [1, 0]);
+}

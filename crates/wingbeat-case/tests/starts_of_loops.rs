@@ -1,4 +1,4 @@
-//! Joints of a closed loop that start as they are told, whichever of them is.
+//! Joints of a closed loop that start as they are told, whichever of them is; names of joints.
 
 use std::path::Path;
 use wingbeat_case::LoadedCase;
@@ -63,6 +63,21 @@ fn exact_starts_of_a_parallelogram_whichever_joint_is_told() {
             );
         }
     }
+}
+
+#[test]
+fn refuses_joints_whose_columns_are_the_same() {
+    let set: Vec<String> = ["joint.tail-1", "joint.tail_1"]
+        .into_iter()
+        .map(|path| format!("{path}={{ child = \"abdomen\", at_m = [0, 0, 0] }}"))
+        .collect();
+    let error = LoadedCase::find("fruit-fly-abdomen", &set)
+        .unwrap_err()
+        .to_string();
+    assert!(
+        error.contains("joint.tail_1") && error.contains("columns"),
+        "{error}"
+    );
 }
 
 #[test]

@@ -65,9 +65,12 @@ impl AppliedLoad {
     }
 }
 
+/// Rounding of places on bodies, over their distance from the origins of these.
+const ROUNDING: f64 = 1e-12;
+
 impl PointSpring {
     /// The wrenches on its two bodies, moving so, about their origins, N components: equal and opposite
-    /// forces. Nothing where its ends meet, for it has no direction there.
+    /// forces. Nothing where its ends meet, to the rounding of their places, for it has no direction there.
     pub fn wrenches(&self, motions: [&BodyMotion; 2]) -> [Wrench; 2] {
         let arms = [0, 1].map(|k| motions[k].r * self.points[k]);
         let velocity = |k: usize| {
@@ -76,7 +79,8 @@ impl PointSpring {
         };
         let apart = motions[1].p + arms[1] - (motions[0].p + arms[0]);
         let length = apart.length();
-        let tension = match length > 0.0 {
+        let reach = arms.iter().map(|a| a.length()).fold(self.rest, f64::max);
+        let tension = match length > ROUNDING * reach {
             true => {
                 let rate = apart.dot(velocity(1) - velocity(0)) / length;
                 self.stiffness * (length - self.rest) + self.damping * rate
@@ -110,6 +114,32 @@ mod tests {
             r: m.r * turn,
             ..*m
         }
+    }
+
+    /// Where the ends of a spring meet to the rounding of their places it has no direction, and no force.
+    #[test]
+    fn exact_no_force_of_a_spring_whose_ends_meet() {
+        let at = |x: f64| BodyMotion {
+            p: DVec3::new(x, 0.1, -0.3),
+            ..BodyMotion::REST
+        };
+        let spring = PointSpring {
+            name: "tendon".to_owned(),
+            bodies: [0, 1],
+            points: [DVec3::ZERO, DVec3::new(0.0, 0.0, -0.1)],
+            stiffness: 3.0,
+            rest: 0.1,
+            damping: 0.0,
+        };
+        let force = |x: f64| {
+            let second = BodyMotion {
+                p: DVec3::new(x, 0.1, -0.2),
+                ..BodyMotion::REST
+            };
+            spring.wrenches([&at(0.0), &second])[0].force
+        };
+        assert_eq!(force(1e-17), DVec3::ZERO);
+        assert!((force(1e-6).x + 0.3).abs() < 1e-5, "{}", force(1e-6));
     }
 
     /// A spring between points off the origins of two bodies that move and turn: its wrenches have

@@ -56,7 +56,10 @@ fn placeholder(of: Of) -> Subject {
         Of::Wings | Of::Deforming | Of::Elastic | Of::Commanded => ("wing_NAME", "a wing"),
         Of::Children => ("CHILD", "a wing or segment"),
         Of::Connections | Of::Orientations => ("N", "N"),
-        Of::Coordinates => ("JOINT", "coordinate of a joint"),
+        Of::Coordinates => (
+            "JOINT",
+            "coordinate of a joint (of a spherical one its rotation vector; the rates are its angular velocity, child axes)",
+        ),
         Of::Loops => ("NAME", "a joint"),
     };
     Subject::new(name.to_owned(), words, Kind::Flight, 0)

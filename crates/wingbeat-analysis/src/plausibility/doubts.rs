@@ -259,6 +259,14 @@ fn drag_of_small_insects(setup: &FlightSetup, e: &Estimate) -> Option<String> {
 
 /// Weight, lift and inertia of a flyer that nothing holds.
 fn free_flight(setup: &FlightSetup, e: &Estimate, list: &mut Doubts) {
+    if let MotionMode::Free(start) = &setup.mode
+        && start.held_steps >= setup.time.steps
+    {
+        list.0.push(
+            "the animal is held for as long as it is flown (flight.held_beats): fly longer (time), or mode = \"tethered\""
+                .to_owned(),
+        );
+    }
     list.see(&WING_LOADING, "wing loading", e.wing_loading, " N/m2");
     let of_lift = match e.lift_over_weight {
         Some(lift) if lift < 0.0 => &LIFT_DOWN,

@@ -11,7 +11,7 @@ use wingbeat_model::Animal;
 use super::fault::Built;
 use super::flight::bends;
 use super::mirrored::{check_halves, mirrored};
-use super::names::body_names;
+use super::names::{body_names, column_name};
 use super::numbers::vector;
 use super::{element, segment, wing};
 use crate::error::Fault;
@@ -31,7 +31,27 @@ pub(super) fn build_all(case: &Case, animal: &Animal) -> Built<Vec<Joint>> {
         }
     }
     segment::check_carried(animal, &joints)?;
+    check_names(&joints)?;
     Ok(joints)
+}
+
+/// Each joint needs columns of its own in the history.
+fn check_names(joints: &[Joint]) -> Built<()> {
+    for (k, second) in joints.iter().enumerate() {
+        let alike = |first: &&Joint| column_name(&first.name) == column_name(&second.name);
+        if let Some(first) = joints[..k].iter().find(alike) {
+            return Err(Fault::new(
+                format!("joint.{}", second.name),
+                format!(
+                    "its columns in the history could not be told from those of `joint.{}`",
+                    first.name
+                ),
+                "names that differ in letters or digits, not only in other signs",
+                "give one of the two another name",
+            ));
+        }
+    }
+    Ok(())
 }
 
 /// What has no law of size is not scaled.
