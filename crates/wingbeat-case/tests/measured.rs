@@ -230,6 +230,20 @@ fn behaves_air_from_behind_and_drag_of_small_insects_are_named() {
     }
 }
 
+#[test]
+fn behaves_a_force_of_feathering_that_jumps_is_named() {
+    let doubts = |set: &[String]| {
+        let case = LoadedCase::find("bumblebee-blade", set).unwrap();
+        wingbeat_analysis::estimate(&case.setup).doubts.join("\n")
+    };
+    let named = doubts(&["air.blade.rotation=sane_dickinson".to_owned()]);
+    assert!(
+        named.contains("air.blade.rotation") && named.contains("jumps"),
+        "{named}"
+    );
+    assert!(!doubts(&[]).contains("jumps"));
+}
+
 /// Rotation angles of other conventions, or signs, hardly change the lift, which a plate has both ways round.
 #[test]
 fn behaves_wings_that_fly_with_the_trailing_edge_ahead_are_named() {

@@ -1,6 +1,7 @@
 //! What of an estimate is implausible: a number outside wide limits.
 
 use wingbeat_air::CoreModel;
+use wingbeat_blade::Rotation;
 use wingbeat_flight::{AirModel, AirOptions, FlightSetup, MotionMode, doubtful_masses};
 use wingbeat_math::DVec3;
 use wingbeat_model::{DeformingMesh, Wing};
@@ -176,6 +177,7 @@ pub(super) fn doubts(setup: &FlightSetup, e: &Estimate) -> Vec<String> {
     let Doubts(mut list) = list;
     list.extend(air_from_behind(setup, e));
     list.extend(drag_of_small_insects(setup, e));
+    list.extend(jumping_rotation(setup));
     list.extend(doubtful_masses(setup));
     let mut said = std::collections::BTreeSet::new();
     for (wing, w) in setup.animal.wings.iter().zip(&e.wings) {
@@ -219,6 +221,16 @@ fn air_from_behind(setup: &FlightSetup, e: &Estimate) -> Option<String> {
             false => "correct the signs of flight.velocity_m_s and air.stream_m_s, or turn the animal (flight.yaw_deg)".to_owned(),
         };
         format!("the air comes from behind at {} m/s: {remedy}", rounded(-speed))
+    })
+}
+
+/// Blade elements whose force of feathering jumps: no derivative of them is known.
+pub fn jumping_rotation(setup: &FlightSetup) -> Option<String> {
+    let AirModel::BladeElement(air) = &setup.air else {
+        return None;
+    };
+    (air.blade.rotation == Rotation::SaneDickinson).then(|| {
+        "air.blade.rotation = sane_dickinson has a force that jumps where the air along a chord reverses while it meets the wing broadside: derivatives, modes of flight and gains of feedback are differences across these jumps, and change with the time steps without end (look at them with other --steps); \"circulation\" is smooth".to_owned()
     })
 }
 

@@ -2,8 +2,8 @@
 
 use serde_json::{Map, Value, json};
 use wingbeat::analysis::{
-    Bound, Residuals, TrimProblem, TrimSolution, UNKNOWNS, Unknown, UnknownKind, stroke_amplitude,
-    turned_inside_out,
+    Bound, Residuals, TrimProblem, TrimSolution, UNKNOWNS, Unknown, UnknownKind, jumping_rotation,
+    stroke_amplitude, turned_inside_out,
 };
 use wingbeat::case::LoadedCase;
 use wingbeat::flight::FlightSetup;
@@ -109,6 +109,11 @@ fn warn(report: &mut Report, t: &TrimSolution, setup: &FlightSetup) {
         ),
         false => (crossing_wings.iter()).for_each(|text| tell!("warning: {text}")),
     }
+    let jumps = jumping_rotation(setup);
+    if let Some(text) = &jumps {
+        tell!("warning: {text}");
+    }
+    report.value("derivatives_in_doubt", jumps);
     report.value("stroke_deg", stroke);
     report.value("crossing_wings", crossing_wings);
     if let Some(unknown) = turned_inside_out(&t.unknowns, &t.values) {
