@@ -216,6 +216,15 @@ fn behaves_air_from_behind_and_drag_of_small_insects_are_named() {
         &[&backwards[..], &["air.model=none"]].concat(),
     );
     assert!(!vacuum.contains("from behind"), "{vacuum}");
+    // A hover by rounding, and a climb of tables without wings, whose air comes from ahead or from nowhere.
+    let table = |velocity: &str| {
+        let set = format!("flight.velocity_m_s={velocity}");
+        said("table1-sun-2007", &[&set])
+    };
+    for none in ["[-1e-19,0,0]", "[-1e-17,0,-0.2]"] {
+        assert!(!table(none).contains("from behind"), "{none}");
+    }
+    assert!(table("[-5,0,0]").contains("from behind"));
     let fast = ["air.stream_m_s=[-20,0,0]"];
     let drag = said("hawkmoth-blade", &fast);
     assert!(drag.contains("times the friction of a plate"), "{drag}");

@@ -198,9 +198,12 @@ pub(super) fn doubts(setup: &FlightSetup, e: &Estimate) -> Vec<String> {
     list
 }
 
-/// Flight backwards at a speed that counts beside that of the tips: no animal's, but of streams with a wrong sign.
+/// Flight backwards at a speed that counts beside that of the tips, without wings beside that of a fall over a
+/// wingbeat: no animal's, but of streams with a wrong sign.
 fn air_from_behind(setup: &FlightSetup, e: &Estimate) -> Option<String> {
     const COUNTS: f64 = 0.3;
+    // Of nothing at all beside nothing: a micrometre a second is no flight.
+    const ROUNDING: f64 = 1e-6;
     if matches!(setup.air, AirModel::None) {
         return None;
     }
@@ -208,7 +211,9 @@ fn air_from_behind(setup: &FlightSetup, e: &Estimate) -> Option<String> {
     let forward = root.r.x_axis.with_z(0.0).normalize_or_zero();
     let speed = (root.v - stream(&setup.air)).dot(forward);
     let tips = e.wings.iter().map(|w| w.tip_speed).fold(0.0, f64::max);
-    (speed < 0.0 && -speed > COUNTS * tips).then(|| {
+    let fall = setup.gravity.length() * setup.time.period.unwrap_or(1.0);
+    let size = if e.wings.is_empty() { fall } else { tips };
+    (-speed > COUNTS * size && -speed > ROUNDING).then(|| {
         let remedy = match root.v == DVec3::ZERO {
             true => {
                 let faced = stream(&setup.air) + 2.0 * speed * forward;
