@@ -173,7 +173,16 @@ pub(super) fn values(unknowns: &[Unknown], t: &TrimSolution) -> Map<String, Valu
         let (_, unit, value) = value(*u, t);
         (format!("{}{unit}", u.name()), json!(value))
     };
-    unknowns.iter().map(one).collect()
+    let mut values: Map<String, Value> = unknowns.iter().map(one).collect();
+    for u in unknowns
+        .iter()
+        .filter(|u| u.kind() == UnknownKind::WingLengths)
+    {
+        // As bounds of it are given.
+        let key = format!("{}_forward_wing_lengths", u.name());
+        values.insert(key, json!(t.value(*u)));
+    }
+    values
 }
 
 /// An unknown in words; the unit its name ends with for programs, and the value in it.
@@ -190,7 +199,17 @@ fn value(u: Unknown, t: &TrimSolution) -> (String, &'static str, f64) {
         _ => (x, 5),
     };
     let told = if unit == "deg" { shown } else { x };
-    (format!("{} {unit}", signed(shown, places)), suffix, told)
+    let also = match u.kind() {
+        UnknownKind::WingLengths => {
+            format!(" ({} wing lengths)", signed(t.value(u).unwrap_or(0.0), 4))
+        }
+        _ => String::new(),
+    };
+    (
+        format!("{} {unit}{also}", signed(shown, places)),
+        suffix,
+        told,
+    )
 }
 
 /// The unit of an unknown: as the end of its name for programs, and in words.
@@ -203,8 +222,8 @@ fn unit(u: Unknown) -> [&'static str; 2] {
     }
 }
 
-/// A bound as it is given, `NAME=FROM..TO`: angles in degrees, relative changes as parts of 1, `mass_centre` in wing
-/// lengths.
+/// A bound as it is given, `NAME=FROM..TO`: angles in degrees, relative changes as parts of 1, `feathering_lead` in
+/// wingbeats, `mass_centre` in wing lengths.
 pub(super) fn bound(text: &str) -> Result<Bound, String> {
     let parts = text.split_once('=').and_then(|(name, range)| {
         let (from, to) = range.split_once("..")?;
