@@ -39,7 +39,8 @@ pub fn problem(
         bounds: vec![],
         steps: Some(steps),
     };
-    let mut problem = request.problem(&flight.setup);
+    let problem = request.problem(&flight.setup);
+    let mut problem = problem.map_err(|e| raised(py, &e.into()))?;
     let limits = bounds.iter().map(|b| limits(py, b, &problem.unknowns));
     problem.bounds = limits.collect::<PyResult<_>>()?;
     Ok(problem)

@@ -169,7 +169,7 @@ impl Trimming {
             bounds: self.bound.clone(),
             steps: self.steps,
         };
-        let problem = request.problem(&case.setup);
+        let problem = request.problem(&case.setup)?;
         self.check_bounds(&problem)?;
         Ok(problem)
     }
