@@ -131,6 +131,51 @@ fn behaves_a_trim_that_turns_strokes_inside_out_is_none() {
     assert!(said.contains("a stroke is turned inside out"), "{said}");
 }
 
+/// What a trim cannot keep of the start of its case is refused by its key, and what it can is kept.
+#[test]
+fn refuses_a_roll_and_a_heading_that_the_trimmed_flight_does_not_have() {
+    let dir = &Scratch::new("start").0;
+    let fly = |set: &'static str| ["trim", "fruit-fly-blade", "--steps", "40", "--set", set];
+    for (set, key) in [
+        (
+            "flight.roll_deg=10",
+            "a roll of 10 degrees (flight.roll_deg)",
+        ),
+        ("flight.yaw_deg=30", "a yaw of 30 degrees (flight.yaw_deg)"),
+    ] {
+        let said = refused(dir, 2, &fly(set));
+        assert!(said.contains(key), "{said}");
+    }
+    let six = "--unknowns body_pitch stroke_amplitude stroke_offset stroke_offset_difference stroke_amplitude_difference stroke_plane_difference --sideslip 0.1";
+    let six: Vec<&str> = six.split(' ').collect();
+    let kept = |set| said(dir, &[&fly(set)[..], &six].concat());
+    assert_ne!(kept("flight.roll_deg=2"), kept("flight.roll_deg=3"));
+    let oblique = ["--set", "gravity_m_s2=[1,0,9.7]", "--turn-rate", "300"];
+    let turn = refused(dir, 2, &[&fly("time.beats=2")[..], &oblique].concat());
+    assert!(
+        turn.contains("gravity_m_s2 = [1, 0, 9.7]") && !turn.contains("stream"),
+        "{turn}"
+    );
+}
+
+/// A bound of the mass centre is in wing lengths, and so is what is found, beside millimetres.
+#[test]
+fn agrees_a_mass_centre_in_millimetres_with_one_in_wing_lengths() {
+    let dir = &Scratch::new("forward").0;
+    let unknowns = "trim fruit-fly-blade --steps 40 --unknowns mass_centre stroke_amplitude body_pitch --bound mass_centre=-0.5..0.5 --json";
+    let unknowns: Vec<&str> = unknowns.split(' ').collect();
+    let told: serde_json::Value = serde_json::from_str(&said(dir, &unknowns)).unwrap();
+    let found = &told["unknowns"];
+    let number = |key: &str| found[key].as_f64().unwrap();
+    let [metres, lengths] =
+        ["mass_centre_forward_m", "mass_centre_forward_wing_lengths"].map(number);
+    // A wing of 2.5 mm.
+    assert!(
+        (metres / lengths / 2.5e-3 - 1.0).abs() < 0.05,
+        "{metres} {lengths}"
+    );
+}
+
 /// Refusals before anything is flown have exit code 2.
 #[test]
 fn refuses_what_has_no_map_of_a_beat() {
