@@ -155,7 +155,7 @@ fn names_of(unknowns: &[Unknown]) -> Vec<&'static str> {
 }
 
 /// Sideslip and turn in words, where there are any.
-fn sideslip_and_turn(problem: &TrimProblem) -> String {
+pub(super) fn sideslip_and_turn(problem: &TrimProblem) -> String {
     let (right, turn) = (problem.velocity.y, problem.turn_rate.to_degrees());
     let slip = match right {
         0.0 => String::new(),
