@@ -110,23 +110,35 @@ fn cheapest(report: &mut Report, found: &Sweep) {
     let forward = |f: &Swept| f.velocity.x;
     let ends = [found.flights.first(), found.flights.last()].map(|f| f.map(forward));
     let least = [
-        ("power", "least_power_forward_m_s", found.least_power()),
+        (
+            "power",
+            "least_power",
+            found.least_power(),
+            found.least_power_forward(),
+        ),
         (
             "work per distance",
-            "least_work_per_distance_forward_m_s",
+            "least_work_per_distance",
             found.least_work(),
+            found.least_work_forward(),
         ),
     ];
-    for (what, key, flight) in least {
+    for (what, key, flight, between) in least {
         let Some(v) = flight.map(forward) else {
             continue;
         };
-        let note = match ends.contains(&Some(v)) {
-            true => ", the end of what was swept: look beyond it",
-            false => "",
+        let note = match (ends.contains(&Some(v)), between) {
+            (true, _) => ", the end of what was swept: look beyond it".to_owned(),
+            (false, Some(at)) => {
+                format!(
+                    " of these; between them, by the parabola through the nearest three, at {at:.3} m/s"
+                )
+            }
+            (false, None) => " of these".to_owned(),
         };
         line!(report, "  least {what} at {v:.3} m/s{note}");
-        report.value(key, v);
+        report.value(&format!("{key}_forward_m_s"), v);
+        report.value(&format!("{key}_interpolated_forward_m_s"), between);
     }
 }
 
