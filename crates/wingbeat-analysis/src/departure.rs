@@ -23,7 +23,8 @@ pub struct Departure {
     pub look: usize,
     /// Mass centre relative to where the reference flight would be, level frame [m].
     pub position: DVec3,
-    /// Velocity, angular velocity and tilt at this instant, less those of the reference flight.
+    /// Velocity relative to axes that move with the mean velocity of the reference flight, angular velocity and
+    /// tilt at this instant, less those of the reference flight.
     pub state: Perturbation,
 }
 
@@ -43,7 +44,7 @@ impl Departure {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Reference {
     level: Level,
-    /// What is seen at the start of a beat of the reference flight.
+    /// What is seen at the start of a beat of the reference flight, velocity less the mean one.
     state: Perturbation,
     /// Mean velocity, N components [m/s].
     velocity: DVec3,
@@ -56,10 +57,12 @@ impl Reference {
     /// Numbers that are not finite.
     pub fn trimmed(trim: &Trim) -> Result<Self, AnalysisError> {
         let level = Level::of(&trim.beat, &trim.state);
+        let velocity = trim.mean_velocity()?;
+        let seen = Perturbation::of(&trim.beat, &level, &trim.state);
         Ok(Self {
-            state: Perturbation::of(&trim.beat, &level, &trim.state),
+            state: seen.relative_to(&level, velocity),
             level,
-            velocity: trim.mean_velocity()?,
+            velocity,
         })
     }
 
@@ -67,8 +70,9 @@ impl Reference {
     /// velocity `velocity` [m/s], both N components.
     pub fn begun(sensed: &Sensed, gravity: DVec3, velocity: DVec3) -> Self {
         let level = Level::new(sensed.root.r, gravity);
+        let own = sensed.velocity - velocity;
         Self {
-            state: Perturbation::seen(&level, sensed.root.r, sensed.velocity, sensed.root.w),
+            state: Perturbation::seen(&level, sensed.root.r, own, sensed.root.w),
             level,
             velocity,
         }
@@ -83,8 +87,8 @@ impl Reference {
     /// The same from the reference flight brought to `aim`, which is relative to it.
     pub fn departure_on(&self, aim: &Aim, sensed: &Sensed, origin: DVec3) -> Departure {
         let level = self.level.turned(aim.heading);
-        let root = &sensed.root;
-        let seen = Perturbation::seen(&level, root.r, sensed.velocity, root.w).to_array();
+        let (root, own) = (&sensed.root, sensed.velocity - self.velocity);
+        let seen = Perturbation::seen(&level, root.r, own, root.w).to_array();
         let mut state = self.state;
         state.velocity += level.to_n.transpose() * aim.velocity;
         state.rate.z += aim.heading_rate;

@@ -1,17 +1,19 @@
 //! A steady flight that is disturbed: what begins beside a trimmed flight, to see whether it comes back or is held.
 //!
 //! The whole flyer is turned by the rotation T of [`Perturbation::tilt`], which is seen in the level frame F of
-//! the steady attitude, and its velocities with it; then velocities are added:
+//! the steady attitude; then velocities are added:
 //!
 //! | quantity | steady | disturbed |
 //! |---|---|---|
 //! | attitude, root to N | `r` | `turn r`, with `turn = R_NF T R_NF^T` |
-//! | velocity, N components | `v` | `turn v + push` |
+//! | velocity of the mass centre, N components | `v` | modes: `turn v + R_NF T velocity` |
+//! | | | flights that begin: `V + turn (v - V) + R_NF velocity` |
 //! | angular velocity, root components | `w` | `w + R_BF rate` |
 //!
-//! `push` is `R_NF T velocity` where the velocity is along axes that turn with the flyer, as modes of flight
-//! have it; along axes that stay level it is `R_NF velocity`, as where episodes and flights under feedback
-//! begin ([`disturbed`]).
+//! Modes of flight have velocities along axes that turn with the flyer, that of the flight among them
+//! ([`Disturbance`]): any nine independent disturbances span them. Episodes and flights under feedback begin
+//! ([`disturbed`]) with the mean velocity V of the flight as it was, so that they are the same in still air and
+//! in a stream; what the mass centre sways about it within a beat turns with the wings that make it sway.
 
 use wingbeat_dynamics::BodyMotion;
 use wingbeat_flight::StartState;
@@ -68,7 +70,8 @@ impl Disturbance {
     }
 }
 
-/// The state of the trimmed flight at the start of a beat, disturbed by `by`, its velocity along axes that stay level.
+/// The state of the trimmed flight at the start of a beat, disturbed by `by`: turned about its mass centre while the
+/// mean velocity of the flight stays, then pushed along axes that stay level.
 pub fn disturbed(trim: &Trim, by: &Perturbation) -> State {
     let root = trim.beat.root(&trim.state);
     let level = Level::new(root.r, trim.beat.gravity());
@@ -77,7 +80,7 @@ pub fn disturbed(trim: &Trim, by: &Perturbation) -> State {
     trim.beat.state_with(
         DVec3::ZERO,
         with.turned * level.to_root.transpose(),
-        with.turn * v + level.to_n * by.velocity,
+        trim.velocity + with.turn * (v - trim.velocity) + level.to_n * by.velocity,
         root.w + with.rate,
         &trim.state[JOINTS..],
     )

@@ -84,6 +84,23 @@ impl Perturbation {
         Self::from_array(std::array::from_fn(|i| if i == k { x } else { 0.0 }))
     }
 
+    /// The same with its velocity less `flight` [m/s], N components: as seen from axes that move with a flight.
+    pub(crate) fn relative_to(self, level: &Level, flight: DVec3) -> Self {
+        self.moved(level, -flight)
+    }
+
+    /// The same with its velocity and `flight` [m/s], N components: the other way round.
+    pub(crate) fn moved(self, level: &Level, flight: DVec3) -> Self {
+        if flight == DVec3::ZERO {
+            return self; // to the bit
+        }
+        let turned = level.to_n * DMat3::from_quat(DQuat::from_scaled_axis(self.tilt));
+        Self {
+            velocity: self.velocity + turned.transpose() * flight,
+            ..self
+        }
+    }
+
     /// The state at the start of a beat, mass centre at the origin, free joints at `joints`.
     pub fn state(&self, beat: &Beat, level: &Level, joints: &[f64]) -> State {
         self.state_at(beat, 0.0, level, joints)

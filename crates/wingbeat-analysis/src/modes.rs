@@ -153,7 +153,15 @@ impl ModeSet {
             }
             mode
         };
-        let mut modes: Vec<Mode> = upper.map(mode).collect();
+        let mut modes: Vec<Mode> = vec![];
+        for p in upper {
+            let mode = mode(p);
+            // Eigenvalues of nothing that rounding made a pair of are two motions, each by itself.
+            if mode.is_neutral() && p.value[1] > 0.0 {
+                modes.push(mode.clone());
+            }
+            modes.push(mode);
+        }
         modes.sort_by(|a, b| b.growth.total_cmp(&a.growth));
         name(&mut modes);
         Self { modes }

@@ -68,10 +68,10 @@ impl Part {
 /// The trimmed flight where each part of its wingbeat begins.
 #[derive(Clone, Debug)]
 pub struct Orbit {
-    /// What is seen there, and the place of the mass centre less that of the flight with the mean velocity,
+    /// What is seen there from axes that move with the mean velocity, and the place of the mass centre in them,
     /// level frame; less both at the start of the beat.
     pub points: Vec<Departure>,
-    /// What is seen there.
+    /// What is seen there from axes that move with the mean velocity.
     pub seen: Vec<Perturbation>,
     /// Coordinates and speeds of the free joints there [rad or m, and per s].
     pub joints: Vec<Vec<f64>>,
@@ -96,7 +96,8 @@ impl Orbit {
         let level = Level::of(beat, &trim.state);
         let velocity = trim.mean_velocity()?;
         let mut y: State = trim.state.clone();
-        let start = Perturbation::of(beat, &level, &y).to_array();
+        let start = Perturbation::of(beat, &level, &y);
+        let start = start.relative_to(&level, trim.velocity).to_array();
         let mut orbit = Self {
             points: vec![],
             seen: vec![],
@@ -105,6 +106,7 @@ impl Orbit {
         for part in Part::all(parts) {
             let time = part.start(beat.period());
             let seen = Perturbation::at(beat, time, &level, &y);
+            let seen = seen.relative_to(&level, trim.velocity);
             let way = DVec3::from_slice(&y) - DVec3::from_slice(&trim.state) - time * velocity;
             let state = seen.to_array();
             orbit.points.push(Departure {

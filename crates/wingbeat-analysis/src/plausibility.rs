@@ -22,6 +22,7 @@ mod limit;
 mod numbers;
 mod sides;
 
+pub use doubts::jumping_rotation;
 pub use numbers::stroke_amplitude;
 pub use numbers::{Estimate, WingEstimate};
 

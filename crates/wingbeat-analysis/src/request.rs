@@ -3,6 +3,7 @@
 use wingbeat_flight::FlightSetup;
 use wingbeat_math::DVec3;
 
+use crate::AnalysisError;
 use crate::steady::{Residuals, TrimProblem, TrimSettings};
 use crate::unknown::{Bound, Unknown};
 
@@ -31,7 +32,10 @@ pub struct TrimRequest {
 
 impl TrimRequest {
     /// The problem for a flight: the search begins at the attitude in which it is released.
-    pub fn problem(self, setup: &FlightSetup) -> TrimProblem {
+    ///
+    /// # Errors
+    /// A flight that is released in a heading or a roll that steady flight is not asked to have.
+    pub fn problem(self, setup: &FlightSetup) -> Result<TrimProblem, AnalysisError> {
         let start = setup.angles_at_release();
         let mut problem = TrimProblem::straight(self.velocity, start.x);
         problem.turn_rate = self.turn_rate;
@@ -41,12 +45,53 @@ impl TrimRequest {
             None if lateral => problem.unknowns.extend(LATERAL),
             None => {}
         }
-        if problem.unknowns.contains(&Unknown::BodyRoll) {
+        check_heading(start.y)?;
+        if !problem.unknowns.contains(&Unknown::BodyRoll) {
+            check_roll(&problem, start.z)?;
+        }
+        if start.z.abs() > ROUNDING {
             problem.body_roll = start.z;
         }
         problem.bounds = self.bounds;
         let default = TrimSettings::default();
         problem.settings.steps = self.steps.unwrap_or(default.steps);
-        problem
+        Ok(problem)
     }
+}
+
+/// Angles at the release by rounding, of cases that were trimmed \[rad\].
+const ROUNDING: f64 = 1e-6;
+
+/// An error if the flight is released with another heading than along n1, `yaw` \[rad\].
+fn check_heading(yaw: f64) -> Result<(), AnalysisError> {
+    let off = yaw.sin().hypot(yaw.cos() - 1.0);
+    match off <= ROUNDING {
+        true => Ok(()),
+        false => Err(AnalysisError::not_covered(
+            format!(
+                "the flight is released with a yaw of {} degrees (flight.yaw_deg), and steady flight heads along n1",
+                rounded(yaw)
+            ),
+            "set flight.yaw_deg = 0 and turn what the flight meets (air.stream_m_s, gravity_m_s2) by as much the other way",
+        )),
+    }
+}
+
+/// An error if the flight is released with a `roll` \[rad\] that symmetric flight does not have.
+fn check_roll(problem: &TrimProblem, roll: f64) -> Result<(), AnalysisError> {
+    match roll.abs() <= ROUNDING || Residuals::of(problem) == Residuals::All {
+        true => Ok(()),
+        false => Err(AnalysisError::not_covered(
+            format!(
+                "the flight is released with a roll of {} degrees (flight.roll_deg), which parts right from left, and the unknowns are those of symmetric flight",
+                rounded(roll)
+            ),
+            "set flight.roll_deg = 0, or name six unknowns: body_roll starts from it, and without body_roll it is kept (e.g. body_pitch stroke_amplitude stroke_offset body_roll stroke_amplitude_difference stroke_plane_difference)",
+        )),
+    }
+}
+
+/// An angle [rad] in degrees, to four decimals.
+fn rounded(angle: f64) -> f64 {
+    (1e4 * angle.to_degrees()).round() / 1e4
 }

@@ -429,14 +429,27 @@ pub(crate) fn check_determined(
 /// An error if what surrounds the flight does not look the same from all headings.
 fn check_turn(setup: &FlightSetup) -> Result<(), AnalysisError> {
     let horizontal = |v: DVec3| v.x != 0.0 || v.y != 0.0;
-    let stream = setup.air.stream();
-    if horizontal(setup.gravity) || stream.is_some_and(horizontal) {
-        return Err(AnalysisError::not_covered(
-            "a steady turn is about the vertical, and gravity is not along n3 or the air streams sideways",
-            "leave air.stream_m_s out: velocities are relative to the air then",
-        ));
+    let refused = |key: &str, v: DVec3, what: &str, remedy: &'static str| {
+        let [x, y, z] = v.to_array();
+        let why = format!(
+            "a steady turn is about the vertical along n3, and {what} ({key} = [{x}, {y}, {z}])"
+        );
+        Err(AnalysisError::not_covered(why, remedy))
+    };
+    let gravity = setup.gravity;
+    if horizontal(gravity) {
+        let remedy = "take inertial axes of which n3 is along gravity: gravity_m_s2 = [0, 0, 9.81]";
+        return refused("gravity_m_s2", gravity, "gravity is not along it", remedy);
     }
-    Ok(())
+    match setup.air.stream().filter(|s| horizontal(*s)) {
+        None => Ok(()),
+        Some(stream) => refused(
+            "air.stream_m_s",
+            stream,
+            "the air streams across it",
+            "leave air.stream_m_s out: velocities are relative to the air then",
+        ),
+    }
 }
 
 /// The controls of the point at which a search begins.

@@ -58,15 +58,51 @@ impl Sweep {
 
     /// The flight of least power (muscles, perfect elastic storage).
     pub fn least_power(&self) -> Option<&Swept> {
-        self.least(|f| f.power.perfect_storage)
+        self.least(muscle_power)
     }
 
     /// The flight of least work per distance (muscles, perfect elastic storage); none in hover alone.
     pub fn least_work(&self) -> Option<&Swept> {
-        self.least(|f| match f.velocity.length() {
-            v if v > 0.0 => f.power.perfect_storage / v,
-            _ => f64::INFINITY,
-        })
+        self.least(work_per_distance)
+    }
+
+    /// Speed forward (along n1) of least power, between the flights: that of the parabola through the least and its
+    /// neighbours [m/s]; none at an end.
+    pub fn least_power_forward(&self) -> Option<f64> {
+        self.vertex(muscle_power)
+    }
+
+    /// The same of least work per distance [m/s].
+    pub fn least_work_forward(&self) -> Option<f64> {
+        self.vertex(work_per_distance)
+    }
+
+    /// Where the parabola through the flight of least `cost` and its two neighbours is least.
+    fn vertex(&self, cost: impl Fn(&Swept) -> f64) -> Option<f64> {
+        let costs: Vec<f64> = self.flights.iter().map(cost).collect();
+        let least = (0..costs.len()).min_by(|&i, &j| costs[i].total_cmp(&costs[j]))?;
+        let before = least.checked_sub(1)?;
+        let [a, b, c] = self.flights.get(before..before + 3)? else {
+            return None;
+        };
+        let [a, b, c] = [a, b, c].map(|f| f.velocity.x);
+        let [fa, fb, fc] = [costs[before], costs[least], costs[least + 1]];
+        let (left, right) = ((b - a) * (fb - fc), (b - c) * (fb - fa));
+        let at = b - 0.5 * ((b - a) * left - (b - c) * right) / (left - right);
+        at.is_finite().then_some(at)
+    }
+}
+
+/// Mean power of muscles with perfect elastic storage [W].
+fn muscle_power(f: &Swept) -> f64 {
+    f.power.perfect_storage
+}
+
+/// The same over the speed [N]; infinite in hover.
+fn work_per_distance(f: &Swept) -> f64 {
+    match f.velocity.length() {
+        v if v > 0.0 => f.power.perfect_storage / v,
+        _ => f64::INFINITY,
     }
 }
 

@@ -24,6 +24,8 @@ use crate::steady::{self, AT_START, Measures, Residuals, Snapshot, TrimProblem, 
 pub struct Trim {
     /// The controls found, and the residuals.
     pub solution: TrimSolution,
+    /// Mean velocity that was asked for, N components [m/s]; in a turn that at the start of a beat.
+    pub velocity: DVec3,
     /// Turn of the heading [rad/s].
     pub turn_rate: f64,
     /// State at the start of the beat, mass centre at the origin.
@@ -256,6 +258,7 @@ fn evaluate(setup: &FlightSetup, problem: &TrimProblem, x: &[f64]) -> Result<Tri
     solution.residual.extend(changes);
     Ok(Trim {
         solution,
+        velocity: problem.velocity,
         turn_rate: problem.turn_rate,
         state,
         point: x.to_vec(),

@@ -10,6 +10,7 @@ mod oracle;
 mod realisation;
 mod refusals;
 mod starts;
+mod streams;
 mod sweep;
 mod validation;
 mod verification;

@@ -34,6 +34,35 @@ fn agrees_a_sweep_with_trims_one_by_one() {
     assert!(found.least_work().unwrap().velocity.x > 0.0);
 }
 
+/// A power that is a parabola of the speed has its least where that is, whatever the speeds flown.
+#[test]
+fn exact_least_power_between_speeds_of_a_parabola() {
+    let flown = sweep(&fly(), &hover(40), &forward(&[0.0])).unwrap();
+    let with = |speeds: &[f64], least: f64| {
+        let flight = |v: &f64| {
+            let mut flight = flown.flights[0].clone();
+            flight.velocity.x = *v;
+            flight.power.perfect_storage = 2.0 + 0.7 * (v - least).powi(2);
+            flight
+        };
+        Sweep {
+            flights: speeds.iter().map(flight).collect(),
+            lost: None,
+        }
+    };
+    let uneven = [0.0, 0.4, 0.7, 0.9, 1.5];
+    for least in [0.3, 0.55, 0.72, 1.1] {
+        let found = with(&uneven, least).least_power_forward().unwrap();
+        assert!((found - least).abs() < 1e-12, "{found} {least}");
+    }
+    // At an end nothing is known of what lies beyond.
+    for least in [-0.5, 1.6] {
+        assert_eq!(with(&uneven, least).least_power_forward(), None);
+    }
+    // Work per distance is infinite in hover: no parabola goes through it.
+    assert_eq!(with(&[0.0, 2.0, 9.0], 0.0).least_work_forward(), None);
+}
+
 #[test]
 fn limit_a_sweep_ends_where_no_flight_is() {
     // A fruit fly does not fly at 60 m/s: forces grow with the square of the speed, and the point before is far.

@@ -35,7 +35,7 @@ pub struct BladeSettings {
 )]
 #[serde(rename_all = "snake_case")]
 pub enum CentreOfPressure {
-    /// At this part of the chord behind the edge that meets the air.
+    /// At this part of the chord behind the edge that meets the air: `centre_of_pressure.fixed = 0.25`, say.
     Fixed(#[schemars(range(min = 0, max = 1))] f64),
     /// From 1/4 of the chord edge-on to 1/2 square to the air, `(2 - cos alpha)/4` behind the
     /// leading edge; a smooth interpolation of this program between the two theories.

@@ -177,7 +177,7 @@ pub fn trim(setup: &FlightSetup, options: &TrimOptions) -> Result<Trim, Analysis
         bounds: vec![],
         steps: options.steps_per_beat,
     };
-    let trim = trim_within(&open, &request.problem(&open))?;
+    let trim = trim_within(&open, &request.problem(&open)?)?;
     match trim.solution.is_as_asked() {
         true => Ok(trim),
         false => Err(AnalysisError::Numbers(format!(

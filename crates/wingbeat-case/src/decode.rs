@@ -91,12 +91,37 @@ fn explain(path: &str, message: &str) -> Fault {
         );
     }
     let (problem, expected) = message.split_once(", expected ").unwrap_or((message, ""));
+    if let Some(fault) = of_choice(path, problem, expected) {
+        return fault;
+    }
     Fault::new(
         path,
         found_in_words(problem),
         expected_in_words(expected),
         remedy(problem, expected),
     )
+}
+
+/// A choice without the value that it has, or with one where it is its name alone; `path` ends with its name.
+fn of_choice(path: &str, problem: &str, expected: &str) -> Option<Fault> {
+    let (key, choice) = path.rsplit_once('.')?;
+    if problem.ends_with("unit variant") && expected.ends_with("variant") {
+        return Some(Fault::new(
+            key,
+            format!("the choice `{choice}` has a value of its own, and none is given"),
+            format!("`{choice}` with its value: {path} = ..."),
+            format!(
+                "give it as a key: {path} = ..., a number or a table of settings as docs/case-keys.md has it"
+            ),
+        ));
+    }
+    let found = problem.strip_prefix("expected table, found ")?;
+    Some(Fault::new(
+        path,
+        format!("the choice `{choice}` has no value of this kind ({found})"),
+        "the name of the choice alone, or a table of its settings where it has some",
+        format!("{key} = \"{choice}\""),
+    ))
 }
 
 fn inside(path: &str, key: &str) -> String {

@@ -13,6 +13,7 @@
 //! What it does not know: physics, results.
 #![warn(missing_docs)]
 
+mod biases;
 mod build;
 mod data;
 mod decode;

@@ -241,8 +241,19 @@ fn with_start(
     )
 }
 
-/// Roll of straight flights by rounding \[deg\].
+/// Angles of straight flights by rounding \[deg\], and parts of wing length by wingbeat that velocities of hover are by
+/// rounding and by what a trim is good to \[1\].
 const ROUNDING: f64 = 1e-9;
+
+/// A number of about `size`, without what rounding left of nothing.
+fn clear(x: f64, size: f64) -> f64 {
+    if x.abs() > ROUNDING * size { x } else { 0.0 }
+}
+
+/// An angle [rad] in degrees, likewise.
+fn clear_angle(angle: f64) -> f64 {
+    clear(angle.to_degrees(), 1.0)
+}
 
 /// The rigid animal of a trimmed flight under the derivatives of its averaged model, as TOML.
 ///
@@ -257,8 +268,14 @@ pub fn derivative_case(
     let j = |i: usize, k: usize| inertia.col(k)[i];
     // The table's axes are level: the body is pitched and rolled against them.
     let [ahead, down] = [table.to_body.x_axis, table.to_body.z_axis];
-    let [roll, pitch] = [down.y.atan2(down.z), (-down.x).atan2(ahead.x)].map(f64::to_degrees);
-    let roll = if roll.abs() > ROUNDING { roll } else { 0.0 };
+    let [roll, pitch] = [down.y.atan2(down.z), (-down.x).atan2(ahead.x)].map(clear_angle);
+    // The flight begins in inertial axes, whose n3 gravity need not follow.
+    let attitude = trim.beat.mean_attitude(&trim.state)?;
+    let angles = EulerSequence::BODY_231.angles(attitude).to_array();
+    let [pitch_deg, yaw_deg, roll_deg] = angles.map(clear_angle);
+    let velocity = attitude * (table.to_body * table.velocity);
+    let size = trim.beat.wing_length() / trim.beat.period();
+    let velocity = velocity.to_array().map(|v| clear(v, size));
     let mut raw = case.raw.clone();
     raw.name = Some(format!("{}-averaged", case.name));
     raw.control = None; // nothing steers a table of derivatives
@@ -285,11 +302,14 @@ pub fn derivative_case(
         density_kg_m3: case.raw.air.density_kg_m3,
         ..AirCase::default()
     };
-    raw.air.derivatives = Some(derivatives(&table, [roll, pitch]));
+    let mut of_table = derivatives(&table, [roll, pitch]);
+    of_table.velocity_m_s = of_table.velocity_m_s.map(|v| clear(v, size));
+    raw.air.derivatives = Some(of_table);
     raw.flight = FlightCase {
-        roll_deg: roll,
-        pitch_deg: pitch,
-        velocity_m_s: table.velocity.to_array(),
+        roll_deg,
+        pitch_deg,
+        yaw_deg,
+        velocity_m_s: velocity,
         ..FlightCase::default()
     };
     let body = written(&raw);

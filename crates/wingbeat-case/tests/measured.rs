@@ -216,6 +216,15 @@ fn behaves_air_from_behind_and_drag_of_small_insects_are_named() {
         &[&backwards[..], &["air.model=none"]].concat(),
     );
     assert!(!vacuum.contains("from behind"), "{vacuum}");
+    // A hover by rounding, and a climb of tables without wings, whose air comes from ahead or from nowhere.
+    let table = |velocity: &str| {
+        let set = format!("flight.velocity_m_s={velocity}");
+        said("table1-sun-2007", &[&set])
+    };
+    for none in ["[-1e-19,0,0]", "[-1e-17,0,-0.2]"] {
+        assert!(!table(none).contains("from behind"), "{none}");
+    }
+    assert!(table("[-5,0,0]").contains("from behind"));
     let fast = ["air.stream_m_s=[-20,0,0]"];
     let drag = said("hawkmoth-blade", &fast);
     assert!(drag.contains("times the friction of a plate"), "{drag}");
@@ -228,6 +237,20 @@ fn behaves_air_from_behind_and_drag_of_small_insects_are_named() {
         let case = LoadedCase::find(name, &[]).unwrap();
         assert_eq!(case.doubtful_measurements(), [""; 0], "{name}");
     }
+}
+
+#[test]
+fn behaves_a_force_of_feathering_that_jumps_is_named() {
+    let doubts = |set: &[String]| {
+        let case = LoadedCase::find("bumblebee-blade", set).unwrap();
+        wingbeat_analysis::estimate(&case.setup).doubts.join("\n")
+    };
+    let named = doubts(&["air.blade.rotation=sane_dickinson".to_owned()]);
+    assert!(
+        named.contains("air.blade.rotation") && named.contains("jumps"),
+        "{named}"
+    );
+    assert!(!doubts(&[]).contains("jumps"));
 }
 
 /// Rotation angles of other conventions, or signs, hardly change the lift, which a plate has both ways round.

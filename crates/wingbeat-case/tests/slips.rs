@@ -310,6 +310,52 @@ fn behaves_ways_that_no_flyer_covers_are_doubted() {
     assert!(said.contains("is position_m in metres"), "{said}");
 }
 
+#[test]
+fn behaves_biases_that_the_flight_that_is_held_has_too_are_named() {
+    let said = |hold: &str, bias: &str| {
+        let set = [
+            format!("control.hold={hold}"),
+            format!("control.sensors={{{bias}}}"),
+        ];
+        let case = LoadedCase::find("fruit-fly-controlled", &set).unwrap();
+        case.idle_biases()
+    };
+    for key in ["velocity_bias_m_s", "tilt_bias_deg", "rate_bias_deg_s"] {
+        let bias = format!("{key}=[0,0.5,0]");
+        let [doubt] = &said("start", &bias)[..] else {
+            panic!("{key}")
+        };
+        assert!(
+            doubt.contains(key) && doubt.contains("control.hold"),
+            "{doubt}"
+        );
+        assert_eq!(said("trim", &bias), [""; 0]);
+    }
+    assert_eq!(said("start", "tilt_noise_deg=1"), [""; 0]);
+}
+
+#[test]
+fn refuses_a_choice_without_its_value_and_one_with_a_value_that_has_none() {
+    for (set, says) in [
+        (
+            "air.blade.centre_of_pressure=fixed",
+            "air.blade.centre_of_pressure.fixed = ...",
+        ),
+        (
+            "wing.right.motion.phi=fourier",
+            "wing.right.motion.phi.fourier = ...",
+        ),
+        (
+            "air.blade.centre_of_pressure={cosine=1}",
+            "air.blade.centre_of_pressure = \"cosine\"",
+        ),
+    ] {
+        let said = refusal("fruit-fly-blade", &[set]);
+        assert!(said.contains(says), "{said}");
+        assert!(!said.contains("variant"), "{said}");
+    }
+}
+
 /// Values of overrides that begin as a list or a table, or are numbers, and are no TOML.
 #[test]
 fn refuses_slips_of_lists_tables_and_numbers_where_they_are() {

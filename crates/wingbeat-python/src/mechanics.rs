@@ -39,7 +39,8 @@ pub fn problem(
         bounds: vec![],
         steps: Some(steps),
     };
-    let mut problem = request.problem(&flight.setup);
+    let problem = request.problem(&flight.setup);
+    let mut problem = problem.map_err(|e| raised(py, &e.into()))?;
     let limits = bounds.iter().map(|b| limits(py, b, &problem.unknowns));
     problem.bounds = limits.collect::<PyResult<_>>()?;
     Ok(problem)
@@ -142,9 +143,9 @@ impl Trim {
             0.0 => Ok(()),
             _ => Err(refused(
                 py,
-                "turn_rate_rad_s",
+                "turn_rate_rad_per_s",
                 "an averaged model and control derivatives are those of a flight that is straight in the mean",
-                "0, or power() and flight() of the turn",
+                "0, or floquet_modes(), power() and flight() of the turn",
             )),
         }
     }
@@ -201,6 +202,11 @@ impl Trim {
             modes(&model.modes),
             modes(&orbit),
         ))
+    }
+
+    /// Floquet's modes of the periodic orbit, of turns and with free joints, too.
+    fn floquet_modes(&self, py: Python<'_>) -> PyResult<Vec<ModeParts>> {
+        Ok(modes(&self.analyse(py, floquet_of_trim)?))
     }
 
     /// Control derivatives: control, wing, force and moment by it; and the inputs of the averaged model, B of

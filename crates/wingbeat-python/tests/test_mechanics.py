@@ -53,8 +53,11 @@ def test_agrees_turns_and_bounds_with_the_command_line(blade, program):
         turn.power()
     turn = blade.trim(forward_m_per_s=0.3, turn_rate_rad_per_s=math.radians(300))
     assert turn.power().perfect_storage_watt > 0
-    with pytest.raises(wingbeat.CaseError, match="straight in the mean"):
+    with pytest.raises(wingbeat.CaseError, match="straight in the mean") as refused:
         turn.stability()
+    assert refused.value.key == "turn_rate_rad_per_s"
+    told = json.loads(program("stability", "--forward", 0.3, "--turn-rate", 300, "--json").stdout)
+    assert [m.growth_per_s for m in turn.floquet_modes()] == [m["growth_per_s"] for m in told["floquet_modes"]]
 
 
 def test_exact_modes_are_the_eigenvalues_of_a(trim):

@@ -56,6 +56,54 @@ fn agrees_a_written_table_of_derivatives_with_the_averaged_model() {
     assert!(z[z.len() - 1].abs() < 0.01 * 2.5e-3, "{}", z[z.len() - 1]);
 }
 
+/// Gravity need not follow n3: the attitude and the velocity of the written flight are in inertial axes all the same.
+#[test]
+fn balances_a_written_table_whose_gravity_is_oblique() {
+    let scratch = Scratch::new("oblique");
+    let dir = &scratch.0;
+    let oblique = ["--set", "gravity_m_s2=[1,0,9.7]", "--forward", "0.3"];
+    let out = wingbeat(
+        dir,
+        &[&["stability", "--write", "t.toml"][..], &oblique].concat(),
+    );
+    assert!(out.status.success());
+    let check = wingbeat(dir, &["check", "t.toml"]);
+    let said = [check.stdout, check.stderr].concat();
+    assert!(!String::from_utf8_lossy(&said).contains("from behind"));
+    let fly = ["run", "t.toml", "--quiet", "--out", "r"];
+    assert!(
+        wingbeat(dir, &[&fly[..], &["--set", "time.beats=1"]].concat())
+            .status
+            .success()
+    );
+    let r = dir.join("r");
+    let beat = 5e-3;
+    for (name, wanted) in [
+        ("body_x_m", 0.3 * beat),
+        ("body_y_m", 0.0),
+        ("body_z_m", 0.0),
+    ] {
+        let way = column(&r, name);
+        // A fall over the beat is 0.12 mm; loads of the mean state and of the orbit differ by a hundredth of it.
+        let off = way[way.len() - 1] - way[0] - wanted;
+        assert!(off.abs() < 5e-6, "{name}: {off}");
+    }
+}
+
+/// Tables without lateral derivatives: v, p, r, roll and heading have no motion of their own, five eigenvalues of zero,
+/// whatever pairs rounding makes of them.
+#[test]
+fn exact_a_table_without_lateral_derivatives_has_five_neutral_motions() {
+    let scratch = Scratch::new("neutral");
+    for table in ["table1-sun-2007", "table1-sun-xiong-2005"] {
+        let text = said(&scratch.0, &["stability", table]);
+        let lines = text
+            .lines()
+            .filter(|l| l.contains("lateral") && l.contains("neutral"));
+        assert_eq!(lines.count(), 5, "{table}: {text}");
+    }
+}
+
 #[test]
 fn behaves_a_trim_beyond_half_a_turn_is_warned_of() {
     let scratch = Scratch::new("beyond");
@@ -81,6 +129,51 @@ fn behaves_a_trim_that_turns_strokes_inside_out_is_none() {
     assert_eq!(out.status.code(), Some(1));
     let said = String::from_utf8(out.stderr).unwrap();
     assert!(said.contains("a stroke is turned inside out"), "{said}");
+}
+
+/// What a trim cannot keep of the start of its case is refused by its key, and what it can is kept.
+#[test]
+fn refuses_a_roll_and_a_heading_that_the_trimmed_flight_does_not_have() {
+    let dir = &Scratch::new("start").0;
+    let fly = |set: &'static str| ["trim", "fruit-fly-blade", "--steps", "40", "--set", set];
+    for (set, key) in [
+        (
+            "flight.roll_deg=10",
+            "a roll of 10 degrees (flight.roll_deg)",
+        ),
+        ("flight.yaw_deg=30", "a yaw of 30 degrees (flight.yaw_deg)"),
+    ] {
+        let said = refused(dir, 2, &fly(set));
+        assert!(said.contains(key), "{said}");
+    }
+    let six = "--unknowns body_pitch stroke_amplitude stroke_offset stroke_offset_difference stroke_amplitude_difference stroke_plane_difference --sideslip 0.1";
+    let six: Vec<&str> = six.split(' ').collect();
+    let kept = |set| said(dir, &[&fly(set)[..], &six].concat());
+    assert_ne!(kept("flight.roll_deg=2"), kept("flight.roll_deg=3"));
+    let oblique = ["--set", "gravity_m_s2=[1,0,9.7]", "--turn-rate", "300"];
+    let turn = refused(dir, 2, &[&fly("time.beats=2")[..], &oblique].concat());
+    assert!(
+        turn.contains("gravity_m_s2 = [1, 0, 9.7]") && !turn.contains("stream"),
+        "{turn}"
+    );
+}
+
+/// A bound of the mass centre is in wing lengths, and so is what is found, beside millimetres.
+#[test]
+fn agrees_a_mass_centre_in_millimetres_with_one_in_wing_lengths() {
+    let dir = &Scratch::new("forward").0;
+    let unknowns = "trim fruit-fly-blade --steps 40 --unknowns mass_centre stroke_amplitude body_pitch --bound mass_centre=-0.5..0.5 --json";
+    let unknowns: Vec<&str> = unknowns.split(' ').collect();
+    let told: serde_json::Value = serde_json::from_str(&said(dir, &unknowns)).unwrap();
+    let found = &told["unknowns"];
+    let number = |key: &str| found[key].as_f64().unwrap();
+    let [metres, lengths] =
+        ["mass_centre_forward_m", "mass_centre_forward_wing_lengths"].map(number);
+    // A wing of 2.5 mm.
+    assert!(
+        (metres / lengths / 2.5e-3 - 1.0).abs() < 0.05,
+        "{metres} {lengths}"
+    );
 }
 
 /// Refusals before anything is flown have exit code 2.

@@ -8,7 +8,7 @@
 //! | number | observed | unit |
 //! |---|---|---|
 //! | 0-2 | place of the mass centre less the target's: forward, right, down | R |
-//! | 3-5 | velocity u, v, w less that of the trimmed flight at the start of a beat | R / T |
+//! | 3-5 | velocity u, v, w from axes that move with the mean velocity of the trimmed flight, less that at the start of its beat | R / T |
 //! | 6-8 | angular velocity p, q, r, likewise | 1 / T |
 //! | 9-11 | tilt: rotation vector roll, pitch, heading | rad |
 //! | 12-14 | velocity of the target: forward, right, down | R / T |

@@ -1,6 +1,7 @@
 //! What of an estimate is implausible: a number outside wide limits.
 
 use wingbeat_air::CoreModel;
+use wingbeat_blade::Rotation;
 use wingbeat_flight::{AirModel, AirOptions, FlightSetup, MotionMode, doubtful_masses};
 use wingbeat_math::DVec3;
 use wingbeat_model::{DeformingMesh, Wing};
@@ -189,6 +190,7 @@ pub(super) fn doubts(setup: &FlightSetup, e: &Estimate) -> Vec<String> {
     list.extend(air_from_behind(setup, e));
     list.extend(setup.gusts_that_never_arrive());
     list.extend(drag_of_small_insects(setup, e));
+    list.extend(jumping_rotation(setup));
     list.extend(doubtful_masses(setup));
     let mut said = std::collections::BTreeSet::new();
     for (wing, w) in setup.animal.wings.iter().zip(&e.wings) {
@@ -209,9 +211,12 @@ pub(super) fn doubts(setup: &FlightSetup, e: &Estimate) -> Vec<String> {
     list
 }
 
-/// Flight backwards at a speed that counts beside that of the tips: no animal's, but of streams with a wrong sign.
+/// Flight backwards at a speed that counts beside that of the tips, without wings beside that of a fall over a
+/// wingbeat: no animal's, but of streams with a wrong sign.
 fn air_from_behind(setup: &FlightSetup, e: &Estimate) -> Option<String> {
     const COUNTS: f64 = 0.3;
+    // Of nothing at all beside nothing: a micrometre a second is no flight.
+    const ROUNDING: f64 = 1e-6;
     if matches!(setup.air, AirModel::None) {
         return None;
     }
@@ -219,7 +224,9 @@ fn air_from_behind(setup: &FlightSetup, e: &Estimate) -> Option<String> {
     let forward = root.r.x_axis.with_z(0.0).normalize_or_zero();
     let speed = (root.v - stream(&setup.air)).dot(forward);
     let tips = e.wings.iter().map(|w| w.tip_speed).fold(0.0, f64::max);
-    (speed < 0.0 && -speed > COUNTS * tips).then(|| {
+    let fall = setup.gravity.length() * setup.time.period.unwrap_or(1.0);
+    let size = if e.wings.is_empty() { fall } else { tips };
+    (-speed > COUNTS * size && -speed > ROUNDING).then(|| {
         let remedy = match root.v == DVec3::ZERO {
             true => {
                 let faced = stream(&setup.air) + 2.0 * speed * forward;
@@ -232,6 +239,16 @@ fn air_from_behind(setup: &FlightSetup, e: &Estimate) -> Option<String> {
             false => "correct the signs of flight.velocity_m_s and air.stream_m_s, or turn the animal (flight.yaw_deg)".to_owned(),
         };
         format!("the air comes from behind at {} m/s: {remedy}", rounded(-speed))
+    })
+}
+
+/// Blade elements whose force of feathering jumps: no derivative of them is known.
+pub fn jumping_rotation(setup: &FlightSetup) -> Option<String> {
+    let AirModel::BladeElement(air) = &setup.air else {
+        return None;
+    };
+    (air.blade.rotation == Rotation::SaneDickinson).then(|| {
+        "air.blade.rotation = sane_dickinson has a force that jumps where the air along a chord reverses while it meets the wing broadside: derivatives, modes of flight and gains of feedback are differences across these jumps, and change with the time steps without end (look at them with other --steps); \"circulation\" is smooth".to_owned()
     })
 }
 

@@ -156,11 +156,13 @@ fn fly(
     let after = Beat::between(&trim.setup, part.of, &next, &next)?;
     let [start, end] = [part, part.next()].map(|p| p.start(beat.period()));
     let x = std::array::from_fn(|i| states[3 + i]);
-    let y = Perturbation::from_array(x).state_at(&beat, start, level, &states[STATES..]);
+    let x = Perturbation::from_array(x).moved(level, trim.velocity);
+    let y = x.state_at(&beat, start, level, &states[STATES..]);
     let y = beat.advance_over(part.steps(&beat), &y)?;
     let moved = level.to_n.transpose() * DVec3::from_slice(&y);
     let mut out = (moved + DVec3::from_slice(states)).to_array().to_vec();
-    out.extend(Perturbation::at(&after, end, level, &y).to_array());
+    let ahead = Perturbation::at(&after, end, level, &y);
+    out.extend(ahead.relative_to(level, trim.velocity).to_array());
     out.extend_from_slice(&y[JOINTS..]);
     Ok(out)
 }

@@ -103,7 +103,8 @@ pub enum RotationCase {
     None,
     /// Kutta and Joukowski's force of the circulation of feathering: smooth.
     Circulation,
-    /// The same, normal to the wing (Sane & Dickinson 2002).
+    /// The same, normal to the wing (Sane & Dickinson 2002). It jumps where the air along a chord reverses while it
+    /// meets the wing broadside: flights are as good as their steps, derivatives and modes of flight are none.
     SaneDickinson,
 }
 

@@ -287,7 +287,8 @@ pub struct SensorsCase {
     /// Change it to that of the sensors.
     #[schemars(range(min = 0))]
     pub rate_noise_deg_s: f64,
-    /// Bias of the velocity, inertial axes.
+    /// Bias of the velocity, inertial axes. With `hold` = `start` it changes next to nothing, as the other biases:
+    /// the flight that is held is what the first look sees.
     ///
     /// Change it to that of the sensors.
     pub velocity_bias_m_s: [f64; 3],

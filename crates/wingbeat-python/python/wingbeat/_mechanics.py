@@ -247,8 +247,15 @@ class Trim(_Trimmed[_core.Trim]):
         controls = tuple(control for control, _ in names)
         return Derivatives(controls, tuple(wing for _, wing in names), tuple(map(_input_unit, controls)), loads)
 
+    def floquet_modes(self) -> tuple[Mode, ...]:
+        """Floquet's modes of the periodic orbit, also of turns and of animals with free joints."""
+        self._check()
+        return _modes(self._core.floquet_modes())
+
     def stability(self) -> LinearModel:
-        """The averaged linear model with its inputs, its modes, and Floquet's modes of the periodic orbit."""
+        """The averaged linear model with its inputs, its modes, and Floquet's modes of the periodic orbit. A turn and free
+        joints have no averaged model: :meth:`floquet_modes` takes them.
+        """
         import numpy as np
 
         self._check()

@@ -2,8 +2,8 @@
 
 use serde_json::{Map, Value, json};
 use wingbeat::analysis::{
-    Bound, Residuals, TrimProblem, TrimSolution, UNKNOWNS, Unknown, UnknownKind, stroke_amplitude,
-    turned_inside_out,
+    Bound, Residuals, TrimProblem, TrimSolution, UNKNOWNS, Unknown, UnknownKind, jumping_rotation,
+    stroke_amplitude, turned_inside_out,
 };
 use wingbeat::case::LoadedCase;
 use wingbeat::flight::FlightSetup;
@@ -109,6 +109,11 @@ fn warn(report: &mut Report, t: &TrimSolution, setup: &FlightSetup) {
         ),
         false => (crossing_wings.iter()).for_each(|text| tell!("warning: {text}")),
     }
+    let jumps = jumping_rotation(setup);
+    if let Some(text) = &jumps {
+        tell!("warning: {text}");
+    }
+    report.value("derivatives_in_doubt", jumps);
     report.value("stroke_deg", stroke);
     report.value("crossing_wings", crossing_wings);
     if let Some(unknown) = turned_inside_out(&t.unknowns, &t.values) {
@@ -150,7 +155,7 @@ fn names_of(unknowns: &[Unknown]) -> Vec<&'static str> {
 }
 
 /// Sideslip and turn in words, where there are any.
-fn sideslip_and_turn(problem: &TrimProblem) -> String {
+pub(super) fn sideslip_and_turn(problem: &TrimProblem) -> String {
     let (right, turn) = (problem.velocity.y, problem.turn_rate.to_degrees());
     let slip = match right {
         0.0 => String::new(),
@@ -168,7 +173,16 @@ pub(super) fn values(unknowns: &[Unknown], t: &TrimSolution) -> Map<String, Valu
         let (_, unit, value) = value(*u, t);
         (format!("{}{unit}", u.name()), json!(value))
     };
-    unknowns.iter().map(one).collect()
+    let mut values: Map<String, Value> = unknowns.iter().map(one).collect();
+    for u in unknowns
+        .iter()
+        .filter(|u| u.kind() == UnknownKind::WingLengths)
+    {
+        // As bounds of it are given.
+        let key = format!("{}_forward_wing_lengths", u.name());
+        values.insert(key, json!(t.value(*u)));
+    }
+    values
 }
 
 /// An unknown in words; the unit its name ends with for programs, and the value in it.
@@ -185,7 +199,17 @@ fn value(u: Unknown, t: &TrimSolution) -> (String, &'static str, f64) {
         _ => (x, 5),
     };
     let told = if unit == "deg" { shown } else { x };
-    (format!("{} {unit}", signed(shown, places)), suffix, told)
+    let also = match u.kind() {
+        UnknownKind::WingLengths => {
+            format!(" ({} wing lengths)", signed(t.value(u).unwrap_or(0.0), 4))
+        }
+        _ => String::new(),
+    };
+    (
+        format!("{} {unit}{also}", signed(shown, places)),
+        suffix,
+        told,
+    )
 }
 
 /// The unit of an unknown: as the end of its name for programs, and in words.
@@ -198,8 +222,8 @@ fn unit(u: Unknown) -> [&'static str; 2] {
     }
 }
 
-/// A bound as it is given, `NAME=FROM..TO`: angles in degrees, relative changes as parts of 1, `mass_centre` in wing
-/// lengths.
+/// A bound as it is given, `NAME=FROM..TO`: angles in degrees, relative changes as parts of 1, `feathering_lead` in
+/// wingbeats, `mass_centre` in wing lengths.
 pub(super) fn bound(text: &str) -> Result<Bound, String> {
     let parts = text.split_once('=').and_then(|(name, range)| {
         let (from, to) = range.split_once("..")?;

@@ -45,7 +45,8 @@ pub(crate) struct StabiliseArgs {
     #[arg(long, value_name = "N", default_value_t = 100,
           value_parser = options::count::<1, MAX_BEATS>)]
     beats: usize,
-    /// Disturbance of roll, pitch and heading at the start, degrees.
+    /// Disturbance of roll, pitch and heading at the start, degrees: a turn about the mass centre that leaves the
+    /// flight its velocity.
     #[arg(long, num_args = 3, value_names = ["ROLL", "PITCH", "HEADING"],
           default_values_t = [0.0, 10.0, 0.0], allow_negative_numbers = true,
           value_parser = options::degrees)]

@@ -1,11 +1,11 @@
 //! `wingbeat trim --sweep`: trimmed flights over a range of speeds.
 
 use serde_json::{Value, json};
-use wingbeat::analysis::{Lost, Sweep, Swept, sweep};
+use wingbeat::analysis::{Lost, Sweep, Swept, TrimProblem, sweep};
 use wingbeat::draw::figures::swept::{SpeedRow, swept};
 use wingbeat::math::DVec3;
 
-use super::found::values;
+use super::found::{sideslip_and_turn, values};
 use super::trimming::{Trimming, watched};
 use crate::command::failure::{FAILED, Failure};
 use crate::command::report::{Report, line};
@@ -29,7 +29,7 @@ pub(super) fn run(
     };
     let velocities: Vec<DVec3> = (0..points).map(velocity).collect();
     let found = watched("trimming", || sweep(&case.setup, &problem, &velocities))?;
-    tell(report, &case.name, &found);
+    tell(report, &case.name, &problem, &found);
     if let Some(file) = figure.filter(|_| !found.flights.is_empty()) {
         let rows: Vec<SpeedRow> = found.flights.iter().map(row).collect();
         let lost = found.lost.as_ref().map(|(velocity, _)| velocity.x);
@@ -54,8 +54,16 @@ fn row(flight: &Swept) -> SpeedRow {
     }
 }
 
-fn tell(report: &mut Report, name: &str, found: &Sweep) {
-    line!(report, "{name}: trimmed flights against speed");
+fn tell(report: &mut Report, name: &str, problem: &TrimProblem, found: &Sweep) {
+    let up = match 0.0 - problem.velocity.z {
+        0.0 => String::new(),
+        up => format!(", {up:.3} m/s up"),
+    };
+    let aside = sideslip_and_turn(problem);
+    line!(report, "{name}: trimmed flights against speed{up}{aside}");
+    report.value("climb_m_s", 0.0 - problem.velocity.z);
+    report.value("sideslip_m_s", problem.velocity.y);
+    report.value("turn_rate_deg_s", problem.turn_rate.to_degrees());
     table(report, &found.flights);
     cheapest(report, found);
     crossings(report, &found.flights);
@@ -102,23 +110,35 @@ fn cheapest(report: &mut Report, found: &Sweep) {
     let forward = |f: &Swept| f.velocity.x;
     let ends = [found.flights.first(), found.flights.last()].map(|f| f.map(forward));
     let least = [
-        ("power", "least_power_forward_m_s", found.least_power()),
+        (
+            "power",
+            "least_power",
+            found.least_power(),
+            found.least_power_forward(),
+        ),
         (
             "work per distance",
-            "least_work_per_distance_forward_m_s",
+            "least_work_per_distance",
             found.least_work(),
+            found.least_work_forward(),
         ),
     ];
-    for (what, key, flight) in least {
+    for (what, key, flight, between) in least {
         let Some(v) = flight.map(forward) else {
             continue;
         };
-        let note = match ends.contains(&Some(v)) {
-            true => ", the end of what was swept: look beyond it",
-            false => "",
+        let note = match (ends.contains(&Some(v)), between) {
+            (true, _) => ", the end of what was swept: look beyond it".to_owned(),
+            (false, Some(at)) => {
+                format!(
+                    " of these; between them, by the parabola through the nearest three, at {at:.3} m/s"
+                )
+            }
+            (false, None) => " of these".to_owned(),
         };
         line!(report, "  least {what} at {v:.3} m/s{note}");
-        report.value(key, v);
+        report.value(&format!("{key}_forward_m_s"), v);
+        report.value(&format!("{key}_interpolated_forward_m_s"), between);
     }
 }
 
@@ -174,7 +194,7 @@ fn value(flight: &Swept) -> Value {
         "aerodynamic_watt_per_kg_body": air,
         "perfect_storage_watt_per_kg_body": perfect,
         "no_storage_watt_per_kg_body": none,
-        "stroke_amplitude_deg": r.stroke_amplitude.to_degrees(),
+        "stroke_deg": r.stroke_amplitude.to_degrees(),
         "frequency_hz": r.frequency,
         "body_pitch_deg": r.body_pitch.to_degrees(),
         "crossing_wings_part_of_beat": crossing(flight).map_or(0.0, |(_, part)| part),

@@ -44,8 +44,9 @@ pub(crate) struct Trimming {
     /// stroke_amplitude_difference, stroke_plane_difference]; those beyond for least power.
     #[arg(long, num_args = 3..=UNKNOWNS.len(), value_name = "NAME", value_parser = unknown, help_heading = HEADING)]
     unknowns: Option<Vec<Unknown>>,
-    /// Between what an unknown must lie, e.g. stroke_amplitude=-0.2..0.2 or body_pitch=20..60 (degrees; may be
-    /// repeated).
+    /// Between what an unknown must lie, e.g. stroke_amplitude=-0.2..0.2 or body_pitch=20..60 (may be repeated):
+    /// angles in degrees, relative changes as parts of 1, feathering_lead in wingbeats, mass_centre in wing lengths
+    /// forward.
     #[arg(long, value_name = "NAME=FROM..TO", value_parser = found::bound, help_heading = HEADING)]
     bound: Vec<Bound>,
     /// Mean velocity forward (n1), m/s [default: 0].
@@ -168,7 +169,7 @@ impl Trimming {
             bounds: self.bound.clone(),
             steps: self.steps,
         };
-        let problem = request.problem(&case.setup);
+        let problem = request.problem(&case.setup)?;
         self.check_bounds(&problem)?;
         Ok(problem)
     }
