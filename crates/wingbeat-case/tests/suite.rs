@@ -2,6 +2,7 @@
 
 mod absurd;
 mod angle_tables;
+mod counterparts;
 mod defaults;
 mod differences;
 mod held;
@@ -19,6 +20,7 @@ mod shedding;
 mod slips;
 mod table1;
 mod tables;
+mod times;
 mod turns;
 mod wingless;
 mod wings;
