@@ -118,7 +118,7 @@ impl Pair<'_> {
 
     /// What the file says for another air model, integrator or controller than the command line
     /// chose, but for properties of the air itself. The integrator follows from the model unless it is given.
-    /// Whatever else the command line chose, defaults that a case has filled in contradict nothing.
+    /// Whatever else the command line chose, defaults of nothing that a case has filled in (zeros) contradict it not.
     fn stands_by(&self, key: Shape, need: Need, path: &str, value: &Value) -> bool {
         let source = self.source;
         let follows =
@@ -129,7 +129,8 @@ impl Pair<'_> {
         let stays = switched && key.key.get("always").is_none();
         let is_default = || {
             let chosen = need.chosen_by(path);
-            chosen.is_some_and(|by| source.chooses(&by)) && key.is_default(value)
+            let is_nothing = is_zero(value) || !says(value);
+            chosen.is_some_and(|by| source.chooses(&by)) && is_nothing && key.is_default(value)
         };
         !source.touches(path) && (stays || is_default())
     }
@@ -161,10 +162,13 @@ pub(crate) fn beside_own_air(source: &CaseSource) -> Checked {
 
 /// Whether a value is more than an empty list or zeros.
 fn says(value: &Value) -> bool {
-    let is_zero = |v: &Value| v.as_float() == Some(0.0) || v.as_integer() == Some(0);
     value
         .as_array()
         .is_none_or(|list| !list.iter().all(is_zero))
+}
+
+fn is_zero(value: &Value) -> bool {
+    value.as_float() == Some(0.0) || value.as_integer() == Some(0)
 }
 
 /// Of alternatives only one is given.
