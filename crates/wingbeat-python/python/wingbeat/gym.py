@@ -42,7 +42,8 @@ noise and delay, and of the action; 0 in the step in which the flyer is lost.
 **Ends**: terminated where the flyer is lost: farther than 20 R from its target, tilted by more than 2.5 rad, or its numbers
 no longer finite; truncated after ``beats`` wingbeats.
 
-**Starts**: each component is drawn evenly within +- of these, about the trimmed flight at the start of a wingbeat.
+**Starts**: each component is drawn evenly within +- of these, about the trimmed flight at the start of a wingbeat; the velocity
+along level axes that do not turn with the body, tilt and rate as they are observed.
 
 ======= ========== ============== =============== ==================================================================
 task    tilt [rad] velocity [R/T] rate [1/T]      what else
@@ -149,17 +150,17 @@ class _Fleet(_Uncopied):
         task: str,
         autoreset: str,
         *,
-        flight: Flight | None,
-        steps_per_beat: int,
-        controls_per_beat: int,
-        beats: int,
-        amplitude_limit: float,
-        angle_limit_rad: float,
-        delay: int,
-        position_noise_m: float,
-        velocity_noise_m_per_s: float,
-        tilt_noise_rad: float,
-        rate_noise_rad_per_s: float,
+        flight: Flight | None = None,
+        steps_per_beat: int = 40,
+        controls_per_beat: int = 1,
+        beats: int = 100,
+        amplitude_limit: float = 0.2,
+        angle_limit_rad: float = 0.2,
+        delay: int = 0,
+        position_noise_m: float = 0.0,
+        velocity_noise_m_per_s: float = 0.0,
+        tilt_noise_rad: float = 0.0,
+        rate_noise_rad_per_s: float = 0.0,
     ) -> None:
         steps = whole("steps_per_beat", steps_per_beat, 20, 2000)
         controls = whole("controls_per_beat", controls_per_beat, 1, steps)
