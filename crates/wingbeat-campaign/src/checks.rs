@@ -306,12 +306,16 @@ impl Words<'_> {
         };
         let at_first = |alone: CaseError| {
             let found = LoadedCase::find(&name, &overrides(self.raw, plan, 0));
-            found.map_err(|e| match e {
-                IoError::Case(e) if e.overridden.as_ref().is_some_and(|k| plan.varies(k)) => {
-                    places(&plan.axes).traced(*e)
-                }
-                _ => places(&[]).traced(alone),
-            })
+            // What is wrong without the values of a point, too, is no fault of theirs.
+            let is_of_value = |e: &CaseError| {
+                let varies = e.overridden.as_ref().is_some_and(|key| plan.varies(key));
+                varies && (&e.key, &e.problem) != (&alone.key, &alone.problem)
+            };
+            match found {
+                Err(IoError::Case(e)) if is_of_value(&e) => Err(places(&plan.axes).traced(*e)),
+                Err(_) => Err(places(&[]).traced(alone)),
+                found => found,
+            }
         };
         match LoadedCase::find(&name, &set_of(self.raw)) {
             Err(e @ IoError::NoCase { .. }) => self.wrong(
