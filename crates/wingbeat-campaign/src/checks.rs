@@ -279,9 +279,9 @@ impl Words<'_> {
         Ok(())
     }
 
-    /// The case that is varied, with what is set at all points; with the values of the first point of `plan` as well
-    /// where it cannot be flown without them, as one whose chord is removed for an area that varies. Paths are
-    /// relative to `folder`.
+    /// The case that is varied, with what is set at all points; with the values of the first point of `plan` as
+    /// well where it cannot be flown without them, as one whose chord is removed for an area that varies. Paths
+    /// are relative to `folder`.
     ///
     /// # Errors
     /// No such case; a case that cannot be flown.

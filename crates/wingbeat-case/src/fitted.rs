@@ -19,7 +19,8 @@ pub struct FittedTable {
     pub span: f64,
     /// Wingbeats in one unit of its first column, as it is given \[1\]; none of phases.
     pub beats_per_unit: Option<f64>,
-    /// Wingbeats in one unit with which the series follows the samples much better \[1\]; none where there is none near.
+    /// Wingbeats in one unit with which the series follows the samples much better \[1\]; none where there is
+    /// none near.
     pub better_beats_per_unit: Option<f64>,
     /// Root mean square of what is left between samples and series \[deg\].
     pub residual_deg: f64,

@@ -7,7 +7,7 @@ use wingbeat_case::LoadedCase;
 use crate::idle::ANIMAL;
 use crate::slips::refusal;
 
-/// Doubts about an animal of two pairs of wings on one hinge on either side, whose right ones stroke so \[deg\].
+/// Doubts about an animal of two pairs of wings on one hinge on either side; strokes of the right ones \[deg\].
 fn doubts(names: [&str; 2], strokes: [f64; 2], more: &str) -> String {
     let (before, after) = ANIMAL.split_once("[wing.right]").unwrap();
     let (wing, air) = after.split_once("[air]").unwrap();

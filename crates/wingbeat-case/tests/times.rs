@@ -35,8 +35,8 @@ fn doubt(law: String) -> Option<String> {
     fit.doubt()
 }
 
-/// Wingbeats at 200 Hz that are read at 190 Hz: the frequency with which they repeat is found. Where the frequency
-/// changes, no other fits.
+/// Wingbeats at 200 Hz that are read at 190 Hz: the frequency with which they repeat is found. Where the
+/// frequency changes, no other fits.
 #[test]
 fn exact_the_frequency_of_a_table_is_found_where_it_is_misread() {
     let steady = filmed(|_| 0.2);

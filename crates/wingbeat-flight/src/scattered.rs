@@ -55,7 +55,7 @@ impl FlightSetup {
     }
 }
 
-/// A jump is more than so many times any other step from sample to sample: a sample that is wrong has two steps.
+/// A jump is more than so many times any other step from sample to sample: a wrong sample has two steps.
 const JUMPS: f64 = 5.0;
 
 /// One step from a sample to the next that is of another kind than all others.

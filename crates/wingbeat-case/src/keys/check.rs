@@ -118,7 +118,7 @@ impl Pair<'_> {
 
     /// What the file says for another air model, integrator or controller than the command line
     /// chose, but for properties of the air itself. The integrator follows from the model unless it is given.
-    /// Whatever else the command line chose, defaults of nothing that a case has filled in (zeros) contradict it not.
+    /// Whatever else the command line chose, zeros that a case has filled in as defaults do not contradict it.
     fn stands_by(&self, key: Shape, need: Need, path: &str, value: &Value) -> bool {
         let source = self.source;
         let follows =
