@@ -260,11 +260,7 @@ impl Reader<'_> {
         let bad = |problem: String| self.wrong("table", problem, allowed, "correct the file");
         let text = std::fs::read(&path)
             .map_err(|e| bad(format!("cannot read `{}`: {e}", path.display())))?;
-        let mut reader = csv::ReaderBuilder::new()
-            .comment(Some(b'#'))
-            .delimiter(wingbeat_case::delimiter(&text))
-            .trim(csv::Trim::All)
-            .from_reader(text.as_slice());
+        let mut reader = wingbeat_case::csv_reader(&text);
         let header = reader.headers().map_err(|e| bad(e.to_string()))?;
         let keys: Vec<String> = header.iter().map(str::to_owned).collect();
         let mut values = vec![vec![]; keys.len()];

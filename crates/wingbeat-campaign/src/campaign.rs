@@ -74,7 +74,7 @@ impl Campaign {
         &self.file.plan
     }
 
-    /// The case without the values of a point.
+    /// The case without the values of a point; with those of the first one where it cannot be flown without.
     pub fn base(&self) -> &LoadedCase {
         &self.file.base
     }

@@ -2,10 +2,11 @@
 
 use std::path::Path;
 
-use wingbeat_case::{Document, IoError, LoadedCase, nearest};
+use wingbeat_case::{CaseError, Document, IoError, LoadedCase, nearest};
 
-use crate::cases::set_of;
+use crate::cases::{overrides, set_of};
 use crate::places::Places;
+use crate::plan::Plan;
 use crate::raw::{FileKind, RawCampaign, Task};
 
 /// Ways to vary a parameter.
@@ -278,11 +279,13 @@ impl Words<'_> {
         Ok(())
     }
 
-    /// The case that is varied, with what is set at all points; paths are relative to `folder`.
+    /// The case that is varied, with what is set at all points; with the values of the first point of `plan` as
+    /// well where it cannot be flown without them, as one whose chord is removed for an area that varies. Paths
+    /// are relative to `folder`.
     ///
     /// # Errors
     /// No such case; a case that cannot be flown.
-    pub fn base_case(&self, folder: &Path) -> Result<LoadedCase, IoError> {
+    pub fn base_case(&self, folder: &Path, plan: &Plan) -> Result<LoadedCase, IoError> {
         let file = folder.join(&self.raw.case);
         let name = match file.is_file() {
             true => file.display().to_string(),
@@ -296,10 +299,23 @@ impl Words<'_> {
                 "name a file",
             );
         }
-        let places = Places {
+        let places = |axes| Places {
             document: self.document,
             raw: self.raw,
-            axes: &[],
+            axes,
+        };
+        let at_first = |alone: CaseError| {
+            let found = LoadedCase::find(&name, &overrides(self.raw, plan, 0));
+            // What is wrong without the values of a point, too, is no fault of theirs.
+            let is_of_value = |e: &CaseError| {
+                let varies = e.overridden.as_ref().is_some_and(|key| plan.varies(key));
+                varies && (&e.key, &e.problem) != (&alone.key, &alone.problem)
+            };
+            match found {
+                Err(IoError::Case(e)) if is_of_value(&e) => Err(places(&plan.axes).traced(*e)),
+                Err(_) => Err(places(&[]).traced(alone)),
+                found => found,
+            }
         };
         match LoadedCase::find(&name, &set_of(self.raw)) {
             Err(e @ IoError::NoCase { .. }) => self.wrong(
@@ -308,7 +324,7 @@ impl Words<'_> {
                 "a preset, or a file beside this one",
                 "correct the name",
             ),
-            Err(IoError::Case(e)) => Err(places.traced(*e)),
+            Err(IoError::Case(e)) => at_first(*e),
             found => found,
         }
     }

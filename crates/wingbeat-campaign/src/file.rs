@@ -24,7 +24,7 @@ pub struct CampaignFile {
     pub raw: RawCampaign,
     /// Its points.
     pub plan: Plan,
-    /// The case without the values of a point.
+    /// The case without the values of a point; with those of the first one where it cannot be flown without.
     pub base: LoadedCase,
     /// What paths in the case are relative to.
     pub case_folder: PathBuf,
@@ -53,7 +53,7 @@ impl CampaignFile {
             folder: &folder,
         };
         let plan = reader.plan(&raw)?;
-        let base = words.base_case(&folder)?;
+        let base = words.base_case(&folder, &plan)?;
         Ok(Self {
             name,
             case_folder: cases::folder_of(&raw, &folder),

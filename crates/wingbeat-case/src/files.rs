@@ -6,7 +6,7 @@ mod csv_file;
 mod outline;
 mod read;
 
-pub use csv_file::delimiter;
+pub use csv_file::csv_reader;
 
 use std::io::Read as _;
 use std::path::Path;

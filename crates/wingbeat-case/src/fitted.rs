@@ -17,6 +17,11 @@ pub struct FittedTable {
     pub samples: usize,
     /// How long the samples go on \[wingbeats\].
     pub span: f64,
+    /// Wingbeats in one unit of its first column, as it is given \[1\]; none of phases.
+    pub beats_per_unit: Option<f64>,
+    /// Wingbeats in one unit with which the series follows the samples much better \[1\]; none where there is
+    /// none near.
+    pub better_beats_per_unit: Option<f64>,
     /// Root mean square of what is left between samples and series \[deg\].
     pub residual_deg: f64,
     /// Most that is left of a sample \[deg\], and its phase \[wingbeats\].
@@ -52,13 +57,7 @@ impl FittedTable {
                 n.harmonics
             )
         });
-        let times = match self.span > ONE_BEAT {
-            true => format!(
-                "if the phases, {:.4} wingbeats in all, are times, give beats_per_unit; else ",
-                self.span
-            ),
-            false => String::new(),
-        };
+        let times = self.times();
         let coarse = (rms > NOISE_DEG || is_outlier).then(|| {
             format!(
                 "{}: {} harmonics leave {rms:.1} deg (rms) and {most:.1} deg of the sample at phase {phase}: {times}take out samples that are no measurements (lost frames), or fit more harmonics",
@@ -67,6 +66,65 @@ impl FittedTable {
         });
         coarse.or(noise)
     }
+
+    /// What may be wrong with the times of a table of more than one wingbeat.
+    fn times(&self) -> String {
+        let span = self.span;
+        match (self.beats_per_unit, self.better_beats_per_unit) {
+            _ if span <= ONE_BEAT => String::new(),
+            (None, _) => format!(
+                "if the phases, {span:.4} wingbeats in all, are times, give beats_per_unit; else "
+            ),
+            (Some(beats), Some(better)) => format!(
+                "beats_per_unit = {beats}, {span:.4} wingbeats in all, is likely to be wrong: with {better:.4} the samples repeat; else "
+            ),
+            (Some(beats), None) => format!(
+                "beats_per_unit = {beats}, {span:.4} wingbeats in all, may be wrong, or the frequency changes within the table: then fit a part of it with fewer wingbeats; else "
+            ),
+        }
+    }
+}
+
+/// Times are tried with so much more or fewer wingbeats in a unit \[1\].
+const WITHIN: f64 = 0.35;
+
+/// Trials for each wingbeat of the table: neighbours are apart by a twentieth of a wingbeat over all of it.
+const TRIALS: f64 = 20.0;
+
+/// Samples times trials at most: a tenth of a second or so.
+const MAX_TRIED: f64 = 1e5;
+
+/// With which part of the wingbeats in a unit the series follows the samples, with a third of what is left of
+/// them or less; none where with none.
+fn better(rows: &[(f64, f64)], harmonics: usize, rms: f64) -> Option<f64> {
+    let span = rows.last()?.0 - rows.first()?.0;
+    let trials = (TRIALS * WITHIN * span).ceil();
+    if span <= ONE_BEAT || 2.0 * trials * rows.len() as f64 > MAX_TRIED {
+        return None;
+    }
+    let left = |part: f64| {
+        let scaled: Vec<_> = rows.iter().map(|(x, q)| (part * x, *q)).collect();
+        let (_, left) = Fourier::fitted("", &scaled, harmonics).ok()?;
+        Some(root_mean_square(&left))
+    };
+    let last = trials as i32;
+    let parts = (-last..=last).map(|k| 1.0 + WITHIN * f64::from(k) / trials);
+    let tried = parts.filter_map(|part| Some((part, left(part)?)));
+    let (mut part, mut least) = tried.min_by(|a, b| a.1.total_cmp(&b.1))?;
+    let mut step = 0.5 * WITHIN / trials;
+    while step > 1e-4 {
+        for near in [part - step, part + step] {
+            if let Some(rest) = left(near).filter(|rest| *rest < least) {
+                (part, least) = (near, rest);
+            }
+        }
+        step *= 0.5;
+    }
+    (3.0 * least < rms).then_some(part)
+}
+
+fn root_mean_square(left: &[f64]) -> f64 {
+    (left.iter().map(|x| x * x).sum::<f64>() / left.len() as f64).sqrt()
 }
 
 impl LoadedCase {
@@ -74,34 +132,52 @@ impl LoadedCase {
     pub fn fitted_tables(&self) -> Vec<FittedTable> {
         let wings = self.raw.wing.iter();
         let motions = wings.filter_map(|(name, wing)| Some((name, wing.motion.as_ref()?)));
-        motions.flat_map(|(name, m)| of_wing(name, m)).collect()
+        motions
+            .flat_map(|(name, m)| self.of_wing(name, m))
+            .collect()
+    }
+
+    fn of_wing(&self, name: &str, motion: &WingMotionCase) -> Vec<FittedTable> {
+        let angles = [
+            ("phi", &motion.phi),
+            ("theta", &motion.theta),
+            ("psi", &motion.psi),
+        ];
+        let fitted = |(angle, case): (&str, &Option<AngleCase>)| {
+            let Some(AngleCase::Table(table)) = case else {
+                return None;
+            };
+            let key = format!("wing.{name}.motion.{angle}.table");
+            let beats = self.number_at(&format!("{key}.beats_per_unit"));
+            let rows = radians(table.rows_deg.as_ref()?);
+            left_of(key, &rows, table.harmonics?, beats)
+        };
+        angles.into_iter().filter_map(fitted).collect()
     }
 }
 
-fn of_wing(name: &str, motion: &WingMotionCase) -> Vec<FittedTable> {
-    let angles = [
-        ("phi", &motion.phi),
-        ("theta", &motion.theta),
-        ("psi", &motion.psi),
-    ];
-    let fitted = |(angle, case): (&str, &Option<AngleCase>)| {
-        let Some(AngleCase::Table(table)) = case else {
-            return None;
-        };
-        let (rows, harmonics) = (table.rows_deg.as_ref()?, table.harmonics?);
-        let (series, left) = Fourier::fitted("", &radians(rows), harmonics).ok()?;
-        let square = left.iter().map(|x| x * x).sum::<f64>() / left.len() as f64;
-        let sizes = left.iter().map(|x| x.abs().to_degrees());
-        let farthest = sizes.enumerate().max_by(|a, b| a.1.total_cmp(&b.1))?;
-        Some(FittedTable {
-            key: format!("wing.{name}.motion.{angle}.table"),
-            harmonics,
-            samples: left.len(),
-            span: rows[rows.len() - 1][0] - rows[0][0],
-            residual_deg: square.sqrt().to_degrees(),
-            farthest: [farthest.1, rows[farthest.0][0]],
-            noise: series.scatter(left.len()),
-        })
-    };
-    angles.into_iter().filter_map(fitted).collect()
+/// What is left of these rows \[wingbeats, rad\].
+fn left_of(
+    key: String,
+    rows: &[(f64, f64)],
+    harmonics: usize,
+    beats_per_unit: Option<f64>,
+) -> Option<FittedTable> {
+    let (series, left) = Fourier::fitted("", rows, harmonics).ok()?;
+    let rms = root_mean_square(&left);
+    let sizes = left.iter().map(|x| x.abs().to_degrees());
+    let farthest = sizes.enumerate().max_by(|a, b| a.1.total_cmp(&b.1))?;
+    let doubtful = beats_per_unit.filter(|_| rms.to_degrees() > NOISE_DEG);
+    let better = doubtful.and_then(|beats| Some(beats * better(rows, harmonics, rms)?));
+    Some(FittedTable {
+        key,
+        harmonics,
+        samples: left.len(),
+        span: rows[rows.len() - 1].0 - rows[0].0,
+        beats_per_unit,
+        better_beats_per_unit: better,
+        residual_deg: rms.to_degrees(),
+        farthest: [farthest.1, rows[farthest.0].0],
+        noise: series.scatter(left.len()),
+    })
 }

@@ -179,6 +179,11 @@ impl LoadedCase {
             .or(value.as_integer().map(|whole| whole as f64))
     }
 
+    /// Whether a key is given, by the text of the case or by what is set on top.
+    pub fn gives(&self, key: &str) -> bool {
+        self.source.gives(key)
+    }
+
     /// The text that is given for a key, with what is set on top; none where it is left out or no text.
     pub fn text_at(&self, key: &str) -> Option<&str> {
         self.source.value_at(key)?.as_str()

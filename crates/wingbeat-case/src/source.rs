@@ -7,6 +7,7 @@ use toml::de::{DeTable, DeValue};
 use toml::{Spanned, Table, Value};
 
 use crate::error::{CaseError, Fault};
+use crate::sides::mirror_name;
 
 /// Parts of a key at most; `wing.right.deformation.twist[0].course.fourier.cosine_deg[0]` has ten.
 const MAX_PARTS: usize = 32;
@@ -71,7 +72,8 @@ impl CaseSource {
             .overrides
             .iter()
             .rev()
-            .find(|(key, _)| related(key, &fault.key));
+            .find(|(key, _)| related(key, &fault.key))
+            .or_else(|| self.made(&fault.key));
         let mut error = CaseError {
             origin: self.name.clone(),
             line: None,
@@ -89,12 +91,38 @@ impl CaseSource {
         if error.remedy.starts_with("remove it") && !self.overrides.is_empty() && !is_typed {
             error.remedy += &format!("; `{}=`, set to nothing, takes it away", error.key);
         }
+        if let Some(words) = self.of_mirror_image(&fault.key, &error.problem) {
+            error.remedy += &words;
+        }
         if let Some((key, typed)) = overridden {
             error.origin = format!("{key}={typed} (set on top of {})", self.name);
         } else if let Some(span) = self.span(&fault.key, error.problem.starts_with("unknown key")) {
             self.mark(&mut error, span);
         }
         error
+    }
+
+    /// The override that made the table in which `key` is missing; none of a table that the text has.
+    fn made(&self, key: &str) -> Option<&(String, String)> {
+        let (table, _) = key.rsplit_once('.')?;
+        let is_made = !self.places.contains_key(table);
+        let mut overrides = self.overrides.iter().rev();
+        overrides.find(|(name, _)| is_made && related(table, name))
+    }
+
+    /// What is to be known where a key is missing in a table of a wing whose counterpart has one of its own.
+    fn of_mirror_image(&self, key: &str, problem: &str) -> Option<String> {
+        if !problem.ends_with("missing") {
+            return None;
+        }
+        let (wing, inside) = key.strip_prefix("wing.")?.split_once('.')?;
+        let (table, _) = inside.split_once('.')?;
+        let other = format!("wing.{}.{table}", mirror_name(wing)?);
+        self.gives(&other).then(|| {
+            format!(
+                "; [wing.{wing}.{table}] takes the place of the whole of [{other}], so give all of its keys"
+            )
+        })
     }
 
     /// Whether the command line chooses the value of `key`, by itself or with a table around it.
@@ -349,7 +377,7 @@ enum Part<'a> {
 }
 
 /// The value at a path.
-fn find<'a>(table: &'a Table, path: &str) -> Option<&'a Value> {
+pub(crate) fn find<'a>(table: &'a Table, path: &str) -> Option<&'a Value> {
     let mut steps = parts(path);
     let Some(Part::Name(first)) = steps.next() else {
         return None;

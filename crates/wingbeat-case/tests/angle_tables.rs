@@ -24,15 +24,24 @@ fn exact_semicolons_and_tabs_part_columns_like_commas() {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("slips");
     fs::create_dir_all(&folder).unwrap();
     let rows = "# digitised, by hand\nphase,angle_deg\n0,10\n0.25,3\n0.5,-10\n0.75,3\n1,10\n";
-    let [comma, semicolon, tab] = [",", ";", "\t"].map(|sign| {
-        let file = folder.join(format!("columns-{}.csv", sign.as_bytes()[0]));
-        fs::write(&file, rows.replace(',', sign)).unwrap();
+    // Spreadsheets put a byte order mark before everything, comments too.
+    let ways = [
+        (",", ""),
+        (";", ""),
+        ("\t", ""),
+        (";", "\u{feff}"),
+        ("\t", "\u{feff}"),
+    ];
+    let [comma, others @ ..] = ways.map(|(sign, mark)| {
+        let file = folder.join(format!("columns-{}-{}.csv", sign.as_bytes()[0], mark.len()));
+        fs::write(&file, format!("{mark}{}", rows.replace(',', sign))).unwrap();
         let law = format!("wing.right.motion.phi={{ table = {{ file = {file:?} }} }}");
         let case = LoadedCase::find("fruit-fly-hover", &[law]).unwrap();
         case.setup.animal.wings[1].motion.clone()
     });
-    assert_eq!(comma, semicolon);
-    assert_eq!(comma, tab);
+    for other in others {
+        assert_eq!(comma, other);
+    }
 }
 
 #[test]

@@ -3,6 +3,7 @@
 mod absurd;
 mod angle_tables;
 mod bodies_in_wind;
+mod counterparts;
 mod defaults;
 mod differences;
 mod held;
@@ -23,6 +24,7 @@ mod slips;
 mod starts_of_loops;
 mod table1;
 mod tables;
+mod times;
 mod turns;
 mod wingless;
 mod wings;

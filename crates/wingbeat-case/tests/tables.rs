@@ -107,3 +107,28 @@ fn refuses_added_mass_that_is_not_symmetric() {
         assert!(said.contains(part), "{said}");
     }
 }
+
+/// Tables along the span of an elastic wing: the key and the row of the user.
+#[test]
+fn refuses_rows_of_elastic_wings_by_their_key() {
+    let beam = "wing.right.structure.beam";
+    for (rows, says) in [
+        (
+            "[[0, 9e-5], [0.9, 2e-5]]",
+            "flap_table_newton_m2[1] = [0.9, 0.00002]: the table ends at r/R = 0.9",
+        ),
+        (
+            "[[0, 9e-5], [0.5, -2e-5], [1, 2e-5]]",
+            "flap_table_newton_m2[1] = [0.5, -0.00002]: along the span it comes to",
+        ),
+    ] {
+        let set = [
+            format!("{beam}.flap_newton_m2="),
+            format!("{beam}.flap_table_newton_m2={rows}"),
+        ];
+        let said = LoadedCase::find("hawkmoth-elastic", &set).unwrap_err();
+        let said = said.to_string();
+        assert!(said.contains(&format!("{beam}.{says}")), "{said}");
+        assert!(!said.contains("beam.flap.table"), "{said}");
+    }
+}

@@ -124,3 +124,30 @@ fn exact_resolved_cases_can_be_read() {
         assert!(format!("{:?}", case.setup) == format!("{:?}", again.setup));
     }
 }
+
+/// Defaults that a resolved case has filled in stand by what is set on top of it; what says more does not.
+#[test]
+fn behaves_resolved_cases_are_tethered_by_one_key() {
+    let resolved = LoadedCase::find("fruit-fly-blade", &[]).unwrap().resolved();
+    assert!(resolved.contains("held_beats = 0.0"), "{resolved}");
+    let set = |text: &str, key: &str| {
+        LoadedCase::from_text(
+            "resolved",
+            text,
+            std::path::Path::new(""),
+            &[key.to_owned()],
+        )
+    };
+    let tethered = set(&resolved, "flight.mode=tethered").unwrap();
+    assert!(matches!(tethered.setup.mode, MotionMode::Tethered(_)));
+    let held = resolved.replace("held_beats = 0.0", "held_beats = 1.0");
+    let said = set(&held, "flight.mode=tethered").unwrap_err().to_string();
+    assert!(
+        said.contains("held_beats = 1.0: this has no effect"),
+        "{said}"
+    );
+    // In one file, where nothing was set on top, the two contradict each other.
+    let written = resolved.replace("mode = \"free\"", "mode = \"tethered\"");
+    let said = set(&written, "time.beats=1").unwrap_err().to_string();
+    assert!(said.contains("this has no effect"), "{said}");
+}

@@ -17,6 +17,10 @@ use crate::error::FlightError;
 use crate::setup::{AirModel, FlightSetup, MotionMode};
 pub use crate::setup::{ControlModel, Feedback};
 
+/// Parts of the swing, angles [rad] and leads [wingbeats] that a controller may ask for, at most: ten times the
+/// stroke, and more than a whole turn.
+const MAX_COMMAND: f64 = 10.0;
+
 /// Shortest interval of looks [time steps]: the starting values of a multistep method must not
 /// see a change of command.
 pub const MIN_INTERVAL: usize = 4;
@@ -316,6 +320,11 @@ impl Loop {
         for (k, a) in command.iter().enumerate() {
             if let Some((name, x)) = a.numbers().iter().find(|(_, x)| !x.is_finite()) {
                 return wrong(format!("{name} of wing {k} is not finite: {x}"));
+            }
+            if let Some((name, x)) = a.numbers().iter().find(|(_, x)| x.abs() > MAX_COMMAND) {
+                return wrong(format!(
+                    "{name} of wing {k} is {x:e}: no wing moves so; parts of the swing, angles in radians and leads in wingbeats are from -{MAX_COMMAND} to {MAX_COMMAND}: look at gains and units of the controller"
+                ));
             }
             if a.frequency != 0.0 {
                 return wrong(format!("wing {k}: the frequency cannot change in flight"));

@@ -1,6 +1,6 @@
 //! Measured angles whose samples scatter: wings that beat with the noise of a camera.
 
-use wingbeat_model::motion::Scatter;
+use wingbeat_model::motion::{PeriodicSpline, Scatter};
 use wingbeat_model::{AngleLaw, Wing};
 
 use crate::setup::FlightSetup;
@@ -15,8 +15,11 @@ impl FlightSetup {
     pub fn scattered_angles(&self) -> Vec<String> {
         let mut found: Vec<(String, Vec<&str>)> = vec![];
         for wing in &self.animal.wings {
-            for (angle, scatter) in scatters(wing) {
-                let text = self.say_scatter(angle, &scatter);
+            for (angle, scatter, jump) in scatters(wing) {
+                let text = match jump {
+                    Some(jump) => say_jump(angle, &jump),
+                    None => self.say_scatter(angle, &scatter),
+                };
                 match found.iter_mut().find(|f| f.0 == text) {
                     Some((_, wings)) => wings.push(&wing.name),
                     None => found.push((text, vec![&wing.name])),
@@ -52,8 +55,49 @@ impl FlightSetup {
     }
 }
 
-/// The angles of a wing whose samples scatter.
-fn scatters(wing: &Wing) -> impl Iterator<Item = (&'static str, Scatter)> {
+/// A jump is more than so many times any other step from sample to sample: a wrong sample has two steps.
+const JUMPS: f64 = 5.0;
+
+/// One step from a sample to the next that is of another kind than all others.
+struct Jump {
+    /// Phase of the sample after it \[wingbeats\].
+    phase: f64,
+    /// Its size, and that of the largest other step \[rad\].
+    sizes: [f64; 2],
+    /// Whether it is the step from the last sample to the first.
+    closes: bool,
+}
+
+impl Jump {
+    fn of(table: &PeriodicSpline) -> Option<Self> {
+        let rows: Vec<(f64, f64)> = table.rows().collect();
+        let steps = rows.windows(2).map(|two| (two[1].1 - two[0].1).abs());
+        let mut sizes: Vec<(usize, f64)> = steps.enumerate().collect();
+        sizes.sort_by(|a, b| b.1.total_cmp(&a.1));
+        let [(at, most), (_, next), ..] = sizes[..] else {
+            return None;
+        };
+        (most > JUMPS * next).then(|| Self {
+            phase: rows[at + 1].0,
+            sizes: [most, next],
+            closes: at + 2 == rows.len(),
+        })
+    }
+}
+
+fn say_jump(angle: &str, jump: &Jump) -> String {
+    let [most, next] = jump.sizes.map(f64::to_degrees);
+    let place = match jump.closes {
+        true => "at the end of the beat".to_owned(),
+        false => format!("before phase {:.4}", jump.phase),
+    };
+    format!(
+        "motion.{angle} jumps by {most:.1} deg {place}, where other samples are {next:.2} deg apart at most: wings do not move so; give samples of a whole wingbeat that ends where it began, in one branch of the angle (no leap of 180 or 360 deg)"
+    )
+}
+
+/// The angles of a wing whose samples scatter, by noise or by a single jump.
+fn scatters(wing: &Wing) -> impl Iterator<Item = (&'static str, Scatter, Option<Jump>)> {
     let laws = &wing.motion.angles;
     let angles = [
         ("phi", &laws.phi),
@@ -61,7 +105,7 @@ fn scatters(wing: &Wing) -> impl Iterator<Item = (&'static str, Scatter)> {
         ("psi", &laws.psi),
     ];
     angles.into_iter().filter_map(|(name, law)| match law {
-        AngleLaw::Table(table) => Some((name, table.scatter()?)),
+        AngleLaw::Table(table) => Some((name, table.scatter()?, Jump::of(table))),
         _ => None,
     })
 }

@@ -107,6 +107,11 @@ impl Flight {
         )
     }
 
+    /// Whether the case gives a key.
+    fn gives(&self, key: &str) -> bool {
+        self.case.gives(key)
+    }
+
     /// The hash of what is in the files that the commands of its programs name, in hexadecimal digits; empty
     /// where none are.
     fn hash_of_programs(&self) -> String {

@@ -481,3 +481,19 @@ def test_behaves_single_values_alone_are_one_point():
     base = wingbeat.Flight.preset("fruit-fly-blade").set("time.beats", 1)
     table = campaign.map({"motion.frequency_hz": 200.0, "body.mass_kg": 1e-6}, campaign.Serial(), base=base)
     assert table["power_watt"].shape == (1,)
+
+
+def test_exact_a_value_that_is_none_takes_its_key_out_of_the_case():
+    """At some points the wing has its chord, at others an area instead."""
+    chord, area = "wing.right.planform.beta.mean_chord_m", "wing.right.planform.beta.area_m2"
+    points = {chord: [0.7e-3, None, None], area: [None, 1.6e-6, 1.7e-6], "time.beats": 1}
+    found = campaign.map(points, campaign.Serial(), base="fruit-fly-blade", keep=["power_watt"])
+    assert found.ok.all(), found.reasons
+    before = Flight.preset("fruit-fly-blade").set({chord: 0.7e-3, "time.beats": 1}).fly()
+    assert found["power_watt"][0] == before.beats["power_watt"].mean()
+    always = campaign.map({chord: None, area: [1.6e-6, 1.7e-6], "time.beats": 1}, campaign.Serial(), base="fruit-fly-blade")
+    assert always["power_watt"].tolist() == found["power_watt"].tolist()[1:]
+    alone = Flight.preset("fruit-fly-blade").set({chord: None, area: 1.7e-6, "time.beats": 1}).fly()
+    assert always["power_watt"][1] == alone.beats["power_watt"].mean()
+    with pytest.raises(CaseError, match="neither numbers nor texts"):
+        campaign.map({chord: [None, object()]}, campaign.Serial(), base="fruit-fly-blade")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import copy
+import inspect
 import os
 import pickle
 import subprocess
@@ -266,3 +267,37 @@ def test_behaves_python_adds_little_to_the_rust_core(controls_per_beat):
         best[1] = min(best[1], envs.core_seconds(count))
     print(f"{64 * count / best[0]:.0f} control steps per second, {64 * count / best[1]:.0f} in Rust")
     assert best[0] < 1.25 * best[1]
+
+
+def test_refuses_keywords_that_are_not_known_by_the_name_of_the_class():
+    """Both classes have their keywords in the signature, the same ones with the same defaults."""
+    with pytest.raises(TypeError, match=r"wingbeat\.gym\.Environment\(\) has no keyword 'beat': did you mean 'beats'"):
+        Environment("hover", beat=3)
+    with pytest.raises(TypeError, match=r"wingbeat\.gym\.VectorEnvironment\(\) has no keyword 'foo': it has autoreset_mode, copy, "):
+        VectorEnvironment(2, foo=3)
+    single, vector = (inspect.signature(kind).parameters for kind in (Environment, VectorEnvironment))
+    shared = {name: p.default for name, p in single.items()}
+    assert shared.items() <= {name: p.default for name, p in vector.items()}.items()
+    assert shared["steps_per_beat"] == 40 and shared["angle_limit_rad"] == 0.2
+    assert all(f"``{name}``" in Environment.__doc__ for name in shared if name != "render_mode")
+
+
+def test_exact_rewards_are_those_of_the_documentation():
+    environment = Environment("recover", controls_per_beat=4)
+    seen, _ = environment.reset(seed=2)
+    assert abs(seen[9:12]).max() > 0.2
+    action = np.array([0.3, -0.2, 0.1, 0.5], np.float32)
+    seen, reward, *_ = environment.step(action)
+    cost = 0.2 * sum(seen[0:3] ** 2) + sum(seen[3:6] ** 2) + sum(seen[9:12] ** 2) + 0.02 * sum(action**2)
+    assert reward == pytest.approx(np.exp(-cost) / 4, rel=1e-5)
+
+
+@pytest.mark.parametrize(("task", "tilt", "rate"), [("hover", 0.1, 0.02), ("recover", 1.2, 0.2), ("path", 0.1, 0.02)])
+def test_exact_starts_are_drawn_as_the_documentation_says(task, tilt, rate):
+    seen, _ = VectorEnvironment(200, task).reset(seed=1)
+    assert abs(seen[:, 0:3]).max() < 1e-6
+    for numbers, most in ((seen[:, 6:9], rate), (seen[:, 9:12], tilt)):
+        assert 0.97 * most < abs(numbers).max() < 1.01 * most
+        assert numbers.std() == pytest.approx(most / np.sqrt(3.0), rel=0.1)
+    speed = 0.25132741 if task == "path" else 0.0  # 4 R at 2 pi in 100 T
+    np.testing.assert_allclose(seen[:, 12:15], np.tile([speed, 0.0, 0.0], (200, 1)), atol=1e-6)

@@ -181,7 +181,8 @@ fn refuses_programs_that_talk_without_end_or_do_not_listen() {
             "exec 0<&-; sleep 1; echo error I am deaf; sleep 9",
             "I am deaf",
         ),
-        ("true", "it ended its output"),
+        ("true", "it ended its output: exit status 0"),
+        ("exit 3", "it ended its output: exit status 3"),
         // Answers that no question waits for.
         (
             "echo ready 2; yes '0 0 0 0 0 0'",
@@ -314,7 +315,8 @@ fn refuses_answers_of_a_controller_that_cannot_be_flown() {
             "sleep 9",
             "no answer within 2 s; allow more with control.external.timeout_s",
         ),
-        ("true", "it ended its output"),
+        ("true", "it ended its output: exit status 0"),
+        ("kill -9 $$", "it ended its output: ended by signal 9"),
         (
             "echo '{\"wings\":[{},{}]}'; read line; echo '{}'",
             "look 1: `sh -c",
@@ -335,6 +337,11 @@ fn refuses_answers_of_a_controller_that_cannot_be_flown() {
         let said = complaint(&out);
         assert!(matches!(out.status.code(), Some(1 | 2)), "{script}: {said}");
         assert!(said.contains(wanted), "{script}: {said}");
+        assert_eq!(
+            said.contains("NaN"),
+            script.contains("NaN"),
+            "{script}: {said}"
+        );
         assert!(
             said.contains("try the program on a line by hand, see docs/control.md"),
             "{script}: {said}"

@@ -30,19 +30,39 @@ const ANGLES: [Angle; 3] = [
     },
 ];
 
-/// Right and left wings of one place that go opposite ways.
+/// Right and left wings of one pair that go opposite ways.
 pub(super) fn against_each_other(wings: &[Wing]) -> Vec<String> {
-    let across = |a: &Wing, b: &Wing| {
-        let place = DVec3::new(b.hinge_b.x, -b.hinge_b.y, b.hinge_b.z);
-        a.hinge_b.distance(place) <= 1e-6 * a.report().length
-    };
     let pairs = wings.iter().enumerate().flat_map(|(k, a)| {
         let others = wings[k + 1..].iter();
         others
-            .filter(move |b| a.side != b.side && across(a, b))
+            .filter(move |b| a.side != b.side && is_pair(wings, a, b))
             .map(move |b| (a, b))
     });
     pairs.flat_map(|(a, b)| opposite(a, b)).collect()
+}
+
+/// Whether two wings on either side are a pair: by their names, where one of them has a partner by name, as
+/// `upper-left` has in `upper-right`; else by hinges that are mirror images. Several wings may have one hinge.
+fn is_pair(wings: &[Wing], a: &Wing, b: &Wing) -> bool {
+    let partner = |of: &Wing| {
+        let name = other_side(&of.name)?;
+        wings.iter().find(|w| w.name == name && w.side != of.side)
+    };
+    match (partner(a), partner(b)) {
+        (None, None) => {
+            let place = DVec3::new(b.hinge_b.x, -b.hinge_b.y, b.hinge_b.z);
+            a.hinge_b.distance(place) <= 1e-6 * a.report().length
+        }
+        (partner, _) => partner.is_some_and(|p| p.name == b.name),
+    }
+}
+
+/// The name with left for right, or right for left; none where it says neither.
+fn other_side(name: &str) -> Option<String> {
+    [("left", "right"), ("right", "left")]
+        .into_iter()
+        .find(|(this, _)| name.contains(this))
+        .map(|(this, other)| name.replace(this, other))
 }
 
 /// The angles in which a wing and one on the other side go opposite ways. Where the strokes do, the others mean

@@ -133,7 +133,7 @@ fn fault_of_animal(case: &Case, error: ModelError) -> Fault {
             format!("wing.{}.hinge_m", wing::source_of(case, wing)),
             error.to_string(),
             "a point within half a body length of the body's surface, metres in body axes",
-            "check sign and unit: b1 forward, b2 right, b3 down, a millimetre is 1e-3",
+            "check sign and unit: b1 forward, b2 right, b3 down, a millimetre is 1e-3; where both are right, give the part that carries it, as a slim [body.part.boom] from the body to the hinge of a tail",
         ),
         ModelError::Mass { of, .. } if case.wing.contains_key(of) => Fault::new(
             format!("wing.{of}.inertia_about_centre_kg_m2"),

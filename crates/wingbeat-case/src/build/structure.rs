@@ -13,6 +13,7 @@ use crate::error::Fault;
 use crate::raw::{
     BeamCase, BeamMassCase, RegionCase, ShellCase, ShellRule, StructureCase, VeinCase,
 };
+use crate::source::find;
 
 /// Elements of a beam where nothing is said.
 const ELEMENTS: usize = 10;
@@ -58,10 +59,47 @@ pub(super) fn make(wing: Wing, path: &str, case: &StructureCase) -> Built<Wing> 
     wing.made_of(structure).map_err(|e| traced(path, case, &e))
 }
 
-/// A fault of the model traced to the table it is about.
+/// A fault of the model traced to the table it is about; a number of a law is one along the span.
 fn traced(path: &str, case: &StructureCase, error: &ModelError) -> Fault {
-    let (ModelError::Value { key, .. } | ModelError::Count { key, .. }) = error else {
-        return fault_at(path, case, error);
+    let fault = traced_to_key(path, case, error);
+    let whole = toml::Table::try_from(case).unwrap_or_default();
+    let inside = fault
+        .key
+        .strip_prefix(path)
+        .and_then(|k| k.strip_prefix('.'));
+    let rows = inside
+        .and_then(|k| find(&whole, k))
+        .and_then(toml::Value::as_array);
+    let (ModelError::Value { value, .. }, true, Some(rows)) =
+        (error, fault.key.contains("_table_"), rows)
+    else {
+        return fault;
+    };
+    let is_low = |row: &toml::Value| {
+        let second = row.as_array().and_then(|r| r.get(1));
+        second.is_some_and(|x| x.as_float().or(x.as_integer().map(|n| n as f64)) <= Some(0.0))
+    };
+    let row = rows.iter().position(is_low);
+    Fault {
+        key: row.map_or(fault.key.clone(), |k| format!("{}[{k}]", fault.key)),
+        problem: format!(
+            "along the span it comes to {value}: must be {}",
+            fault.allowed
+        ),
+        remedy: "correct this row".to_owned(),
+        ..fault
+    }
+}
+
+fn traced_to_key(path: &str, case: &StructureCase, error: &ModelError) -> Fault {
+    let key = match error {
+        ModelError::Value { key, .. } | ModelError::Count { key, .. } => key,
+        ModelError::Table {
+            table,
+            row,
+            problem,
+        } => return of_row(path, case, table, *row, problem),
+        _ => return fault_at(path, case, error),
     };
     let table = key.rsplit('.').nth(1).unwrap_or_default();
     let (root, path) = (path, format!("{path}.{table}"));
@@ -82,6 +120,29 @@ fn traced(path: &str, case: &StructureCase, error: &ModelError) -> Fault {
         ("shell", ..) => fault_at(&path, &case.shell, error),
         _ => fault_at(root, case, error),
     }
+}
+
+/// A fault of a row, counted from 1, of a table that the model calls `table`, at the key that gives it.
+fn of_row(path: &str, case: &StructureCase, table: &str, row: usize, problem: &str) -> Fault {
+    let inside = table
+        .rsplit_once("structure.")
+        .map_or(table, |(_, name)| name);
+    let inside = inside.strip_suffix(".table").unwrap_or(inside);
+    let (holder, stem) = inside.rsplit_once('.').unwrap_or(("", inside));
+    let whole = toml::Table::try_from(case).unwrap_or_default();
+    let keys = find(&whole, holder).and_then(toml::Value::as_table);
+    let begins = |key: &&String| key.starts_with(&format!("{stem}_table"));
+    let key = keys.and_then(|t| t.keys().find(begins));
+    let key = match key {
+        Some(key) => format!("{path}.{holder}.{key}[{}]", row.saturating_sub(1)),
+        None => path.to_owned(),
+    };
+    Fault::new(
+        key,
+        problem,
+        "rows [r/R, value] from the root, or farther in, to the tip: r/R rises to 1, the distance from the hinge over the wing length",
+        "correct this row, or add the rows that are missing",
+    )
 }
 
 fn beam(path: &str, case: &BeamCase) -> Built<WingBeam> {

@@ -237,9 +237,13 @@ impl Conversation {
     /// What the wings are asked for, and the memory of an answer.
     fn understood(&self, line: &str) -> Result<(Vec<Adjustment>, Vec<f64>), String> {
         let answer: Answer = serde_json::from_str(line).map_err(|e| {
-            format!(
-                "its answer is not what docs/control.md asks for ({e}; JSON has no NaN and no Infinity): `{line}`"
-            )
+            let is_none = e.is_syntax() && ["NaN", "Inf"].iter().any(|word| line.contains(word));
+            let note = if is_none {
+                "; JSON has no NaN and no Infinity"
+            } else {
+                ""
+            };
+            format!("its answer is not what docs/control.md asks for ({e}{note}): `{line}`")
         })?;
         if let Some(problem) = answer.error {
             return Err(match problem.trim() {

@@ -159,7 +159,21 @@ impl Partner {
         match self.lines.recv_timeout(time) {
             Ok(line) => line.map_err(|problem| self.complain(&problem)),
             Err(RecvTimeoutError::Timeout) => Err(self.too_late("no answer")),
-            Err(RecvTimeoutError::Disconnected) => Err(self.complain(ENDED)),
+            Err(RecvTimeoutError::Disconnected) => Err(self.complain(&self.ended())),
+        }
+    }
+
+    /// What is said of it once its output has ended: how it ended itself, if it has.
+    fn ended(&self) -> String {
+        let until = Instant::now() + GRACE;
+        loop {
+            if let Some(how) = how_ended(&self.child) {
+                return format!("{ENDED}: {how}");
+            }
+            if Instant::now() > until {
+                return ENDED.to_owned();
+            }
+            std::thread::sleep(Duration::from_millis(5));
         }
     }
 
@@ -188,7 +202,7 @@ impl Partner {
                 },
                 Ok(Err(reason)) => reason,
                 Err(RecvTimeoutError::Timeout) => format!("it does not listen: {problem}"),
-                Err(RecvTimeoutError::Disconnected) => ENDED.to_owned(),
+                Err(RecvTimeoutError::Disconnected) => self.ended(),
             };
             return self.complain(&reason);
         }
@@ -244,6 +258,24 @@ fn read(output: ChildStdout, send: &SyncSender<Result<String, String>>, max_byte
             return;
         }
     }
+}
+
+/// How a program has ended; none while it runs. It is not waited for, so that its number stays its own.
+#[cfg(unix)]
+fn how_ended(child: &Child) -> Option<String> {
+    use rustix::process::{Pid, WaitId, WaitIdOptions, waitid};
+    let options = WaitIdOptions::EXITED | WaitIdOptions::NOHANG | WaitIdOptions::NOWAIT;
+    let status = waitid(WaitId::Pid(Pid::from_child(child)), options).ok()??;
+    let code = status
+        .exit_status()
+        .map(|code| format!("exit status {code}"));
+    let signal = || Some(format!("ended by signal {}", status.terminating_signal()?));
+    code.or_else(signal)
+}
+
+#[cfg(not(unix))]
+fn how_ended(_child: &Child) -> Option<String> {
+    None
 }
 
 #[cfg(unix)]

@@ -97,8 +97,34 @@ fn rows(
     let to_degrees = unit.map_err(|problem| csv.bad(&problem))?;
     let converted = |&[x, angle]: &[f64; 2]| convention.apply([x, to_degrees * angle]);
     let rows: Vec<_> = table.rows.iter().map(converted).collect();
-    check(csv, &rows, &table.lines, harmonics)?;
+    check(csv, &rows, &table.lines, harmonics).map_err(|fault| {
+        match convention.beats_per_unit {
+            Some(beats) => timed(fault, &rows, beats, &table.names[0]),
+            None => fault,
+        }
+    })?;
     Ok(rows)
+}
+
+/// The fault of a table of times, with how many wingbeats it has and what a unit of its column asks for.
+fn timed(mut fault: Fault, rows: &[[f64; 2]], beats: f64, column: &str) -> Fault {
+    let span = rows[rows.len() - 1][0] - rows[0][0];
+    fault.problem +=
+        &format!(". With beats_per_unit = {beats} the table goes on for {span:.1} wingbeats");
+    let words = words_of(column);
+    let has = |names: &[&str]| words.iter().any(|w| names.contains(&w.as_str()));
+    let unit = match () {
+        () if has(&["ms", "millisecond", "milliseconds"]) => {
+            "in ms the frequency in kHz, 0.2 for 200 Hz"
+        }
+        () if has(&["us"]) => "in us the frequency in MHz, 0.0002 for 200 Hz",
+        () if has(&["frame", "frames"]) => "the frequency over that of the frames",
+        () => "the frequency in Hz for seconds, in kHz for ms",
+    };
+    fault.remedy = format!(
+        "where that is more or less than was measured, correct beats_per_unit, the wingbeats in one unit of `{column}`: {unit}"
+    );
+    fault
 }
 
 /// Degrees in the unit that the name of a column says, as `psi_rad` or `psi [deg]`; degrees where it says none.
@@ -106,6 +132,11 @@ fn degrees(column: &str) -> Result<f64, String> {
     let words = words_of(column);
     let any = |names: &[&str]| words.iter().any(|w| names.contains(&w.as_str()));
     let radians = any(&["rad", "rads", "radian", "radians"]);
+    if let Some(unit) = words.iter().find(|w| OTHER_UNITS.contains(&w.as_str())) {
+        return Err(format!(
+            "the name of the column `{column}` says `{unit}`, and angles are read in degrees (`deg`) or radians (`rad`): convert them, or name the column without a unit and give what makes degrees of them as factor"
+        ));
+    }
     match (radians, any(&["deg", "degs", "degree", "degrees"])) {
         (true, true) => Err(format!(
             "the name of the column `{column}` says both radians and degrees"
@@ -114,6 +145,28 @@ fn degrees(column: &str) -> Result<f64, String> {
         (false, _) => Ok(1.0),
     }
 }
+
+/// Words in the name of a column that say a unit of angles which is not read.
+const OTHER_UNITS: [&str; 18] = [
+    "mrad",
+    "urad",
+    "milliradian",
+    "milliradians",
+    "mdeg",
+    "arcmin",
+    "arcsec",
+    "gon",
+    "grad",
+    "grads",
+    "gradian",
+    "gradians",
+    "turn",
+    "turns",
+    "rev",
+    "revs",
+    "percent",
+    "pct",
+];
 
 /// Words in the name of a column that say a unit of time, or count frames.
 const TIMES: [&str; 11] = [

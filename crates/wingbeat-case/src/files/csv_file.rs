@@ -7,6 +7,9 @@ use csv::StringRecord;
 use super::read::bytes_of;
 use crate::error::Fault;
 
+/// The byte order mark of UTF-8.
+const MARK: &[u8] = b"\xef\xbb\xbf";
+
 /// A CSV file, and the key that names it.
 pub(super) struct CsvFile {
     pub key: String,
@@ -29,11 +32,7 @@ impl CsvFile {
         choose: impl FnOnce(&StringRecord) -> Result<[usize; 2], Fault>,
     ) -> Result<Columns, Fault> {
         let text = bytes_of(&self.key, &self.file)?;
-        let mut reader = csv::ReaderBuilder::new()
-            .comment(Some(b'#'))
-            .delimiter(delimiter(&text))
-            .trim(csv::Trim::All)
-            .from_reader(text.as_slice());
+        let mut reader = csv_reader(&text);
         let header = reader.headers().map_err(|e| self.bad(&e.to_string()))?;
         self.check_names(header)?;
         let columns = choose(header)?;
@@ -117,8 +116,19 @@ pub(super) fn words_of(column: &str) -> Vec<String> {
     words.map(str::to_lowercase).collect()
 }
 
+/// Reads a CSV file with a header: without the byte order mark that spreadsheets put before everything, without
+/// comments (`#`), columns parted by what its header has.
+pub fn csv_reader(text: &[u8]) -> csv::Reader<&[u8]> {
+    let text = text.strip_prefix(MARK).unwrap_or(text);
+    csv::ReaderBuilder::new()
+        .comment(Some(b'#'))
+        .delimiter(delimiter(text))
+        .trim(csv::Trim::All)
+        .from_reader(text)
+}
+
 /// What parts the columns of a CSV file: a comma, or a semicolon or tab where the header has no comma.
-pub fn delimiter(text: &[u8]) -> u8 {
+fn delimiter(text: &[u8]) -> u8 {
     let is_comment = |line: &&[u8]| line.starts_with(b"#") || line.trim_ascii().is_empty();
     let mut lines = text.split(|&b| b == b'\n');
     let header = lines.find(|line| !is_comment(line)).unwrap_or_default();

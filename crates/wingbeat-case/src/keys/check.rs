@@ -88,7 +88,7 @@ impl Pair<'_> {
             let path = join(path, name);
             for need in needs::of(key) {
                 let idle = !need.is_met(self.whole, whole, given);
-                if idle && !self.stands_by(key, need, &path) {
+                if idle && !self.stands_by(key, need, &path, value) {
                     let [problem, allowed, remedy] = need.explained(self.whole, whole);
                     return Err(Fault::new(path, problem, allowed, remedy));
                 }
@@ -118,14 +118,21 @@ impl Pair<'_> {
 
     /// What the file says for another air model, integrator or controller than the command line
     /// chose, but for properties of the air itself. The integrator follows from the model unless it is given.
-    fn stands_by(&self, key: Shape, need: Need, path: &str) -> bool {
+    /// Whatever else the command line chose, zeros that a case has filled in as defaults do not contradict it.
+    fn stands_by(&self, key: Shape, need: Need, path: &str, value: &Value) -> bool {
         let source = self.source;
         let follows =
             source.chooses(INTEGRATOR) || !source.gives(INTEGRATOR) && source.chooses(MODEL);
         let chosen = |key: &str| need.is_value_of(key) && source.chooses(key);
         let switched =
             chosen(MODEL) || chosen(CONTROLLER) || need.is_value_of(INTEGRATOR) && follows;
-        switched && !source.touches(path) && key.key.get("always").is_none()
+        let stays = switched && key.key.get("always").is_none();
+        let is_default = || {
+            let chosen = need.chosen_by(path);
+            let is_nothing = is_zero(value) || !says(value);
+            chosen.is_some_and(|by| source.chooses(&by)) && is_nothing && key.is_default(value)
+        };
+        !source.touches(path) && (stays || is_default())
     }
 }
 
@@ -155,10 +162,13 @@ pub(crate) fn beside_own_air(source: &CaseSource) -> Checked {
 
 /// Whether a value is more than an empty list or zeros.
 fn says(value: &Value) -> bool {
-    let is_zero = |v: &Value| v.as_float() == Some(0.0) || v.as_integer() == Some(0);
     value
         .as_array()
         .is_none_or(|list| !list.iter().all(is_zero))
+}
+
+fn is_zero(value: &Value) -> bool {
+    value.as_float() == Some(0.0) || value.as_integer() == Some(0)
 }
 
 /// Of alternatives only one is given.

@@ -66,6 +66,18 @@ impl Need {
         matches!(self, Self::Value { key, .. } if key == path)
     }
 
+    /// The path of the key that decides whether one at `path` has an effect; none where several do.
+    pub fn chosen_by(self, path: &str) -> Option<String> {
+        match self {
+            Self::Value { key, .. } if key.contains('.') => Some(key.to_owned()),
+            Self::Value { key, .. } => {
+                let (around, _) = path.rsplit_once('.')?;
+                Some(format!("{around}.{key}"))
+            }
+            Self::Given(_) | Self::NotGiven(_) => None,
+        }
+    }
+
     /// What is wrong with a key that needs this, what is allowed, what to try.
     pub fn explained(self, root: &Table, around: &Table) -> [String; 3] {
         match self {

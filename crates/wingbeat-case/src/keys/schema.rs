@@ -53,6 +53,20 @@ fn without_null(schema: &mut Value) {
     }
 }
 
+/// Whether a value of the schema and one of a case are the same.
+fn is_same(a: &Value, b: &toml::Value) -> bool {
+    match b {
+        toml::Value::Integer(n) => a.as_f64() == Some(*n as f64),
+        toml::Value::Float(x) => a.as_f64() == Some(*x),
+        toml::Value::Array(items) => a.as_array().is_some_and(|list| {
+            list.len() == items.len() && list.iter().zip(items).all(|(a, b)| is_same(a, b))
+        }),
+        toml::Value::String(text) => a.as_str() == Some(text),
+        toml::Value::Boolean(is) => a.as_bool() == Some(*is),
+        toml::Value::Table(_) | toml::Value::Datetime(_) => false,
+    }
+}
+
 /// What a key or an element may be: its own words beside those of its type.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Shape {
@@ -100,6 +114,11 @@ impl Shape {
     /// A bound, where there is one.
     pub fn number(self, name: &str) -> Option<f64> {
         self.word(name).and_then(Value::as_f64)
+    }
+
+    /// Whether a value of a case is what the key has where it is left out.
+    pub fn is_default(self, value: &toml::Value) -> bool {
+        self.key.get("default").is_some_and(|d| is_same(d, value))
     }
 
     /// Keys of a table, by name.

@@ -302,8 +302,8 @@ pub struct TableCase {
     #[schemars(extend("with" = "file"))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub angle_column: Option<String>,
-    /// Wingbeats in one unit of the first column: the wingbeat frequency for times in seconds, frequency over
-    /// frame rate for frames. Left out: 1, phases.
+    /// Wingbeats in one unit of the first column: the wingbeat frequency in Hz for times in seconds, in kHz
+    /// for ms, frequency over frame rate for frames. Left out: 1, phases.
     ///
     /// Change it for recordings over time; with `harmonics` they may go on over several wingbeats.
     #[schemars(extend("exclusiveMinimum" = 0))]

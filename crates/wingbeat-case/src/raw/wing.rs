@@ -9,7 +9,8 @@ use wingbeat_model::planform::Spacing;
 use super::{DeformationCase, StructureCase, WingMotionCase};
 
 /// One wing. What a left wing leaves out it takes from the mirror image of its right counterpart, and
-/// the other way round (`left` and `right` in the names make pairs).
+/// the other way round (`left` and `right` in the names make pairs). A table such as `planform` or `mesh` that
+/// it gives takes the place of the whole of the other's.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct WingCase {

@@ -102,7 +102,7 @@ class Flight:
         Each is an array of equally spaced values over one wingbeat, the end left out, or a function of the phase in
         wingbeats, from 0 to 1, which is sampled ``samples`` times now and never called again. They hold for ``wing``,
         or for all right wings; a left wing without angles of its own is the mirror image of the right one (and the other way
-        round). The flight joins them by a periodic cubic spline.
+        round). The flight joins them by a periodic cubic spline; angles that do not end where they began are refused.
         """
         angles = {"phi": phi_deg, "theta": theta_deg, "psi": psi_deg}
         given = {name: _rows(name, angle, samples) for name, angle in angles.items() if angle is not None}
@@ -416,6 +416,10 @@ def _asked(
     return velocity, turn_rate, names, ranges
 
 
+_SAMPLES, _JUMPS = 16, 5.0
+"""Of so many samples or more, the step from the last to the first may be so many times the largest of the others."""
+
+
 def _rows(name: str, angle: ArrayLike | Callable[[float], float], samples: int) -> list[list[float]]:
     """Rows of phase and angle over a wingbeat, its end the same as its start."""
     import numpy as np
@@ -432,6 +436,13 @@ def _rows(name: str, angle: ArrayLike | Callable[[float], float], samples: int) 
         )
     phases = np.linspace(0.0, 1.0, values.size + 1)
     angles = np.append(values, values[0])
+    steps = np.abs(np.diff(angles))
+    if values.size >= _SAMPLES and steps[-1] > _JUMPS * steps[:-1].max():
+        raise CaseError(
+            f"{name}_deg: the angle jumps by {steps[-1]:.1f} deg at the end of the beat, from {values[-1]:.1f} to {values[0]:.1f}",
+            key=f"{name}_deg",
+            remedy="a function, or values, of a whole wingbeat that end where they began",
+        )
     return [[float(phase), float(x)] for phase, x in zip(phases, angles, strict=True)]
 
 

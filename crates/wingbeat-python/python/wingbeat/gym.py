@@ -7,18 +7,65 @@
 or ``gymnasium.make("wingbeat/Hover-v0")``, ``gymnasium.make_vec(..., vectorization_mode="vector_entry_point")``; tasks
 hover, recover (from a tumble), path (follow a target), gust. Needs gymnasium.
 
-Actions are four numbers in [-1, 1], fractions of their limits: relative stroke amplitude, mean stroke angle, right-left
-differences of amplitude and of stroke plane, once per wingbeat or ``controls_per_beat`` times; the strokes go over to them smoothly.
-Observations are 17 numbers in natural units (wing length R, wingbeat T): place less the target's, velocity, angular velocity,
-tilt, velocity of the target, sine and cosine of the phase of the wingbeat. Rewards are at most one per wingbeat. Starts and
-noise of the sensors follow from the seed of ``reset`` and the number of the episode since.
+An episode is flown about the trimmed flight of ``flight``. R is the wing length [m], T the wingbeat [s]. Level axes are forward,
+right and down of the trimmed attitude at the start of a wingbeat: down along gravity, forward the horizontal part of b1.
+
+**Actions**: four numbers in [-1, 1] (larger ones are cut), once per control step, over which the strokes go to them smoothly.
+Times their limits they are
+
+== ======================================================================= ===================
+0  relative change of the stroke amplitude of all wings [1]                ``amplitude_limit``
+1  mean stroke angle of all wings, forward [rad]                           ``angle_limit_rad``
+2  relative amplitude of right wings less that of left ones [1]            ``amplitude_limit``
+3  pitch of the stroke plane of right wings less that of left ones [rad]   ``angle_limit_rad``
+== ======================================================================= ===================
+
+**Observations**: 17 numbers, float32, without bounds.
+
+===== ============================================================================================ ======
+0-2   place of the mass centre less the target's, level axes                                       R
+3-5   velocity u, v, w less that of the trimmed flight (not the target's)                           R / T
+6-8   angular velocity p, q, r, likewise                                                           1 / T
+9-11  tilt: rotation vector roll, pitch, heading from the trimmed attitude, level axes             rad
+12-14 velocity of the target, level axes                                                           R / T
+15-16 sine and cosine of the phase of the wingbeat                                                 1
+===== ============================================================================================ ======
+
+u, v, w and p, q, r are components along level axes that turn with the body; the trimmed flight that they are compared with is that
+at the start of a wingbeat. Numbers 0 to 11 have the noise of the sensors, normal and of its own at each look, and are ``delay``
+control steps old.
+
+**Rewards**: of a control step ``exp(-cost) / controls_per_beat``, so one per wingbeat at most, with
+``cost = 0.2 |place|^2 + |velocity|^2 + |tilt|^2 + 0.02 |action|^2`` of the numbers 0 to 5 and 9 to 11 above (R, R / T, rad) without
+noise and delay, and of the action; 0 in the step in which the flyer is lost.
+
+**Ends**: terminated where the flyer is lost: farther than 20 R from its target, tilted by more than 2.5 rad, or its numbers
+no longer finite; truncated after ``beats`` wingbeats.
+
+**Starts**: each component is drawn evenly within +- of these, about the trimmed flight at the start of a wingbeat; the velocity
+along level axes that do not turn with the body, tilt and rate as they are observed.
+
+======= ========== ============== =============== ==================================================================
+task    tilt [rad] velocity [R/T] rate [1/T]      what else
+======= ========== ============== =============== ==================================================================
+hover   0.1        0.05           0.02            the target is the trimmed flight
+recover 1.2        0.05           0.2             a tumble
+path    0.1        0.05           0.02            the target goes round a level circle of radius 4 R to the right, once in
+                                                  100 wingbeats: 0.25 R / T
+gust    0.1        0.05           0.02            one horizontal gust, see below
+======= ========== ============== =============== ==================================================================
+
+The gust is a single pulse that is even in space, no turbulence: it rises and falls as ``(1 - cos(2 pi t / (4 T))) / 2`` over four
+wingbeats. Its peak is drawn evenly from 0.2 to 0.5 R / T, its direction from all horizontal ones, its beginning from 2 T to 20 T
+after the start. Starts and noise of the sensors follow from the seed of ``reset`` and the number of the episode since.
 """
 
 from __future__ import annotations
 
+import inspect
 from collections.abc import Sequence
 from difflib import get_close_matches
-from typing import TYPE_CHECKING, Any, NoReturn
+from typing import TYPE_CHECKING, Any, NoReturn, Self
 
 import gymnasium
 import numpy as np
@@ -71,11 +118,24 @@ def _check_options(options: dict[str, Any] | None, *known: str) -> None:
 
 
 class _Uncopied:
-    """Flyers live in the compiled core: they are neither copied nor pickled."""
+    """Flyers live in the compiled core: they are neither copied nor pickled. Keywords that are not known are refused with the
+    nearest one.
+    """
+
+    def __new__(cls, *_arguments: Any, **settings: Any) -> Self:
+        parameters = inspect.signature(cls.__init__).parameters
+        is_open = any(p.kind is p.VAR_KEYWORD for p in parameters.values())
+        known = [name for name, p in parameters.items() if p.kind is p.KEYWORD_ONLY]
+        for name in settings:
+            if name not in parameters and not is_open:
+                near = get_close_matches(name, known, 1)
+                remedy = f"did you mean {near[0]!r}?" if near else f"it has {', '.join(known)}"
+                raise TypeError(f"wingbeat.gym.{cls.__name__}() has no keyword {name!r}: {remedy}")
+        return super().__new__(cls)
 
     def __reduce__(self) -> NoReturn:
         raise CaseError(
-            f"a {type(self).__name__} cannot be copied or pickled: its flyers cannot",
+            f"wingbeat.gym.{type(self).__name__} cannot be copied or pickled: its flyers cannot",
             key="environment",
             remedy="keep its settings, its seed and the actions since reset(seed=...): the same ones give the same bits",
         )
@@ -164,17 +224,65 @@ class _Fleet(_Uncopied):
 
 
 class Environment(_Uncopied, gymnasium.Env[Any, Any]):
-    """One flyer. Keywords: ``flight`` (the fruit fly in blade elements if left out), ``steps_per_beat``, ``controls_per_beat``,
-    ``beats`` of an episode, ``amplitude_limit``, ``angle_limit_rad``, ``delay`` in control steps and standard deviations of the
-    sensors (``position_noise_m``, ``velocity_noise_m_per_s``, ``tilt_noise_rad``, ``rate_noise_rad_per_s``).
+    """One flyer.
+
+    ========================== =========== ================= ============================================================
+    keyword                    default     allowed           what
+    ========================== =========== ================= ============================================================
+    ``task``                   ``"hover"`` ``TASKS``         what is to be done
+    ``flight``                 None        in blade elements the flyer; None: the preset ``fruit-fly-blade``
+    ``steps_per_beat``         40          20 to 2000        integration steps of a wingbeat
+    ``controls_per_beat``      1           1 and more        control steps of a wingbeat, a divisor of ``steps_per_beat``
+    ``beats``                  100         1 to 1e6          wingbeats of an episode
+    ``amplitude_limit``        0.2         0 to 0.5          largest actions 0 and 2 [1]
+    ``angle_limit_rad``        0.2         0 to 0.5          largest actions 1 and 3 [rad]
+    ``delay``                  0           0 to 10000        control steps from sensing to observing
+    ``position_noise_m``       0           0 to 1e3          standard deviation of places that are sensed, each component [m]
+    ``velocity_noise_m_per_s`` 0           0 to 1e3          of velocities [m/s]
+    ``tilt_noise_rad``         0           0 to 3            of the tilt [rad]
+    ``rate_noise_rad_per_s``   0           0 to 1e5          of angular velocities [rad/s]
+    ========================== =========== ================= ============================================================
+
+    Axes and units of actions and observations, rewards, starts and ends: :mod:`wingbeat.gym`.
     """
 
     metadata = {"render_modes": []}  # noqa: RUF012
 
-    def __init__(self, task: str = "hover", *, render_mode: None = None, **settings: Any) -> None:
+    def __init__(
+        self,
+        task: str = "hover",
+        *,
+        flight: Flight | None = None,
+        steps_per_beat: int = 40,
+        controls_per_beat: int = 1,
+        beats: int = 100,
+        amplitude_limit: float = 0.2,
+        angle_limit_rad: float = 0.2,
+        delay: int = 0,
+        position_noise_m: float = 0.0,
+        velocity_noise_m_per_s: float = 0.0,
+        tilt_noise_rad: float = 0.0,
+        rate_noise_rad_per_s: float = 0.0,
+        render_mode: None = None,
+    ) -> None:
         if render_mode is not None:
             raise CaseError("render_mode: there is none", key="render_mode", remedy="leave it out")
-        self._fleet = _Fleet(1, task, "disabled", **settings)
+        self._fleet = _Fleet(
+            1,
+            task,
+            "disabled",
+            flight=flight,
+            steps_per_beat=steps_per_beat,
+            controls_per_beat=controls_per_beat,
+            beats=beats,
+            amplitude_limit=amplitude_limit,
+            angle_limit_rad=angle_limit_rad,
+            delay=delay,
+            position_noise_m=position_noise_m,
+            velocity_noise_m_per_s=velocity_noise_m_per_s,
+            tilt_noise_rad=tilt_noise_rad,
+            rate_noise_rad_per_s=rate_noise_rad_per_s,
+        )
         self.observation_space = self._fleet.observation_space
         self.action_space = self._fleet.action_space
 
@@ -217,8 +325,18 @@ class VectorEnvironment(_Uncopied, gymnasium.vector.VectorEnv[Any, Any, Any]):
         *,
         autoreset_mode: AutoresetMode | str = AutoresetMode.NEXT_STEP,
         copy: bool = True,
+        flight: Flight | None = None,
+        steps_per_beat: int = 40,
+        controls_per_beat: int = 1,
+        beats: int = 100,
+        amplitude_limit: float = 0.2,
+        angle_limit_rad: float = 0.2,
+        delay: int = 0,
+        position_noise_m: float = 0.0,
+        velocity_noise_m_per_s: float = 0.0,
+        tilt_noise_rad: float = 0.0,
+        rate_noise_rad_per_s: float = 0.0,
         render_mode: None = None,
-        **settings: Any,
     ) -> None:
         try:
             mode = AutoresetMode(autoreset_mode)
@@ -227,7 +345,22 @@ class VectorEnvironment(_Uncopied, gymnasium.vector.VectorEnv[Any, Any, Any]):
             raise CaseError(f"autoreset_mode = {autoreset_mode!r}", key="autoreset_mode", remedy=names) from None
         if render_mode is not None:
             raise CaseError("render_mode: there is none", key="render_mode", remedy="leave it out")
-        self._fleet = _Fleet(num_envs, task, mode.name.lower(), **settings)
+        self._fleet = _Fleet(
+            num_envs,
+            task,
+            mode.name.lower(),
+            flight=flight,
+            steps_per_beat=steps_per_beat,
+            controls_per_beat=controls_per_beat,
+            beats=beats,
+            amplitude_limit=amplitude_limit,
+            angle_limit_rad=angle_limit_rad,
+            delay=delay,
+            position_noise_m=position_noise_m,
+            velocity_noise_m_per_s=velocity_noise_m_per_s,
+            tilt_noise_rad=tilt_noise_rad,
+            rate_noise_rad_per_s=rate_noise_rad_per_s,
+        )
         self._mode, self._copy = mode, copy
         self.num_envs = num_envs
         self.metadata = {"render_modes": [], "autoreset_mode": mode}

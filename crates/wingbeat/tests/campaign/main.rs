@@ -1,6 +1,7 @@
 //! Campaigns: files that are refused, points that survive their processes, tables that do not tell how they were made.
 
 mod again;
+mod alternatives;
 #[path = "../support/browser.rs"]
 #[allow(dead_code, reason = "this page is not driven by keys")]
 mod browser;

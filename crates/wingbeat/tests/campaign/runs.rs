@@ -353,6 +353,8 @@ fn exact_points_of_a_table_are_flown() {
         )
     };
     assert_eq!(planned(&table.replace(',', ";")), planned(table));
+    let marked = format!("\u{feff}# of a spreadsheet\n{}", table.replace(',', "\t"));
+    assert_eq!(planned(&marked), planned(table));
     let keys = [
         "time.beats=1",
         "time.steps_per_beat=60",

@@ -31,7 +31,8 @@ def map(
     """Does the same at many points, and returns a :class:`Table` of the numbers in the order of the points.
 
     ``points`` are columns by key of the case (a dict of arrays, a table), or dicts one after the other; each point is set
-    on top of ``base``: a flight, a case, the name of a preset, or a function that makes a flight of a point. ``do`` is
+    on top of ``base``, and None in the place of a value takes the key out of the case, where another is given instead, say.
+    ``base`` is a flight, a case, the name of a preset, or a function that makes a flight of a point. ``do`` is
     ``"fly"``; ``"trim"``, where points may also have ``trim.forward_m_per_s`` and the like; or a function of the flight that
     returns numbers by name. ``keep`` are the names of numbers to be kept, of a function also with their units: of flights
     means over all whole wingbeats, or the ``last_beats`` of them, and numbers of the summary; left out: lift over weight and power

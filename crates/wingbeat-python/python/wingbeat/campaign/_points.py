@@ -25,7 +25,7 @@ class Points:
         return self.count
 
     def __getitem__(self, index: int) -> Point:
-        return {key: column[index].tolist() for key, column in self.columns.items()}
+        return {key: _plain(column[index]) for key, column in self.columns.items()}
 
     def __iter__(self) -> Iterator[Point]:
         return (self[k] for k in range(self.count))
@@ -81,7 +81,7 @@ def _of_columns(given: Mapping[Any, Any]) -> Points:
         if columns[key].dtype == object and all(isinstance(item, str) for item in columns[key].flat):
             columns[key] = columns[key].astype(str)  # texts of pandas
         if columns[key].dtype == object:
-            raise _wrong(f"{key}: values that are neither numbers nor texts")
+            columns[key] = _with_gaps(columns[key], key)
     lengths = {key: len(column) for key, column in columns.items() if column.ndim}
     if not columns or not min(lengths.values(), default=1):
         raise _wrong("there are none")
@@ -91,6 +91,20 @@ def _of_columns(given: Mapping[Any, Any]) -> Points:
             raise _wrong(f"{key} has {length} values, others have {count}")
     every = {key: c if c.ndim else np.full(count, c) for key, c in columns.items()}
     return Points(every, count)
+
+
+def _with_gaps(column: NDArray[Any], key: str) -> NDArray[Any]:
+    """A column in which some points have no value, None: the key is taken out of the case there."""
+    import numpy as np
+
+    found = [item for item in column.flat if item is not None]
+    if column.ndim > 1 or len(found) == column.size or np.asarray(found).dtype == object or np.ndim(found) > 1:
+        raise _wrong(f"{key}: values that are neither numbers nor texts")
+    return column
+
+
+def _plain(value: Any) -> Any:
+    return value.tolist() if hasattr(value, "tolist") else value
 
 
 def _wrong(why: str) -> CaseError:

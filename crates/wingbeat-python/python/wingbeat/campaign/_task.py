@@ -43,6 +43,8 @@ class Task:
         options = {key: value for key, value in point.items() if key.startswith("trim.")} if self.do == "trim" else {}
         keys = {key: value for key, value in point.items() if key not in options}
         if isinstance(self.base, Flight):
+            given = self.base._core.gives
+            keys = {key: value for key, value in keys.items() if value is not None or given(key)}
             flight = self.base.set(keys) if keys else self.base
         else:
             flight = self.base(keys)

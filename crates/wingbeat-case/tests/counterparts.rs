@@ -1,0 +1,72 @@
+//! Left and right: which wings are a pair, and what one that is given apart takes from the other.
+
+use std::path::Path;
+
+use wingbeat_case::LoadedCase;
+
+use crate::idle::ANIMAL;
+use crate::slips::refusal;
+
+/// Doubts about an animal of two pairs of wings on one hinge on either side; strokes of the right ones \[deg\].
+fn doubts(names: [&str; 2], strokes: [f64; 2], more: &str) -> String {
+    let (before, after) = ANIMAL.split_once("[wing.right]").unwrap();
+    let (wing, air) = after.split_once("[air]").unwrap();
+    let mut text = before.to_owned();
+    for (name, stroke) in names.into_iter().zip(strokes) {
+        let wing = wing.replace("wing.right", &format!("wing.{name}"));
+        let wing = wing.replace("60.0", &stroke.to_string());
+        text += &format!("[wing.{name}]{wing}");
+    }
+    text += &format!("[air]\nmodel = \"blade_element\"\n{air}{more}");
+    let case = LoadedCase::from_text("pairs", &text, Path::new(""), &[]).unwrap();
+    wingbeat_analysis::estimate(&case.setup).doubts.join("\n")
+}
+
+const AGAINST: &str = "stroke against each other";
+
+/// Of an X-wing each wing strokes against that above it, and with its image on the other side.
+#[test]
+fn behaves_wings_of_one_hinge_are_pairs_by_their_names() {
+    let said = doubts(["upper-right", "lower-right"], [25.0, -25.0], "");
+    assert!(!said.contains(AGAINST), "{said}");
+    let left = "[wing.upper-left]\nmotion.phi.fourier = { sine_deg = [25.0] }\n";
+    let said = doubts(["upper-right", "lower-right"], [25.0, -25.0], left);
+    let wanted = format!("wings `upper-left` and `upper-right` {AGAINST}");
+    assert_eq!(said.matches(AGAINST).count(), 1, "{said}");
+    assert!(said.contains(&wanted), "{said}");
+}
+
+#[test]
+fn refuses_part_of_a_table_whose_counterpart_has_more() {
+    for (set, says) in [
+        (
+            &["wing.left.planform.beta.length_m=2.2e-3"][..],
+            "r2_hat: this key is missing",
+        ),
+        (
+            &[
+                "wing.left.planform.beta.length_m=2.2e-3",
+                "wing.left.planform.beta.r2_hat=0.6",
+            ],
+            "the chord is missing",
+        ),
+    ] {
+        let said = refusal("fruit-fly-blade", set);
+        let whole = "[wing.left.planform] takes the place of the whole of [wing.right.planform]";
+        assert!(said.contains(says) && said.contains(whole), "{said}");
+        assert!(
+            !said.contains("[wing.right]\n"),
+            "not the line of the other: {said}"
+        );
+        assert!(said.contains("(set on top of"), "{said}");
+    }
+}
+
+#[test]
+fn refuses_a_hinge_far_off_with_what_may_carry_it() {
+    let said = refusal(
+        "fruit-fly-hover",
+        &["wing.right.hinge_m=[-9e-3, 0.1e-3, 0]"],
+    );
+    assert!(said.contains("a slim [body.part.boom]"), "{said}");
+}

@@ -1,0 +1,119 @@
+//! Tables of angles over time: units that are misread, laws that do not close.
+
+use std::f64::consts::TAU;
+use std::fs;
+use std::path::Path;
+
+use wingbeat_case::LoadedCase;
+
+use crate::slips::refusal;
+
+/// Samples of a stroke in time: five wingbeats at the frequency `at` \[wingbeats per ms\] of each time \[ms\].
+fn filmed(at: impl Fn(f64) -> f64) -> String {
+    let stroke = |x: f64| 60.0 * (TAU * x).cos() + 5.0 * (3.0 * TAU * x).sin();
+    let row = |k: i32| {
+        let t = 0.13 * f64::from(k);
+        format!("{t},{}\n", stroke(at(t) * t))
+    };
+    (0..=192).map(row).collect()
+}
+
+/// A fly with this table of the right stroke, whose header is `header`.
+fn law(name: &str, header: &str, rows: &str, more: &str) -> String {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("times");
+    fs::create_dir_all(&folder).unwrap();
+    let file = folder.join(name);
+    fs::write(&file, format!("{header}\n{rows}")).unwrap();
+    format!("wing.right.motion.phi={{ table = {{ file = {file:?}, {more} }} }}")
+}
+
+fn doubt(law: String) -> Option<String> {
+    let case = LoadedCase::find("fruit-fly-tethered", &[law]).unwrap();
+    let [fit] = &case.fitted_tables()[..] else {
+        panic!("one table is fitted")
+    };
+    fit.doubt()
+}
+
+/// Wingbeats at 200 Hz that are read at 190 Hz: the frequency with which they repeat is found. Where the
+/// frequency changes, no other fits.
+#[test]
+fn exact_the_frequency_of_a_table_is_found_where_it_is_misread() {
+    let steady = filmed(|_| 0.2);
+    let read = |beats: f64| {
+        let more = format!("beats_per_unit = {beats}, harmonics = 4");
+        doubt(law("steady.csv", "time_ms,phi_deg", &steady, &more))
+    };
+    assert_eq!(read(0.2), None);
+    for beats in [0.19, 0.22] {
+        let said = read(beats).expect("a doubt");
+        assert!(
+            said.contains("is likely to be wrong: with 0.2000 "),
+            "{said}"
+        );
+    }
+    let drifting = filmed(|t| 0.19 + 0.0008 * t);
+    let more = "beats_per_unit = 0.21, harmonics = 4";
+    let said = doubt(law("drift.csv", "time_ms,phi_deg", &drifting, more)).expect("a doubt");
+    assert!(
+        said.contains("the frequency changes within the table"),
+        "{said}"
+    );
+    assert!(!said.contains("is likely to be wrong"), "{said}");
+}
+
+/// The wingbeats of a table that does not fit, and what a unit of its column asks for.
+#[test]
+fn refuses_times_in_ms_that_are_taken_for_seconds() {
+    let more = "beats_per_unit = 200, harmonics = 4";
+    let said = refusal(
+        "fruit-fly-tethered",
+        &[&law("ms.csv", "time_ms,phi_deg", &filmed(|_| 0.2), more)],
+    );
+    for says in [
+        "With beats_per_unit = 200 the table goes on for 4992.0 wingbeats",
+        "in ms the frequency in kHz, 0.2 for 200 Hz",
+    ] {
+        assert!(said.contains(says), "{said}");
+    }
+}
+
+#[test]
+fn refuses_angles_in_units_that_are_not_read() {
+    for unit in ["mrad", "gon", "turns"] {
+        let header = format!("phase,phi_{unit}");
+        let more = "beats_per_unit = 0.2, harmonics = 4";
+        let law = law("unit.csv", &header, &filmed(|_| 0.2), more);
+        let said = refusal("fruit-fly-tethered", &[&law]);
+        assert!(
+            said.contains(&format!("says `{unit}`, and angles are read in")),
+            "{said}"
+        );
+    }
+}
+
+/// A saw is one jump at the end of the beat, not noise; a sample that is wrong is no jump.
+#[test]
+fn behaves_a_law_that_does_not_close_jumps() {
+    let doubts = |angle: &dyn Fn(i32) -> f64| {
+        let row = |k: i32| format!("[{}, {}]", f64::from(k) / 64.0, angle(k % 64));
+        let rows: Vec<String> = (0..=64).map(row).collect();
+        let law = format!(
+            "wing.right.motion.phi={{table={{rows_deg=[{}]}}}}",
+            rows.join(",")
+        );
+        let case = LoadedCase::find("fruit-fly-tethered", &[law]).unwrap();
+        case.setup.scattered_angles().join("\n")
+    };
+    let saw = doubts(&|k| f64::from(k));
+    let says = "motion.phi jumps by 63.0 deg at the end of the beat, where other samples are 1.00 deg apart at most";
+    assert!(saw.contains(says), "{saw}");
+    let wrong = doubts(&|k| {
+        let stroke = 60.0 * (TAU * f64::from(k) / 64.0).sin();
+        stroke + if k == 20 { 90.0 } else { 0.0 }
+    });
+    assert!(
+        wrong.contains("the samples of motion.phi scatter"),
+        "{wrong}"
+    );
+}
