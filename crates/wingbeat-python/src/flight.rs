@@ -17,6 +17,7 @@ use crate::own::{PendingException, air, feedback};
 use crate::run::Run;
 use crate::stepping::Stepper;
 use crate::threads::detached;
+use crate::vibration;
 use crate::wake::{self, WakeTrim};
 use crate::worker::{Worked, work};
 
@@ -303,6 +304,30 @@ impl Flight {
         let problem = mechanics::problem(py, &self.flight, &asked, steps)?;
         let case = (!self.is_own).then(|| self.case.clone());
         let found = wake::trim(py, &self.flight, problem, settings, case);
+        found.map_err(|e| self.pending.take().unwrap_or(e))
+    }
+
+    /// Modes of the elastic wings, about the wing at rest or its deformed steady state.
+    fn wing_modes<'py>(
+        &self,
+        py: Python<'py>,
+        count: usize,
+        steady: bool,
+    ) -> PyResult<Vec<vibration::WingParts<'py>>> {
+        let found = vibration::modes(py, &self.flight, count, steady);
+        found.map_err(|e| self.pending.take().unwrap_or(e))
+    }
+
+    /// Vibrations at these speeds [m/s], and where they begin or cease to grow; modes that are disturbed, amplitude
+    /// of the disturbance over the length of the wing, periods of the response.
+    fn flutter(
+        &self,
+        py: Python<'_>,
+        speeds: Vec<f64>,
+        how: (usize, f64, f64),
+        progress: Option<Py<PyAny>>,
+    ) -> PyResult<(Vec<vibration::ConditionParts>, Vec<vibration::OnsetParts>)> {
+        let found = vibration::flutter(py, &self.flight, speeds, how, progress);
         found.map_err(|e| self.pending.take().unwrap_or(e))
     }
 }

@@ -19,6 +19,7 @@
 //! | `fleet` | many episodes at once, for who learns |
 //! | `solution` | what trims in any air find |
 //! | `mechanics` | trim, stability, controls, power |
+//! | `vibration` | modes and flutter of elastic wings |
 //! | `wake` | trim in air with a memory |
 #![warn(missing_docs)]
 
@@ -34,6 +35,7 @@ mod run;
 mod solution;
 mod stepping;
 mod threads;
+mod vibration;
 mod wake;
 mod worker;
 

@@ -22,6 +22,7 @@ from wingbeat._frame import Frame, Particles, Surface, Wake
 from wingbeat._mechanics import Derivatives, LinearModel, Mode, Power, Trim, WakeModel, WakeTrim
 from wingbeat._own import Adjustment, Motions, Sensed
 from wingbeat._run import Beats, Estimate, Run, read
+from wingbeat._vibration import Flutter, FlutterCondition, FlutterOnset, GrowingMode, Vibrations, WingModes
 from wingbeat.errors import AnalysisError, CaseError, Error, FlightError, ResultError
 
 if TYPE_CHECKING:
@@ -40,7 +41,11 @@ __all__ = [
     "Estimate",
     "Flight",
     "FlightError",
+    "Flutter",
+    "FlutterCondition",
+    "FlutterOnset",
     "Frame",
+    "GrowingMode",
     "LinearModel",
     "Mode",
     "Motions",
@@ -54,9 +59,11 @@ __all__ = [
     "Stepper",
     "Surface",
     "Trim",
+    "Vibrations",
     "Wake",
     "WakeModel",
     "WakeTrim",
+    "WingModes",
     "campaign",
     "presets",
     "read",

@@ -18,6 +18,7 @@ from wingbeat._numbers import real, reals, whole
 from wingbeat._own import Air, Controller, Loads, Steering
 from wingbeat._run import Run
 from wingbeat._source import Source
+from wingbeat._vibration import Flutter, WingModes, flutter, wing_modes
 from wingbeat.errors import CaseError
 
 if TYPE_CHECKING:
@@ -311,6 +312,32 @@ class Flight:
         return self.trim(**trim).power()
 
 
+    def wing_modes(self, *, count: int = 6, steady: bool = False) -> dict[str, WingModes]:
+        """The ``count`` leading modes of each elastic wing by its name, in vacuum and with the added mass of the air: about
+        the wing at rest, or with ``steady`` about its deformed steady state in the stream of the case (minutes in a wake).
+        See docs/flexible-modes.md.
+        """
+        return wing_modes(self._core, whole("count", count, 1, 100), steady)
+
+    def flutter(
+        self,
+        speeds_m_per_s: ArrayLike,
+        *,
+        modes: int = 3,
+        disturbance: float = 1e-5,
+        periods: float = 1.5,
+        progress: bool | Progress | None = None,
+    ) -> Flutter:
+        """Vibrations about the deformed steady state in streams of these rising speeds, and where they begin to grow.
+
+        ``modes`` of the deformed wing are disturbed by ``disturbance`` over its length, and the response is followed for
+        ``periods`` of the first of them. ``progress`` is called with speeds done and all speeds. See docs/flexible-flutter.md.
+        """
+        how = whole("modes", modes, 1, 20), _share("disturbance", disturbance), _positive("periods", periods)
+        speeds = [float(v) for v in reals("speeds_m_per_s", speeds_m_per_s).ravel()]
+        return flutter(self._core, speeds, how, shown(progress, self.name, "speed"))
+
+
 class Stepper:
     """A flight in progress."""
 
@@ -394,6 +421,20 @@ def _made(source: Source) -> Flight:
 
 def _velocity(forward: float, right: float, up: float) -> tuple[float, float, float]:
     return real("forward_m_per_s", forward), real("sideslip_m_per_s", right), real("climb_m_per_s", up)
+
+
+def _positive(name: str, value: float) -> float:
+    number = real(name, value)
+    if number <= 0.0:
+        raise CaseError(f"{name} = {number}: not positive", key=name, remedy="a number above 0")
+    return number
+
+
+def _share(name: str, value: float) -> float:
+    number = _positive(name, value)
+    if number > 1.0:
+        raise CaseError(f"{name} = {number}: more than the whole", key=name, remedy="a number above 0 and up to 1")
+    return number
 
 
 def _asked(
