@@ -293,10 +293,15 @@ fn behaves_histories_of_older_versions_are_read() {
         assert_eq!(a.inviscid_impulse, b.inviscid_impulse);
         assert!(b.accelerations.iter().all(|x| x.linear.is_nan()));
     }
-    assert_eq!(
-        Summary::read(&case, &path, &Outcome::Finished).unwrap(),
-        whole
+    let mut summary = Summary::read(&case, &path, &Outcome::Finished).unwrap();
+    // The work of dampers was not in the file: it is counted from row to row, and no longer integrated with the motion.
+    let [counted, integrated] = [&summary, &whole].map(|s| s.joint_residual_relative);
+    assert!(
+        (counted - integrated).abs() < 1e-3,
+        "{counted} {integrated}"
     );
+    summary.joint_residual_relative = integrated;
+    assert_eq!(summary, whole);
 }
 
 #[test]
