@@ -301,6 +301,11 @@ fn behaves_histories_of_older_versions_are_read() {
         "{counted} {integrated}"
     );
     summary.joint_residual_relative = integrated;
+    for (counted, integrated) in summary.beats.iter_mut().zip(&whole.beats) {
+        let power = integrated.power_watt;
+        assert!((counted.power_watt / power - 1.0).abs() < 1e-4);
+        counted.power_watt = power;
+    }
     assert_eq!(summary, whole);
 }
 
