@@ -234,7 +234,7 @@ fn check_carrying(hinge: &Joint) -> Result<(), DynamicsError> {
     if let JointType::PointOnLine { .. } = hinge.model.kind {
         return Err(DynamicsError::BadJoint {
             joint: hinge.name.clone(),
-            what: "free directions of a point on a line, which only closes loops:".into(),
+            what: "the number of free directions of a point on a line, which closes loops and carries nothing,".into(),
             value: 4.0,
         });
     }

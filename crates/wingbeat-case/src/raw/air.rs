@@ -110,7 +110,8 @@ pub struct AirCase {
     #[schemars(extend("with" = LATTICE))]
     #[serde(skip_serializing_if = "Open::is_open")]
     pub circulation_rate: Open<CirculationRate>,
-    /// How wake nodes are moved. Default: by `scheme`.
+    /// How wake nodes are moved; with algebraic cores, with what annuls their share of force besides the velocity
+    /// of the air (docs/separated-flow.md). Default: by `scheme`.
     ///
     /// Change it to study the order of the method in the step.
     #[schemars(extend("with" = LATTICE))]

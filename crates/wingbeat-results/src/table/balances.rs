@@ -45,7 +45,7 @@ pub(super) const ENERGIES: &[Quantity] = &[
     scalar(
         "energy_residual",
         Unit::Joule,
-        "energy less that of the start less all work, with what was dissipated",
+        "energy less that of the start less all work, with what was dissipated; what a jump of the velocity at a release changes is left out",
         |r, _, _| Real(&mut r.energy_residual),
     ),
 ];
