@@ -112,10 +112,17 @@ fn behaves_roots_on_bodies_are_carried_through_or_named() {
         ..ON_BODY
     });
     assert!(pairs == 0 && said[0].contains("root of wing `right` lies on the body part `trunk`"));
-    for span in [[0.15, 0.5], [0.0, 0.5]] {
+    for span in [[0.16, 0.5], [0.0, 0.5]] {
         let beside_or_inside = Case { span, ..ON_BODY };
         assert_eq!(carried(beside_or_inside), (0, vec![]));
     }
+    // 0.15 chords off.
+    let (pairs, said) = carried(Case {
+        span: [0.13, 0.5],
+        ..ON_BODY
+    });
+    assert!(pairs == 0 && said.len() == 1, "{said:?}");
+    assert!(said[0].contains("roots off the body part `trunk`") && said[0].contains("`right`"));
 }
 
 /// What lies in the way of the circulation: thin bodies, hinges of their own, roots that bend away, that sit
@@ -143,7 +150,11 @@ fn behaves_what_is_in_the_way_through_a_body_is_named() {
     let bent = [
         "wing.right.deformation.bending=[{ table_m = [[0,0.1],[1,0.1]], fourier = { mean = 1 } }]",
     ];
-    assert_eq!(carried(&bent), (0, String::new()));
+    let (pairs, said) = carried(&bent);
+    assert!(
+        pairs == 0 && said.contains("roots off the body part `trunk`"),
+        "{said}"
+    );
     let hinged = Case {
         more: "[joint.flap]\nchild = \"right\"\nkind = \"revolute\"\naxis = [1, 0, 0]\n",
         ..ON_BODY

@@ -1,6 +1,8 @@
 //! Wings whose roots lie on bodies: which of them the lattice carries through, and what it does not say of the others.
 
-use wingbeat_model::{BodyPart, PairOnPart, inside, pairs_on_parts, roots_on_parts};
+use wingbeat_model::{
+    BodyPart, PairOnPart, inside, pairs_on_parts, roots_beside_parts, roots_on_parts,
+};
 
 use crate::air::wing_pairs;
 use crate::setup::{AirModel, AirOptions, FlightSetup};
@@ -61,7 +63,34 @@ impl FlightSetup {
         };
         let parts = self.animal.parts.iter().enumerate();
         let doubts = carried.iter().filter_map(|pair| self.doubt_of(pair, air));
-        parts.filter_map(of_part).chain(doubts).collect()
+        let gaps = self.gaps_beside_parts(&wings);
+        parts
+            .filter_map(of_part)
+            .chain(doubts)
+            .chain(gaps)
+            .collect()
+    }
+
+    /// Says which of these `wings` stand off which parts of the body by a little ([`roots_beside_parts`]).
+    fn gaps_beside_parts(&self, wings: &[usize]) -> Vec<String> {
+        let beside = roots_beside_parts(&self.animal, wings);
+        let of_part = |(k, part): (usize, &BodyPart)| {
+            let here = beside.iter().filter(|r| r.part == k);
+            let names: Vec<String> = here
+                .map(|r| format!("`{}`", self.animal.wings[r.wing].name))
+                .collect();
+            (!names.is_empty()).then(|| {
+                format!(
+                    "roots off the body part `{}` by a tenth to a quarter of their chord (wing {}): air passes between them, and the lift is up to \
+                     two fifths less than on the body; move them onto the part (hinge_m), or farther off if there is such a gap (docs/wings.md, \
+                     \"Wings on a body\")",
+                    part.name,
+                    names.join(", ")
+                )
+            })
+        };
+        let parts = self.animal.parts.iter().enumerate();
+        parts.filter_map(of_part).collect()
     }
 
     /// What lies in the way of the circulation of a pair through a part.

@@ -12,6 +12,8 @@ use wingbeat_math::{DVec3, RotationLaw};
 /// within its surface, by 0.04 chords of a bird's or an aeroplane's wing on eight panels around. A little more
 /// than a round number: roots that stand off by just that are told on both sides of the body.
 const NEAR: f64 = 0.1 + 1e-9;
+/// How near those are, over the chord of the root, that stand off a part by a gap that counts.
+const BESIDE: f64 = 0.25;
 /// Part of the chord of the root along which it lies on a part: petioles and hinges touch theirs in a place.
 const ALONG: f64 = 0.75;
 /// Instants of a beat that are looked at.
@@ -30,10 +32,24 @@ pub struct RootOnPart {
 /// chord of the root within a tenth of it from panels of the part, or inside, at each of 20 instants of a beat,
 /// with prescribed shapes, elastic ones at rest.
 pub fn roots_on_parts(animal: &Animal, wings: &[usize]) -> Vec<RootOnPart> {
+    within(animal, wings, NEAR)
+}
+
+/// Which of `wings` of the animal have their roots beside parts of the central body: they are not on them
+/// ([`roots_on_parts`]), and would be if a quarter of the chord counted as a tenth does.
+pub fn roots_beside_parts(animal: &Animal, wings: &[usize]) -> Vec<RootOnPart> {
+    let on = roots_on_parts(animal, wings);
+    let mut near = within(animal, wings, BESIDE);
+    near.retain(|root| on.iter().all(|on| on.wing != root.wing));
+    near
+}
+
+/// Roots that stay within `near` chords of a part along three quarters of their chord.
+fn within(animal: &Animal, wings: &[usize], near: f64) -> Vec<RootOnPart> {
     let skins: Vec<Skin> = animal.parts.iter().map(|p| Skin::new(&p.mesh)).collect();
     let of_wing = |&wing: &usize| {
         let places = places(&animal.wings[wing]);
-        let holds = |skin: &Skin| places.iter().all(|root| skin.holds(root));
+        let holds = |skin: &Skin| places.iter().all(|root| skin.holds(root, near));
         let found: Vec<usize> = (0..skins.len()).filter(|&p| holds(&skins[p])).collect();
         found.into_iter().map(move |part| RootOnPart { wing, part })
     };
@@ -186,13 +202,13 @@ impl Skin {
         }
     }
 
-    /// Whether a root with these nodes lies on it.
-    fn holds(&self, root: &[DVec3]) -> bool {
+    /// Whether a root with these nodes lies on it, as near as this over its chord.
+    fn holds(&self, root: &[DVec3], near: f64) -> bool {
         let lengths = root.windows(2).map(|w| w[0].distance(w[1]));
         let chord: f64 = lengths.clone().sum();
         let on: Vec<bool> = root
             .iter()
-            .map(|x| self.is_near(*x, NEAR * chord))
+            .map(|x| self.is_near(*x, near * chord))
             .collect();
         let both = on.windows(2).map(|w| w[0] && w[1]);
         let along: f64 = lengths
