@@ -1,7 +1,7 @@
 //! `[[air.gust]]`, `[air.vortex_street]`, `air.shear_1_s` and `[air.ground]`.
 
 use wingbeat_air::{Gust, GustShape, NEUTRAL_WIDTH, Plane, Turbulence, VortexStreet, Wind};
-use wingbeat_math::{DMat3, DVec3};
+use wingbeat_math::{DMat3, DVec3, trace};
 
 use super::fault::Built;
 use super::numbers::vector;
@@ -17,15 +17,29 @@ const FASTEST: f64 = 1e3;
 /// What is added to the stream.
 pub(super) fn wind(case: &AirCase) -> Built<Wind> {
     let gusts: Built<Vec<Gust>> = case.gust.iter().enumerate().map(gust).collect();
-    let shear = case.shear_1_s.map(|rows| {
-        let [a, b, c] = rows.map(DVec3::from_array);
-        DMat3::from_cols(a, b, c).transpose()
-    });
     Ok(Wind {
-        shear,
+        shear: case.shear_1_s.map(shear).transpose()?,
         gusts: gusts?,
         street: case.vortex_street.as_ref().map(street).transpose()?,
     })
+}
+
+fn shear(rows: [[f64; 3]; 3]) -> Built<DMat3> {
+    let [a, b, c] = rows.map(DVec3::from_array);
+    let shear = DMat3::from_cols(a, b, c).transpose();
+    let apart = trace(shear);
+    let size = rows.iter().flatten().fold(0.0_f64, |m, x| m.max(x.abs()));
+    match apart.abs() <= 1e-9 * size {
+        true => Ok(shear),
+        false => Err(Fault::new(
+            "air.shear_1_s",
+            format!(
+                "its diagonal adds up to {apart:.4} 1/s: air that flows apart everywhere loses its density"
+            ),
+            "rows whose diagonal elements add up to 0",
+            "let what flows apart along one axis come together along another",
+        )),
+    }
 }
 
 fn street(case: &VortexStreetCase) -> Built<VortexStreet> {
