@@ -40,11 +40,11 @@ pub struct AirLoads {
     /// Jump of the tangential velocity along the normal [m/s].
     pub velocity_jump: Vec<DVec3>,
     /// Pressure behind the panel less pressure before it, the normal pointing forward [Pa]:
-    /// positive pushes along the normal. On a closed surface inner less outer pressure, the inner
-    /// being that of the fictitious fluid inside.
+    /// positive pushes along the normal. On a closed surface ambient less outer pressure, which has the force of
+    /// the panels; so far as a constant goes, which makes no force, by the dynamic pressure of the air past the centroid.
     pub pressure_jump: Vec<f64>,
     /// Force of the air on the panel [N]: as [`crate::LoadMethod`] has it; on a closed surface
-    /// pressure jump x area x normal less what the fictitious fluid inside does.
+    /// pressure jump x area x normal, but for the constant that makes no force.
     pub force: Vec<DVec3>,
     /// Moment of the air on the panel about its control point [N m]: forces act where the vorticity lies that feels
     /// them. Zero on closed surfaces.
