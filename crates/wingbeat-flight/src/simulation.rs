@@ -153,6 +153,22 @@ impl Simulation {
         Ok(flight)
     }
 
+    /// A second flight where this one is: both go on from here, bit for bit alike unless controllers or models of
+    /// the air from outside remember what they have been asked.
+    ///
+    /// # Errors
+    /// As [`Self::resume`].
+    pub fn branch(&self) -> Result<Self, FlightError> {
+        let mut branch = Self::resume(self.setup.clone(), self.state.clone())?;
+        branch.record.clone_from(&self.record);
+        branch.release = self.release;
+        let (loads, own) = (&mut branch.scratch.air_scratch.loads, &self.scratch);
+        loads
+            .pressure_jump
+            .clone_from(&own.air_scratch.loads.pressure_jump);
+        Ok(branch)
+    }
+
     /// Bodies, nodes and circulations as the state has them. What the pressure was it does not tell.
     fn lay_out(&mut self) -> Result<(), FlightError> {
         let (t, k) = (self.time(self.state.step), self.newest());

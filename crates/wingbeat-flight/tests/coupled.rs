@@ -248,8 +248,12 @@ fn invariant_resumed_flight_goes_on_bit_for_bit() {
         let mut resumed =
             Simulation::resume(setup(), sim.state().clone()).expect("a resumed flight");
         agrees_before_its_first_step(&resumed, &sim);
+        let mut branch = sim.branch().expect("a second flight");
+        assert_eq!(branch.record(), sim.record());
+        assert_eq!(branch.snapshot(), sim.snapshot());
         for expected in &whole[stop + 1..] {
             assert_eq!(resumed.step().expect("a step"), expected);
+            assert_eq!(branch.step().expect("a step"), expected);
         }
     }
 }

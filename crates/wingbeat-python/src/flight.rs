@@ -33,6 +33,8 @@ pub struct Flight {
     pending: PendingException,
     /// Whether it has such parts.
     is_own: bool,
+    /// Whether one of these remembers what it was called with.
+    remembers: bool,
 }
 
 impl Flight {
@@ -44,11 +46,12 @@ impl Flight {
             sets,
             pending: PendingException::default(),
             is_own: false,
+            remembers: false,
         }
     }
 
-    /// The same with another part.
-    fn with(&self, change: impl FnOnce(&mut wingbeat::Flight)) -> Self {
+    /// The same with another part, which may remember what it was called with.
+    fn with(&self, remembers: bool, change: impl FnOnce(&mut wingbeat::Flight)) -> Self {
         let mut flight = self.flight.clone();
         change(&mut flight);
         Self {
@@ -58,6 +61,7 @@ impl Flight {
             sets: self.sets.clone(),
             pending: self.pending.clone(),
             is_own: true,
+            remembers: self.remembers || remembers,
         }
     }
 }
@@ -119,21 +123,24 @@ impl Flight {
         hexadecimal(named::of_programs(&self.case))
     }
 
-    /// Under the controller `function`, which looks every `interval` steps; commands act `latency` looks later.
+    /// Under the controller `function`, which looks every so many steps; commands act so many looks later. One with a
+    /// memory is reset when a flight begins.
     fn with_controller(
         &self,
         py: Python<'_>,
         function: Py<PyAny>,
-        interval: usize,
-        latency: usize,
+        times: (usize, usize),
+        has_memory: bool,
     ) -> PyResult<Self> {
         if self.case.setup.feedback.is_some() {
             let problem = "the case has a controller already";
             let remedy = "set(\"control.controller\", \"none\") first";
             return Err(refused(py, "control.controller", problem, remedy));
         }
-        let feedback = feedback(function, &self.pending, interval, latency);
-        Ok(self.with(|flight| flight.setup.feedback = Some(feedback)))
+        let feedback = feedback(function, &self.pending, times, has_memory);
+        Ok(self.with(has_memory, |flight| {
+            flight.setup.feedback = Some(feedback);
+        }))
     }
 
     /// In air that `function` computes.
@@ -147,7 +154,7 @@ impl Flight {
         let checked = self.case.check_own_air();
         checked.map_err(|e| raised(py, &IoError::Case(e).into()))?;
         let air = air(function, &self.pending, has_memory, is_steady_and_uniform);
-        Ok(self.with(|flight| flight.setup.air = air))
+        Ok(self.with(has_memory, |flight| flight.setup.air = air))
     }
 
     /// Name of the case.
@@ -267,7 +274,7 @@ impl Flight {
             flight,
             self.case.output,
             self.case_text(),
-            self.pending.clone(),
+            (self.pending.clone(), self.remembers),
         ))
     }
 

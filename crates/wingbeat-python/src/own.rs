@@ -112,21 +112,28 @@ impl fmt::Debug for Function {
 
 /// A controller: a function from [`Sensed`] to eight numbers for all wings, or for each.
 #[derive(Clone, Debug)]
-struct PythonController(Function);
+struct PythonController {
+    function: Function,
+    has_memory: bool,
+}
 
-/// Feedback by `function` every `interval` steps, acting `latency` looks later.
+/// Feedback by `function` every `interval` steps, acting `latency` looks later. One with a memory is reset when a
+/// flight begins.
 pub fn feedback(
     function: Py<PyAny>,
     pending: &PendingException,
-    interval: usize,
-    latency: usize,
+    (interval, latency): (usize, usize),
+    has_memory: bool,
 ) -> Feedback {
     let function = Function {
         function: Arc::new(function),
         pending: pending.clone(),
     };
     Feedback {
-        controller: Arc::new(PythonController(function)),
+        controller: Arc::new(PythonController {
+            function,
+            has_memory,
+        }),
         interval,
         latency,
         lag: 0.0,
@@ -135,11 +142,14 @@ pub fn feedback(
 
 impl ControlModel for PythonController {
     fn open(&self, setup: &FlightSetup) -> Result<Box<dyn Controller>, FlightError> {
-        let reset = Python::attach(|py| self.0.function.call_method0(py, "reset").map(drop));
-        let refused = |problem| FlightError::Control { time: 0.0, problem };
-        self.0.pending.keep(reset).map_err(refused)?;
+        if self.has_memory {
+            let function = &self.function.function;
+            let reset = Python::attach(|py| function.call_method0(py, "reset").map(drop));
+            let refused = |problem| FlightError::Control { time: 0.0, problem };
+            self.function.pending.keep(reset).map_err(refused)?;
+        }
         Ok(Box::new(Steered {
-            function: self.0.clone(),
+            function: self.function.clone(),
             wings: setup.animal.wings.clone(),
         }))
     }

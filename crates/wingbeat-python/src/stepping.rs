@@ -8,7 +8,7 @@ use wingbeat::flight::{Record, Simulation, Snapshot};
 use wingbeat::results::Outcome;
 
 use crate::arrays::{points, vectors};
-use crate::errors::{broken, raised};
+use crate::errors::{broken, raised, refused};
 use crate::frame::{Frame, is_framed};
 use crate::own::PendingException;
 use crate::run::Run;
@@ -29,15 +29,18 @@ pub struct Stepper {
     output: OutputSettings,
     case: String,
     pending: PendingException,
+    /// Whether parts written in Python remember what they were called with.
+    remembers: bool,
 }
 
 impl Stepper {
-    /// Before the first step of `flight`.
+    /// Before the first step of `flight`, whose parts written in Python keep their exceptions there, and may
+    /// remember what they were called with.
     pub fn new(
         flight: Simulation,
         output: OutputSettings,
         case: String,
-        pending: PendingException,
+        (pending, remembers): (PendingException, bool),
     ) -> Self {
         let course = Course {
             records: vec![flight.record().clone()],
@@ -53,6 +56,7 @@ impl Stepper {
             output,
             case,
             pending,
+            remembers,
         }
     }
 
@@ -71,6 +75,25 @@ impl Stepper {
 
 #[pymethods]
 impl Stepper {
+    /// A second flight that goes on from here.
+    fn copy(&self, py: Python<'_>) -> PyResult<Self> {
+        if self.remembers {
+            let problem = "a part of this flight is written in Python and remembers what it was called with \
+                           (`reset` or `accept`): copies would share its memory";
+            let remedy = "a controller or air without memory; begin both flights with start()";
+            return Err(refused(py, "copy", problem, remedy));
+        }
+        let course = self.with(py, |course| course.branch())?;
+        let course = course.map_err(|e| self.pending.take().unwrap_or_else(|| raised(py, &e)))?;
+        Ok(Self {
+            course: Mutex::new(course),
+            output: self.output,
+            case: self.case.clone(),
+            pending: self.pending.clone(),
+            remembers: false,
+        })
+    }
+
     /// Makes up to `count` steps; how many were made before the end.
     fn step(&self, py: Python<'_>, count: usize) -> PyResult<usize> {
         for made in 0..count {
@@ -140,6 +163,16 @@ impl Stepper {
 }
 
 impl Course {
+    /// Another one with the same past.
+    fn branch(&self) -> Result<Self, wingbeat::Error> {
+        Ok(Self {
+            flight: self.flight.branch()?,
+            records: self.records.clone(),
+            snapshots: self.snapshots.clone(),
+            outcome: self.outcome.clone(),
+        })
+    }
+
     /// After the last step made.
     fn newest(&self) -> &Record {
         self.records.last().expect("the start has a record")

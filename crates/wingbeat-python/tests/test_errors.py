@@ -90,7 +90,6 @@ BAD: dict[str, Bad] = {
     "velocity nowhere": lambda blade, _: lattice().air_velocity([[np.nan, 0.0, 0.0]]),
     "velocity at complex points": lambda blade, _: lattice().air_velocity(np.zeros((1, 3), complex)),
     "velocity at a text": lambda blade, _: lattice().air_velocity("a"),
-    "copy of a flight in progress": lambda blade, _: copy.copy(blade.start()),
     "flight in progress pickled": lambda blade, _: pickle.dumps(blade.start()),
     "motion in words": lambda blade, _: blade.with_motion(phi_deg=lambda _: "a"),
     "gradient to less than nothing": lambda blade, _: problem(blade).gradient([200.0], relative=-1),

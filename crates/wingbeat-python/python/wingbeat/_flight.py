@@ -146,7 +146,8 @@ class Flight:
         steps = whole("every_steps", self._interval() if every_steps is None else every_steps, 4, 2**31 - 1)
         latency = whole("latency_looks", latency_looks, 0, self._most_looks(steps))
         steering = Steering(controller, len(self._core.wings))
-        return Flight(self._core.with_controller(steering, steps, latency))
+        has_memory = callable(getattr(controller, "reset", None))
+        return Flight(self._core.with_controller(steering, (steps, latency), has_memory))
 
     def with_air(self, air: Air) -> Flight:
         """A new flight in the air that ``air`` computes: called with :class:`wingbeat.Motions`, it answers with forces [N]
@@ -349,10 +350,23 @@ class Stepper:
 
     def __reduce__(self) -> NoReturn:
         raise CaseError(
-            "a flight in progress cannot be copied or pickled",
+            "a flight in progress cannot be pickled",
             key="stepper",
-            remedy="keep the Flight: start() and as many steps give the same bits",
+            remedy="keep the Flight: start() and as many steps give the same bits; copy() in the same process",
         )
+
+    def copy(self) -> Stepper:
+        """A second flight that goes on from here, with what was flown so far: to try commands, and to come back. Both give the
+        same bits. A controller or air written in Python is called by both; those that remember (with ``reset`` or ``accept``)
+        are refused, and flights with another program beside them.
+        """
+        return Stepper(self._core.copy())
+
+    def __copy__(self) -> Stepper:
+        return self.copy()
+
+    def __deepcopy__(self, memo: dict[int, Any]) -> Stepper:
+        return self.copy()
 
     def step(self, count: int = 1) -> int:
         """Makes up to ``count`` steps; how many were made before the end. An exception that ends the flight has what was flown as
