@@ -152,12 +152,7 @@ fn over_beat(limbs: &Limbs, flight: &mut Simulation, steps: usize) -> Result<Pow
         for (&wing, bent) in elastic.iter().zip(&record.elastic) {
             air[wing + 1] -= bent.air_power;
         }
-        let passive = mechanism.passive(record.time, &record.joints);
-        let muscles: Vec<f64> = joints
-            .iter()
-            .zip(passive)
-            .map(|(a, b)| a - b.power)
-            .collect();
+        let muscles: Vec<f64> = record.driving_powers(mechanism).collect();
         let mut inertial = vec![0.0; mechanism.bodies().len()];
         for (joint, p) in mechanism.joints().iter().zip(&joints) {
             inertial[limbs[joint.child]] += p;

@@ -360,11 +360,12 @@ fn balances_power_of_passive_hinges() {
     let p = power(&setup).unwrap();
     let period = setup.time.period.unwrap();
     let mut flight = Simulation::new(setup).unwrap();
-    let (mut damped, mut driven) = (0.0, 0.0);
+    let (mut damped, mut driven, mut positive) = (0.0, 0.0, 0.0);
     while !flight.finished() {
         let record = flight.step().unwrap();
         if record.step == 5900 {
             driven -= record.driving_work();
+            positive -= record.positive_work;
         }
         if record.step > 5900 {
             damped += record
@@ -383,4 +384,8 @@ fn balances_power_of_passive_hinges() {
     let apart = driven / p.perfect_storage - 1.0;
     println!("work of the actuators differs by {apart:.1e}");
     assert!(apart.abs() < 1e-4, "{driven:e} W, {apart:.1e}");
+    positive = (positive + flight.record().positive_work) / period;
+    let apart = positive / p.no_storage - 1.0; // the same sum, of another beat of a periodic motion
+    println!("their positive work differs by {apart:.1e}");
+    assert!(apart.abs() < 1e-6, "{positive:e} W, {apart:.1e}");
 }

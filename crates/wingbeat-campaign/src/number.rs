@@ -137,7 +137,7 @@ impl Source {
 type Entry<T> = (&'static str, &'static str, &'static str, fn(&T) -> f64);
 
 /// Means of wingbeats: name, unit, meaning.
-const BEATS: [Entry<BeatMeans>; 6] = [
+const BEATS: [Entry<BeatMeans>; 7] = [
     ("lift_newton", "N", "mean air force against gravity", |b| {
         b.lift_newton
     }),
@@ -158,6 +158,12 @@ const BEATS: [Entry<BeatMeans>; 6] = [
         "W",
         "mean power of actuators and of prescribed deformation",
         |b| b.power_watt,
+    ),
+    (
+        "positive_power_watt",
+        "W",
+        "mean of its positive part, joint by joint: what actuators give that get nothing back",
+        |b| b.positive_power_watt.unwrap_or(f64::NAN),
     ),
     (
         "inviscid_lift_newton",

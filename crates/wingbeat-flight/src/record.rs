@@ -1,5 +1,7 @@
 //! What one accepted step leaves behind: every quantity a reader may ask for, SI and radians.
 
+use std::ops::{Add, Mul};
+
 use wingbeat_air::ImpulseAccount;
 use wingbeat_dynamics::{BodyAcceleration, HingeReaction, Mechanism, Passive, Wrench};
 use wingbeat_math::{DMat3, DQuat, DVec3};
@@ -63,6 +65,9 @@ pub struct Record {
     pub passive_power: f64,
     /// Their work so far [J].
     pub passive_work: f64,
+    /// Work of actuators and of prescribed deformation where it is positive, joint by joint, since the start \[J\]:
+    /// what they give if nothing that they take up comes back. Counted step by step with the trapezoidal rule.
+    pub positive_work: f64,
     /// Work done so far by the air on the bodies [J], on their deformation too.
     pub air_work: f64,
     /// Work done so far by what deforms the wings against the air [J].
@@ -195,6 +200,21 @@ impl Record {
         self.passive_work = work(self.time, &sum);
     }
 
+    /// Power of what drives each joint [W], of prescribed deformation too, springs, dampers and stops left out; joints
+    /// and loops in the order of the mechanism.
+    pub fn driving_powers<'a>(
+        &'a self,
+        mechanism: &'a Mechanism,
+    ) -> impl Iterator<Item = f64> + 'a {
+        let joints = self
+            .hinge_powers()
+            .chain(self.loops.iter().map(|l| l.power));
+        let passive = mechanism.passive(self.time, &self.joints);
+        joints
+            .zip(passive)
+            .map(|(all, passive)| all - passive.power)
+    }
+
     /// Power of all actuators and of all prescribed deformation [W].
     pub fn driving_power(&self) -> f64 {
         let loops: f64 = self.loops.iter().map(|l| l.power).sum();
@@ -208,21 +228,22 @@ impl Record {
     }
 }
 
-/// The impulse of a force since time 0, counted step by step with the trapezoidal rule: over whole beats of a
-/// periodic force it errs by no more than harmonics beyond half the steps in a beat.
+/// The integral of a rate since time 0 (the impulse of a force, the work of a power), counted step by step with the
+/// trapezoidal rule: over whole beats of a periodic rate it errs by no more than harmonics beyond half the steps in a
+/// beat.
 #[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
-pub struct AirImpulse {
+pub struct Integral<T> {
     time: f64,
-    force: DVec3,
-    sum: DVec3,
+    rate: T,
+    sum: T,
 }
 
-impl AirImpulse {
-    /// Counts on to `time` [s], where the force is `force` [N]; returns the impulse up to there
-    /// [N s]. The first call, at time 0, sets the force of the start.
-    pub fn count(&mut self, time: f64, force: DVec3) -> DVec3 {
-        self.sum += 0.5 * (time - self.time) * (self.force + force);
-        (self.time, self.force) = (time, force);
+impl<T: Copy + Add<Output = T> + Mul<f64, Output = T>> Integral<T> {
+    /// Counts on to `time` [s], where the rate is `rate`; returns the integral up to there. The first call, at time
+    /// 0, sets the rate of the start.
+    pub fn count(&mut self, time: f64, rate: T) -> T {
+        self.sum = self.sum + (self.rate + rate) * (0.5 * (time - self.time));
+        (self.time, self.rate) = (time, rate);
         self.sum
     }
 }

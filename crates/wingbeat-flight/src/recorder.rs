@@ -12,7 +12,7 @@ use crate::equations::{Equations, Scratch};
 use crate::error::FlightError;
 use crate::memory::{AirMemory, wakes_of};
 use crate::quadratures::Quadratures;
-use crate::record::{AirImpulse, Record};
+use crate::record::{Integral, Record};
 use crate::turns;
 
 /// Below this |cos theta| Euler angles and their rates are not evaluated but kept: they lose
@@ -42,11 +42,13 @@ pub struct Ledger {
     /// Regularised events of the air up to the last record.
     pub events: u64,
     /// Impulse of the air on all bodies up to the last record.
-    pub air_impulse: AirImpulse,
+    pub air_impulse: Integral<DVec3>,
     /// The same of the inviscid force alone.
-    pub inviscid_impulse: AirImpulse,
+    pub inviscid_impulse: Integral<DVec3>,
     /// Impulse of all vorticity at the start [kg m/s], N components.
     pub vortex_impulse: DVec3,
+    /// Positive work of what drives the joints up to the last record.
+    pub positive_work: Integral<f64>,
 }
 
 impl Ledger {
@@ -112,6 +114,9 @@ impl Sources<'_> {
         r.put_passive(&self.equations.mechanism, |_, now| {
             *ledger.stored.get_or_insert(now.stored) - now.stored - dissipated
         });
+        let powers = r.driving_powers(&self.equations.mechanism);
+        let positive = powers.map(|p| p.max(0.0)).sum();
+        r.positive_work = ledger.positive_work.count(time, positive);
         self.write_balances(ledger, r);
         self.write_air(time, ledger, r);
         Ok(())

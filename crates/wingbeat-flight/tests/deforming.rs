@@ -99,6 +99,9 @@ fn exact_no_amplitude_is_the_rigid_flight_bit_for_bit() {
         );
         assert!(record.deformation_work.abs() < 1e-14 * scale / FREQUENCY);
         record.deformation_work = 0.0;
+        let positive = rigid[record.step].positive_work;
+        assert!((record.positive_work - positive).abs() < 1e-14 * scale / FREQUENCY);
+        record.positive_work = positive;
         record.air_work = rigid[record.step].air_work;
         record.energy_residual = rigid[record.step].energy_residual;
         assert_eq!(record, rigid[record.step]);

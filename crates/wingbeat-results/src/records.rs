@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use wingbeat_dynamics::{Mechanism, Passive};
-use wingbeat_flight::record::AirImpulse;
+use wingbeat_flight::record::Integral;
 use wingbeat_flight::{AirModel, FlightSetup, Record, system_of};
 use wingbeat_math::DVec3;
 
@@ -19,7 +19,7 @@ pub struct Records {
     places: Vec<Option<usize>>,
     record: Record,
     /// Counted again where an older result lacks it.
-    air_impulse: Option<AirImpulse>,
+    air_impulse: Option<Integral<DVec3>>,
     /// Counted again where an older result lacks it.
     passive: Option<(Mechanism, PassiveWork)>,
     /// Where an older result of a lattice does not tell the inviscid force from the whole one.
@@ -77,7 +77,7 @@ impl Records {
             columns,
             places,
             record,
-            air_impulse: counts.then(AirImpulse::default),
+            air_impulse: counts.then(Integral::default),
             passive: system.map(|s| (Mechanism::of(&s), PassiveWork::default())),
             takes_whole_for_inviscid: lacks_inviscid && is_lattice,
         })

@@ -50,6 +50,8 @@ pub struct Beat {
     pub thrust_newton: f64,
     /// Power of all actuators and of prescribed deformation [W].
     pub power_watt: f64,
+    /// The positive part of it, joint by joint [W]; not a number where an older result does not tell.
+    pub positive_power_watt: f64,
 }
 
 impl From<&BeatMeans> for Beat {
@@ -59,6 +61,7 @@ impl From<&BeatMeans> for Beat {
             lift_over_weight: means.lift_over_weight.unwrap_or(f64::NAN),
             thrust_newton: means.thrust_newton,
             power_watt: means.power_watt,
+            positive_power_watt: means.positive_power_watt.unwrap_or(f64::NAN),
         }
     }
 }

@@ -214,3 +214,29 @@ fn behaves_flight_that_fails_leaves_what_was_flown() {
     assert_eq!(summary.beats.len(), 1, "the first wingbeat is there");
     std::fs::remove_dir_all(&dir).expect("it was just written");
 }
+
+/// Wings of inertia I that swing by A sin(w t) in a vacuum take I A^2 w^3 / (2 pi) each while they gain speed, and
+/// give it back while they lose it.
+#[test]
+fn exact_positive_power_of_wings_in_a_vacuum() {
+    let keys = [
+        "flight={mode=\"tethered\"}",
+        "motion={frequency_hz=200,start=\"impulsive\"}",
+        "wing.right.motion={phi={fourier={sine_deg=[60]}},theta={constant_deg=0},psi={constant_deg=0}}",
+        "time={beats=2,steps_per_beat=400}",
+    ];
+    let run = Flight::preset_with("fruit-fly-vacuum", &keys).and_then(|f| f.fly());
+    let run = run.expect("a flight");
+    let wings = &run.setup.animal.wings;
+    let inertia: f64 = wings.iter().map(|w| w.mass.inertia.x_axis.x).sum();
+    let (amplitude, rate) = (60f64.to_radians(), 2.0 * std::f64::consts::PI * 200.0);
+    let exact = inertia * amplitude.powi(2) * rate.powi(3) / (2.0 * std::f64::consts::PI);
+    let beat = run.beats()[1];
+    let error = beat.positive_power_watt / exact - 1.0;
+    assert!(error.abs() < 5e-5, "{error:e}"); // the trapezoidal rule leaves (2 pi / 400)^2 / 3 / 4
+    assert!(
+        beat.power_watt.abs() < 1e-9 * exact,
+        "{:e}",
+        beat.power_watt
+    );
+}

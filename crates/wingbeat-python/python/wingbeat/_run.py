@@ -44,7 +44,7 @@ class Beats(Mapping[str, "NDArray[Any]"]):
     """Means over every whole wingbeat, those of summary and figures: an array for each quantity.
 
     ``beat`` (numbers from 1), ``lift_newton``, ``lift_over_weight`` (NaN without gravity), ``thrust_newton``,
-    ``power_watt``, ``inviscid_lift_newton``, ``lift_by_impulse_newton`` (both NaN without a lattice).
+    ``power_watt``, ``positive_power_watt`` (its positive part, joint by joint), ``inviscid_lift_newton``, ``lift_by_impulse_newton`` (both NaN without a lattice).
     """
 
     def __init__(self, beats: list[dict[str, Any]], means: dict[str, Any] | None) -> None:

@@ -21,6 +21,10 @@ pub struct BeatMeans {
     pub thrust_newton: f64,
     /// Mean power that hinge actuators and prescribed deformation give \[W\].
     pub power_watt: f64,
+    /// The positive part of it, joint by joint: what actuators give that get nothing back when wings are slowed
+    /// down \[W\]; none where an older result does not tell.
+    #[serde(default)]
+    pub positive_power_watt: Option<f64>,
     /// Mean inviscid air force against gravity, with the suction that pressures lack, without friction \[N\]; none
     /// without a lattice.
     #[serde(default)]
@@ -45,6 +49,8 @@ impl BeatMeans {
             lift_over_weight: over_weight(setup, lift_newton),
             thrust_newton: force.x,
             power_watt: (to.driving_work() - from.driving_work()) / period,
+            positive_power_watt: Some((to.positive_work - from.positive_work) / period)
+                .filter(|p| p.is_finite()),
             inviscid_lift_newton: of_lattice(from.inviscid_impulse - to.inviscid_impulse),
             lift_by_impulse_newton: of_lattice(to.vortex_impulse - from.vortex_impulse),
         }
@@ -96,7 +102,7 @@ mod tests {
     use super::*;
     use wingbeat_case::LoadedCase;
     use wingbeat_dynamics::Wrench;
-    use wingbeat_flight::record::AirImpulse;
+    use wingbeat_flight::record::Integral;
 
     /// Lift m g cos^2 x has the mean m g / 2, to which the trapezoidal rule is exact; work that grows
     /// by 3 J a step and impulses that change by 3 N s and 4 N s a step are 3 W, 3 N and 4 N over steps of 1 s.
@@ -110,7 +116,7 @@ mod tests {
             period: Some(8.0),
         };
         let weight = setup.animal.mass() * setup.gravity.length();
-        let mut impulse = AirImpulse::default();
+        let mut impulse = Integral::default();
         let record = |k: usize| {
             let x = k as f64 * std::f64::consts::FRAC_PI_4;
             let force = DVec3::new(1.0, 0.0, -weight * x.cos().powi(2));
@@ -118,6 +124,7 @@ mod tests {
                 step: k,
                 time: k as f64,
                 hinge_work: 3.0 * k as f64,
+                positive_work: 5.0 * k as f64,
                 vortex_impulse: DVec3::new(0.0, 0.0, 3.0 * k as f64),
                 inviscid_impulse: DVec3::new(0.0, 0.0, -4.0 * k as f64),
                 air: vec![Wrench {
@@ -143,6 +150,7 @@ mod tests {
             assert!((lift - 0.5).abs() < 1e-14, "{lift}"); // some roundings
             assert!((beat.thrust_newton - 1.0).abs() < 1e-14);
             assert_eq!(beat.power_watt, 3.0);
+            assert_eq!(beat.positive_power_watt, Some(5.0));
             assert_eq!(beat.lift_by_impulse_newton, Some(3.0));
             assert_eq!(beat.inviscid_lift_newton, Some(4.0));
         }

@@ -58,6 +58,9 @@ impl Summary {
         row("lift [N]", |m| m.lift_newton);
         row("forward force [N]", |m| m.thrust_newton);
         row("power [W]", |m| m.power_watt);
+        if let (Some(x), Some(y)) = (a.positive_power_watt, b.positive_power_watt) {
+            rows.push(MeanDifference::between("positive power [W]", x, y));
+        }
         rows
     }
 }

@@ -30,6 +30,8 @@ pub struct EnsembleBeat {
     pub thrust_newton: Estimate,
     /// Power of hinge actuators and prescribed deformation \[W\].
     pub power_watt: Estimate,
+    /// The positive part of it, joint by joint \[W\].
+    pub positive_power_watt: Option<Estimate>,
     /// Standard deviation of the lift over the members, over the mean of its magnitudes: how far the members have
     /// parted \[1\].
     pub spread: f64,
@@ -147,6 +149,7 @@ fn mean_of(members: &[Vec<BeatMeans>], beat: usize) -> BeatMeans {
         lift_over_weight: where_known(|b| b.lift_over_weight),
         thrust_newton: mean(|b| b.thrust_newton),
         power_watt: mean(|b| b.power_watt),
+        positive_power_watt: where_known(|b| b.positive_power_watt),
         inviscid_lift_newton: where_known(|b| b.inviscid_lift_newton),
         lift_by_impulse_newton: where_known(|b| b.lift_by_impulse_newton),
     }
@@ -206,14 +209,16 @@ fn over(members: &[Vec<BeatMeans>], [from, to]: [usize; 2], are: Members) -> Ens
     let lift = of_members(|b| b.lift_newton);
     let size = lift.iter().map(|x| x.abs()).sum::<f64>() / lift.len() as f64;
     let deviation = (moments(&lift).1 / (lift.len() - 1) as f64).sqrt();
-    let mut all = members.iter().flatten();
-    let weighed = all.all(|b| b.lift_over_weight.is_some());
+    let every = |has: fn(&BeatMeans) -> bool| members.iter().flatten().all(has);
+    let weighed = every(|b| b.lift_over_weight.is_some());
+    let told = every(|b| b.positive_power_watt.is_some());
     EnsembleBeat {
         beat: members[0][from].beat,
         lift_newton: estimate(|b| b.lift_newton),
         lift_over_weight: weighed.then(|| estimate(|b| b.lift_over_weight.unwrap_or(0.0))),
         thrust_newton: estimate(|b| b.thrust_newton),
         power_watt: estimate(|b| b.power_watt),
+        positive_power_watt: told.then(|| estimate(|b| b.positive_power_watt.unwrap_or(0.0))),
         spread: if size > 0.0 { deviation / size } else { 0.0 },
     }
 }
@@ -229,6 +234,7 @@ mod tests {
             lift_over_weight: Some(x / 2.0),
             thrust_newton: 0.0,
             power_watt: 1.0,
+            positive_power_watt: Some(2.0),
             inviscid_lift_newton: Some(*x),
             lift_by_impulse_newton: Some(*x),
         };

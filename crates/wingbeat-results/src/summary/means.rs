@@ -27,6 +27,9 @@ pub struct ManyBeats {
     pub thrust_newton: Estimate,
     /// Power of hinge actuators and prescribed deformation \[W\].
     pub power_watt: Estimate,
+    /// The positive part of it, joint by joint \[W\].
+    #[serde(default)]
+    pub positive_power_watt: Option<Estimate>,
     /// Inviscid air force against gravity, with the suction that pressures lack, without friction \[N\]; none without a
     /// lattice.
     #[serde(default)]
@@ -78,6 +81,7 @@ impl ManyBeats {
             lift_over_weight: where_known(|b| b.lift_over_weight),
             thrust_newton,
             power_watt: of(|b| b.power_watt),
+            positive_power_watt: where_known(|b| b.positive_power_watt),
             inviscid_lift_newton: where_known(|b| b.inviscid_lift_newton),
             lift_by_impulse_newton: where_known(|b| b.lift_by_impulse_newton),
             change_of_lift: changes[0].change,
@@ -145,6 +149,7 @@ mod tests {
             lift_over_weight: Some(lift(k) / 2.0),
             thrust_newton: thrust(k),
             power_watt: 3.0,
+            positive_power_watt: Some(4.0),
             inviscid_lift_newton: Some(lift(k)),
             lift_by_impulse_newton: Some(lift(k)),
         };

@@ -95,6 +95,9 @@ impl Summary {
             rows.push((of("lift [N]"), a.lift_newton, b.lift_newton));
             rows.push((of("forward force [N]"), a.thrust_newton, b.thrust_newton));
             rows.push((of("power [W]"), a.power_watt, b.power_watt));
+            if let (Some(x), Some(y)) = (a.positive_power_watt, b.positive_power_watt) {
+                rows.push((of("positive power [W]"), x, y));
+            }
         }
         let moved = without_rounding([self.displacement_m, other.displacement_m], 0.0);
         let turned = without_rounding([self.turn_deg, other.turn_deg], 1.0);

@@ -2,6 +2,7 @@
 
 use std::fmt::Write as _;
 
+use super::beats::BeatMeans;
 use super::estimate::Estimate;
 use super::impulse::ImpulseBudget;
 use super::means::ManyBeats;
@@ -90,6 +91,28 @@ impl Summary {
         if let Some(means) = &self.means {
             mean_rows(means, out);
         }
+        if let Some(text) = self.specific_power() {
+            out.push_str(&wrapped("       ", &text));
+        }
+    }
+
+    /// Power over the mass, of the mean or of the last beat; none where nothing is driven.
+    fn specific_power(&self) -> Option<String> {
+        let last = self.beats.last()?;
+        let of_last = |b: &BeatMeans| Some([b.power_watt, b.positive_power_watt?]);
+        let (powers, of) = match &self.means {
+            Some(m) => (
+                [m.power_watt.mean, m.positive_power_watt?.mean],
+                "the mean".to_owned(),
+            ),
+            None => (of_last(last)?, format!("beat {}", last.beat)),
+        };
+        let [all, positive] = powers.map(|p| alone(p / self.mass_kg, "W/kg"));
+        (powers[1] > 0.0).then(|| {
+            format!(
+                "Power of {of} over the mass: {all}; of actuators that get nothing back when they brake (its positive part, joint by joint): {positive}."
+            )
+        })
     }
 
     fn balances(&self, out: &mut String) {

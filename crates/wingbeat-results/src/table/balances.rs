@@ -25,6 +25,13 @@ pub(super) const ENERGIES: &[Quantity] = &[
         |r, _, _| Real(&mut r.hinge_work),
     ),
     scalar(
+        "positive_work",
+        Unit::Joule,
+        "work of actuators and of prescribed deformation so far where it is positive, joint by joint: what is given if nothing comes back",
+        |r, _, _| Real(&mut r.positive_work),
+    )
+    .new_here(),
+    scalar(
         "air_work",
         Unit::Joule,
         "work of the air so far, on deformation too",

@@ -12,6 +12,7 @@ BEATS = (
     "lift_over_weight",
     "thrust_newton",
     "power_watt",
+    "positive_power_watt",
     "inviscid_lift_newton",
     "lift_by_impulse_newton",
 )
