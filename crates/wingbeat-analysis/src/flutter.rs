@@ -1,10 +1,11 @@
-//! Flutter: when the vibrations of an elastic wing in a stream grow.
+//! Flutter: when the vibrations of elastic wings in a stream grow.
 //!
-//! At each speed the wing is flown to its deformed steady state with much damping, first with long steps
-//! (`settling`). From there two flights go on with the damping of the wing itself, one of them with small
-//! velocities added in the leading modes of the deformed wing (`disturbance`). The difference of the two is the
+//! At each speed the wings are flown to their deformed steady state with much damping, first with long steps
+//! (`settling`). From there two flights go on with the damping of the wings themselves, one of them with small
+//! velocities added in the leading modes of each deformed wing (`disturbance`). The difference of the two is the
 //! response of the system linearised about the deformed state, wakes and all; [`realise`] finds its
-//! eigenvalues. Growth that changes its sign between speeds is an onset or an end of flutter ([`crossings`]),
+//! eigenvalues, in the response of each wing. Wings that are mirror images of each other, deformation and all, are
+//! disturbed as such: their symmetrical vibrations are found. Growth that changes its sign between speeds is an onset or an end of flutter ([`crossings`]),
 //! if it differs from zero by more than is not known of it (`uncertainty`). The disturbance of half the size
 //! tells how far the response is linear; where it is not, the disturbance is made smaller (`response`).
 //!
@@ -30,6 +31,6 @@ mod uncertainty;
 
 pub use crate::realisation::{NOISE, Realisation, Vibration, realise};
 pub use condition::{Condition, MAX_DAMPING, MIN_SHARE, condition};
-pub use crossing::{Crossing, crossings, growing, likely};
+pub use crossing::{Crossing, by_wing, crossings, growing, likely};
 pub use settings::FlutterSettings;
 pub use steady::{ElasticRig, SteadyWing};

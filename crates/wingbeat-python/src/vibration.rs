@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use pyo3::prelude::*;
 use wingbeat::analysis::flutter::{
-    Condition, Crossing, FlutterSettings, condition, crossings, likely,
+    Condition, Crossing, FlutterSettings, by_wing, condition, crossings, likely,
 };
 use wingbeat::analysis::{About, WingMode, WingModes, wing_modes};
 
@@ -72,10 +72,11 @@ fn numbers<'py>(py: Python<'py>, modes: &[WingMode], nodes: usize) -> PyResult<M
     ])
 }
 
-/// Speed [m/s]; tip's displacement \[m\] and turn \[rad\]; frequencies in vacuum [Hz]; of each mode frequency [Hz],
+/// Name of the wing; speed [m/s]; tip's displacement \[m\] and turn \[rad\]; frequencies in vacuum [Hz]; of each mode frequency [Hz],
 /// growth and its uncertainty [1/s], damping over critical, share; growth of a motion that does not vibrate and its
 /// uncertainty [1/s]; part of the response that no mode explains, that is not linear, disturbance.
 pub type ConditionParts = (
+    String,
     f64,
     [[f64; 3]; 2],
     Vec<f64>,
@@ -84,8 +85,9 @@ pub type ConditionParts = (
     [f64; 3],
 );
 
-/// Whether it is certain, whether flutter begins there; speed [m/s], frequency [Hz]; speeds between which it lies.
-pub type OnsetParts = (bool, bool, f64, f64, [f64; 2]);
+/// Name of the wing; whether it is certain, whether flutter begins there; speed [m/s], frequency [Hz]; speeds between
+/// which it lies.
+pub type OnsetParts = (String, bool, bool, f64, f64, [f64; 2]);
 
 /// The elastic wings at each of these `speeds` [m/s], and where flutter begins or ends between them.
 pub fn flutter(
@@ -110,13 +112,13 @@ pub fn flutter(
     let told = progress.as_ref().map(|callback| (callback, speeds.len()));
     let fly = move |watch: &Watch| {
         let mut found: Vec<Condition> = vec![];
-        for speed in speeds {
-            if watch.reached(found.len()) {
+        for (done, speed) in speeds.into_iter().enumerate() {
+            if watch.reached(done) {
                 break;
             }
-            found.push(condition(&setup, speed, &settings)?);
+            found.extend(condition(&setup, speed, &settings)?);
+            watch.reached(done + 1);
         }
-        watch.reached(found.len());
         Ok(found)
     };
     let Worked {
@@ -129,23 +131,34 @@ pub fn flutter(
         (None, Some(found)) => found,
     };
     let found = found.map_err(|e: wingbeat::analysis::AnalysisError| raised(py, &e.into()))?;
-    let onset = |(c, certain): (&Crossing, bool)| {
-        (certain, c.begins, c.speed, c.frequency / TAU, c.between)
+    let wings = &flight.setup.animal.wings;
+    let name = |c: &Condition| wings[c.steady.wing].name.clone();
+    let onsets = |of_wing: &Vec<Condition>| {
+        let [certain, uncertain] = [crossings(of_wing), likely(of_wing)];
+        let onset = |(c, certain): (Crossing, bool)| {
+            let wing = name(&of_wing[0]);
+            (
+                wing,
+                certain,
+                c.begins,
+                c.speed,
+                c.frequency / TAU,
+                c.between,
+            )
+        };
+        let certain = certain.into_iter().map(|c| (c, true));
+        let all = certain.chain(uncertain.into_iter().map(|c| (c, false)));
+        all.map(onset).collect::<Vec<_>>()
     };
-    let certain = crossings(&found);
-    let uncertain = likely(&found);
-    let onsets = certain
-        .iter()
-        .map(|c| (c, true))
-        .chain(uncertain.iter().map(|c| (c, false)));
-    let onsets = onsets.map(onset).collect();
-    Ok((found.iter().map(parts).collect(), onsets))
+    let onsets = by_wing(&found).iter().flat_map(onsets).collect();
+    Ok((found.iter().map(|c| parts(name(c), c)).collect(), onsets))
 }
 
-fn parts(c: &Condition) -> ConditionParts {
+fn parts(wing: String, c: &Condition) -> ConditionParts {
     let modes = c.modes.iter().zip(&c.uncertainty);
     let divergence = c.divergence.filter(|_| c.diverges());
     (
+        wing,
         c.speed,
         [c.steady.tip.to_array(), c.steady.turn.to_array()],
         c.steady.vacuum.iter().map(|w| w / TAU).collect(),

@@ -1,8 +1,8 @@
-//! The elastic wing at one speed: steady state, response, modes.
+//! The elastic wings at one speed: steady state, response, modes.
 
 use wingbeat_flight::{FlightSetup, FlightState, Simulation};
 
-use super::disturbance::{Disturbance, Stations};
+use super::disturbance::{Disturbance, Stations, images};
 use super::response::{Response, difference};
 use super::settings::FlutterSettings;
 use super::steady::{ElasticRig, SteadyWing};
@@ -11,7 +11,7 @@ use crate::AnalysisError;
 use crate::progress;
 use crate::realisation::{Realisation, Vibration, realise};
 
-/// The elastic wing at one speed.
+/// An elastic wing at one speed.
 #[derive(Clone, Debug)]
 pub struct Condition {
     /// Speed of the stream [m/s].
@@ -53,7 +53,8 @@ const KEPT: usize = 3;
 /// Samples of a response at least, and samples in a period of the fastest mode that is disturbed.
 const SAMPLES: [f64; 2] = [80.0, 6.0];
 
-/// The elastic wings of `setup` in its stream at `speed` [m/s].
+/// The elastic wings of `setup` in its stream at `speed` [m/s], one after the other. Of wings that are deformed as mirror
+/// images of each other only the first is told: they are disturbed as mirror images, too, and answer so.
 ///
 /// # Errors
 /// No elastic wing; wings or a root that move; no stream, no wake; a steady state that is not reached; a
@@ -62,33 +63,40 @@ pub fn condition(
     setup: &FlightSetup,
     speed: f64,
     settings: &FlutterSettings,
-) -> Result<Condition, AnalysisError> {
+) -> Result<Vec<Condition>, AnalysisError> {
     let rig = ElasticRig::new(setup, speed)?;
     progress::task("steady state", 0, 0);
     let (state, steady) = rig.to_steady(settings)?;
     progress::task("response", 0, 0);
-    let disturbance = Disturbance::new(&rig, &state, settings)?;
-    let sampling = Sampling::new(rig.setup.time.step, &steady.vacuum, settings)?;
-    let stations = Stations::of(&rig);
+    let images = images(&rig, &state, &steady);
+    let disturbance = Disturbance::new(&rig, (&state, &images), settings)?;
+    let step = rig.setup.time.step;
+    let sampling = Sampling::new(step, &steady, settings)?;
+    let wings = (0..images.len()).filter(|&k| images[k].is_none());
+    let stations: Vec<Stations> = wings.clone().map(|k| Stations::of(&rig, k)).collect();
     let flown = |part: f64| {
         let from = disturbance.added(&state, part);
         flown(&rig.setup, from, &stations, &sampling)
     };
     let still = flown(0.0)?;
     let found = Response::linear(|part| Ok(difference(&flown(part)?, &still)))?;
-    let identified = Identified::of(&found, rig.setup.time.step, &sampling)?;
-    let modes = identified.modes();
-    let uncertainty = identified.uncertainties(&modes)?;
-    Ok(Condition {
-        speed,
-        modes,
-        uncertainty,
-        divergence: identified.divergence()?,
-        steady,
-        nonlinearity: found.nonlinearity,
-        disturbance: found.part * settings.disturbance,
-        response: identified.response,
-    })
+    let of_wing = |(place, k): (usize, usize)| {
+        let found = found.outputs(place * Stations::OUTPUTS..(place + 1) * Stations::OUTPUTS);
+        let identified = Identified::of(&found, step, &sampling)?;
+        let modes = identified.modes();
+        let uncertainty = identified.uncertainties(&modes)?;
+        Ok(Condition {
+            speed,
+            modes,
+            uncertainty,
+            divergence: identified.divergence()?,
+            steady: steady[k].clone(),
+            nonlinearity: found.nonlinearity,
+            disturbance: found.part * settings.disturbance,
+            response: identified.response,
+        })
+    };
+    wings.enumerate().map(of_wing).collect()
 }
 
 impl Condition {
@@ -165,9 +173,17 @@ struct Sampling {
 impl Sampling {
     /// # Errors
     /// Too few of them.
-    fn new(step: f64, vacuum: &[f64], settings: &FlutterSettings) -> Result<Self, AnalysisError> {
+    fn new(
+        step: f64,
+        steady: &[SteadyWing],
+        settings: &FlutterSettings,
+    ) -> Result<Self, AnalysisError> {
         use std::f64::consts::TAU;
-        let (first, last) = (vacuum[0], vacuum[vacuum.len() - 1]);
+        let vacuum = || steady.iter().flat_map(|s| s.vacuum.iter().copied());
+        let (first, last) = (
+            vacuum().fold(f64::INFINITY, f64::min),
+            vacuum().fold(0.0, f64::max),
+        );
         let length = settings.periods * TAU / first;
         let apart = (length / SAMPLES[0]).min(TAU / last / SAMPLES[1]);
         let every = ((apart / step) as usize).max(1);
@@ -189,7 +205,7 @@ impl Sampling {
 fn flown(
     setup: &FlightSetup,
     state: FlightState,
-    stations: &Stations,
+    stations: &[Stations],
     sampling: &Sampling,
 ) -> Result<Vec<Vec<f64>>, AnalysisError> {
     let mut flight = Simulation::resume(setup.clone(), state)?;
@@ -198,7 +214,8 @@ fn flown(
         for _ in 0..sampling.every {
             flight.step()?;
         }
-        samples.push(stations.outputs(flight.state()));
+        let outputs = stations.iter().flat_map(|s| s.outputs(flight.state()));
+        samples.push(outputs.collect());
     }
     Ok(samples)
 }

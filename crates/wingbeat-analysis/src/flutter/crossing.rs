@@ -20,7 +20,19 @@ pub struct Crossing {
 /// plates are at least so far apart unless they flutter together.
 const NEAR: f64 = 0.25;
 
-/// Zero crossings of growth along `conditions` of rising speed, interpolated linearly. Modes of two speeds go
+/// Conditions of rising speed, wing by wing.
+pub fn by_wing(conditions: &[Condition]) -> Vec<Vec<Condition>> {
+    let mut wings: Vec<Vec<Condition>> = vec![];
+    for c in conditions {
+        match wings.iter_mut().find(|w| w[0].steady.wing == c.steady.wing) {
+            Some(wing) => wing.push(c.clone()),
+            None => wings.push(vec![c.clone()]),
+        }
+    }
+    wings
+}
+
+/// Zero crossings of growth along `conditions` of one wing, of rising speed, interpolated linearly. Modes of two speeds go
 /// together by the distance of their eigenvalues, the nearest first: where two come close, speeds are to be
 /// closer than they. A crossing counts where growth differs from zero by more than its uncertainty on both
 /// sides; speeds between, at which the mode is neutral within what is known, are passed over.

@@ -1,11 +1,11 @@
-//! Small velocities in the modes of the deformed wing, and where the response is looked at.
+//! Small velocities in the modes of the deformed wings, and where the response is looked at.
 
 use wingbeat_flight::FlightState;
 use wingbeat_math::{DQuat, DVec3, rotation_vector};
 use wingbeat_structure::NODE;
 
 use super::settings::FlutterSettings;
-use super::steady::{ElasticRig, leading};
+use super::steady::{ElasticRig, SAME, SteadyWing, leading};
 use crate::AnalysisError;
 
 /// Stations along the span at which outputs are taken.
@@ -18,38 +18,24 @@ pub(crate) struct Disturbance {
 }
 
 impl Disturbance {
-    /// The leading modes of the first elastic wing about `state`, each of the amplitude that `settings` has;
-    /// other wings have its mirror image or do as it does.
+    /// The leading modes of each elastic wing about `state`, each of the amplitude that `settings` has; mirror
+    /// images of wings before them (`image_of`) have theirs mirrored.
     ///
     /// # Errors
     /// Modes that cannot be found.
     pub fn new(
         rig: &ElasticRig,
-        state: &FlightState,
+        (state, image_of): (&FlightState, &[Option<usize>]),
         settings: &FlutterSettings,
     ) -> Result<Self, AnalysisError> {
-        let leading = leading(rig, state, settings.modes)?;
-        let size = rig.first().structure().size();
-        let mut first = vec![0.0; NODE * state.wings[0].structure.configuration.len()];
-        for mode in &leading {
-            let places = mode.shape.chunks_exact(NODE);
-            let moves = |six: &[f64]| {
-                let turn = DVec3::from_slice(&six[3..]).length();
-                DVec3::from_slice(six).length().max(turn * size)
-            };
-            let largest = places.map(moves).fold(0.0, f64::max);
-            let rate = settings.disturbance * size * mode.frequency() / largest;
-            for (v, x) in first.iter_mut().zip(&mode.shape) {
-                *v += rate * x;
-            }
+        let mut velocity: Vec<Vec<f64>> = vec![];
+        for (k, image_of) in image_of.iter().enumerate() {
+            velocity.push(match image_of {
+                Some(other) => mirrored(&velocity[*other]),
+                None => in_modes(rig, state, k, settings)?,
+            });
         }
-        let velocity = rig.mirrored().map(|other| match other {
-            true => mirrored(&first),
-            false => first.clone(),
-        });
-        Ok(Self {
-            velocity: velocity.collect(),
-        })
+        Ok(Self { velocity })
     }
 
     /// `state` with `part` of the disturbance.
@@ -63,29 +49,97 @@ impl Disturbance {
     }
 }
 
+/// Velocities of elastic wing number `k` in its leading modes about `state`.
+fn in_modes(
+    rig: &ElasticRig,
+    state: &FlightState,
+    k: usize,
+    settings: &FlutterSettings,
+) -> Result<Vec<f64>, AnalysisError> {
+    let leading = leading(rig, state, k, settings.modes)?;
+    let size = rig.wing(k).structure().size();
+    let mut velocity = vec![0.0; NODE * state.wings[k].structure.configuration.len()];
+    for mode in &leading {
+        let places = mode.shape.chunks_exact(NODE);
+        let moves = |six: &[f64]| {
+            let turn = DVec3::from_slice(&six[3..]).length();
+            DVec3::from_slice(six).length().max(turn * size)
+        };
+        let largest = places.map(moves).fold(0.0, f64::max);
+        let rate = settings.disturbance * size * mode.frequency() / largest;
+        for (v, x) in velocity.iter_mut().zip(&mode.shape) {
+            *v += rate * x;
+        }
+    }
+    Ok(velocity)
+}
+
+const SIGNS: [f64; NODE] = [1.0, -1.0, 1.0, -1.0, 1.0, -1.0];
+
 /// The mirror image of velocities: places in W, turns in node components.
 fn mirrored(velocity: &[f64]) -> Vec<f64> {
-    const SIGNS: [f64; NODE] = [1.0, -1.0, 1.0, -1.0, 1.0, -1.0];
     let numbers = velocity.iter().enumerate();
     numbers.map(|(k, v)| SIGNS[k % NODE] * v).collect()
 }
 
-/// Nodes of the first elastic wing that are looked at.
+/// Of each elastic wing in the steady state the wing before it that it is the mirror image of, deformed as it is, if
+/// there is one.
+pub(crate) fn images(
+    rig: &ElasticRig,
+    state: &FlightState,
+    steady: &[SteadyWing],
+) -> Vec<Option<usize>> {
+    let shapes = |k: usize| {
+        let structure = rig.wing(k).structure();
+        let (at, rest) = (&state.wings[k].structure.configuration, structure.rest());
+        let size = structure.size();
+        let node = move |n: usize| {
+            let turn = rotation_vector(at.rotation[n] * rest.rotation[n].inverse());
+            [(at.position[n] / size).to_array(), turn.to_array()].concat()
+        };
+        (0..at.len()).flat_map(node)
+    };
+    let side = |k: usize| rig.setup.animal.wings[rig.wing(k).wing()].side;
+    let is_image = |k: usize, other: usize| {
+        let nodes = |k: usize| state.wings[k].structure.configuration.len();
+        let sizes = [k, other].map(|k| rig.wing(k).structure().size());
+        let mut numbers = shapes(k).zip(shapes(other)).enumerate();
+        let mut frequencies = steady[k].vacuum.iter().zip(&steady[other].vacuum);
+        side(k) != side(other)
+            && nodes(k) == nodes(other)
+            && (sizes[0] - sizes[1]).abs() < SAME * sizes[0]
+            && numbers.all(|(n, (x, y))| (x - SIGNS[n % NODE] * y).abs() < SAME)
+            && frequencies.all(|(v, w)| (v - w).abs() < SAME * v)
+    };
+    let mut found: Vec<Option<usize>> = vec![];
+    for k in 0..rig.count() {
+        let own = (0..k).find(|&other| found[other].is_none() && is_image(k, other));
+        found.push(own);
+    }
+    found
+}
+
+/// Nodes of an elastic wing that are looked at.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Stations {
+    wing: usize,
     nodes: Vec<usize>,
     rest: Vec<(DVec3, DQuat)>,
     size: f64,
 }
 
 impl Stations {
-    /// Equally far apart from each other, the last at the tip.
-    pub fn of(rig: &ElasticRig) -> Self {
-        let structure = rig.first().structure();
+    /// Numbers that are taken of a wing.
+    pub const OUTPUTS: usize = NODE * STATIONS;
+
+    /// Of elastic wing number `wing`, equally far apart from each other, the last at the tip.
+    pub fn of(rig: &ElasticRig, wing: usize) -> Self {
+        let structure = rig.wing(wing).structure();
         let (last, rest) = (structure.nodes() - 1, structure.rest());
         let nodes: Vec<usize> = (1..=STATIONS).map(|k| k * last / STATIONS).collect();
         let at = |&n: &usize| (rest.position[n], rest.rotation[n]);
         Self {
+            wing,
             rest: nodes.iter().map(at).collect(),
             nodes,
             size: structure.size(),
@@ -94,7 +148,7 @@ impl Stations {
 
     /// Displacements over the size of the wing and rotation vectors, W components.
     pub fn outputs(&self, state: &FlightState) -> Vec<f64> {
-        let at = &state.wings[0].structure.configuration;
+        let at = &state.wings[self.wing].structure.configuration;
         let of = |(&n, (x, r)): (&usize, &(DVec3, DQuat))| {
             let shift = (at.position[n] - *x) / self.size;
             let turn = rotation_vector(at.rotation[n] * r.inverse());

@@ -6,6 +6,8 @@
 //! 2` from twice the response to half the disturbance. Where that is more than [`LINEAR`], the disturbance is
 //! made smaller, as long as that makes it less: rounding weighs the more, the smaller the motion.
 
+use std::ops::Range;
+
 use crate::AnalysisError;
 use crate::realisation::rms;
 
@@ -67,6 +69,20 @@ impl Response {
             whole,
             doubled,
         })
+    }
+
+    /// Of these outputs.
+    pub fn outputs(&self, range: Range<usize>) -> Self {
+        let of = |samples: &[Vec<f64>]| -> Vec<Vec<f64>> {
+            samples.iter().map(|y| y[range.clone()].to_vec()).collect()
+        };
+        let (whole, doubled) = (of(&self.whole), of(&self.doubled));
+        Self {
+            part: self.part,
+            nonlinearity: rms(&difference(&whole, &doubled)) / rms(&whole),
+            whole,
+            doubled,
+        }
     }
 
     /// Part of the response that may go by squares \[1\].

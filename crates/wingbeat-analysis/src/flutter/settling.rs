@@ -30,15 +30,18 @@ const APART: f64 = 0.25;
 const ALIKE: f64 = 0.05;
 const FARTHEST: f64 = 300.0;
 
-/// How a wing comes to rest.
+/// Motion of a wing over that of the fastest one, below which it stays where it is when others go ahead \[1\].
+const AT_REST: f64 = 1e-3;
+
+/// How wings come to rest.
 pub(super) struct Settling {
     /// Wings with much damping.
     pub setup: FlightSetup,
     /// Speed of the stream [m/s].
     pub speed: f64,
-    /// Size of the wing \[m\].
-    pub size: f64,
-    /// Period of the first mode \[s\].
+    /// Size of each elastic wing \[m\].
+    pub sizes: Vec<f64>,
+    /// Period of the slowest mode \[s\].
     pub period: f64,
     /// Steps before the wing is looked at.
     pub least: usize,
@@ -90,33 +93,20 @@ impl Settling {
         (periods * self.period / self.setup.time.step) as usize
     }
 
-    /// Where three shapes lead, from the last of them; none where they do not decay in a line.
+    /// Where three shapes lead, from the last of them, wing by wing; none where one does not decay in a line.
     fn ahead(&self, shapes: &VecDeque<Vec<Configuration>>) -> Option<Vec<Vec<f64>>> {
         let [a, b, c] = [0, 1, 2].map(|k| shapes.get(k));
         let (first, last) = (increments(a?, b?), increments(b?, c?));
-        let product = |p: &[Vec<f64>], q: &[Vec<f64>]| -> f64 {
-            let weight = |k: usize| {
-                if k % NODE < 3 {
-                    self.size.powi(-2)
-                } else {
-                    1.0
-                }
+        let moved = |k: usize| product(&last[k], &last[k], self.sizes[k]).sqrt();
+        let most = (0..last.len()).map(moved).fold(0.0, f64::max);
+        let of = |k: usize| -> Option<Vec<f64>> {
+            let factor = match moved(k) < AT_REST * most {
+                true => 0.0,
+                false => factor(&first[k], &last[k], self.sizes[k])?,
             };
-            let all = p.iter().flatten().zip(q.iter().flatten()).enumerate();
-            all.map(|(k, (x, y))| weight(k) * x * y).sum()
+            Some(last[k].iter().map(|x| factor * x).collect())
         };
-        let [aa, ab, bb] = [
-            product(&first, &first),
-            product(&first, &last),
-            product(&last, &last),
-        ];
-        let ratio = ab / aa;
-        let off = (bb - ratio * ab).max(0.0).sqrt();
-        let factor = ratio / (1.0 - ratio);
-        let decays = aa > 0.0 && ratio > 0.0 && ratio < 1.0 && factor < FARTHEST;
-        let leads = decays && off <= ALIKE * bb.sqrt();
-        let scaled = |d: &Vec<f64>| d.iter().map(|x| factor * x).collect();
-        leads.then(|| last.iter().map(scaled).collect())
+        (0..last.len()).map(of).collect()
     }
 
     fn unsteady(&self, state: &FlightState, steps: usize, midway: f64) -> AnalysisError {
@@ -138,9 +128,31 @@ impl Settling {
     }
 }
 
-/// Velocity of the fastest node over that of the stream.
+/// How far the way goes that two successive motions of a wing begin, over the second; none where they do not decay
+/// in a line.
+fn factor(first: &[f64], last: &[f64], size: f64) -> Option<f64> {
+    let [aa, ab, bb] =
+        [(first, first), (first, last), (last, last)].map(|(p, q)| product(p, q, size));
+    let ratio = ab / aa;
+    let off = (bb - ratio * ab).max(0.0).sqrt();
+    let factor = ratio / (1.0 - ratio);
+    let decays = aa > 0.0 && ratio > 0.0 && ratio < 1.0 && factor < FARTHEST;
+    (decays && off <= ALIKE * bb.sqrt()).then_some(factor)
+}
+
+/// Inner product of two motions of a wing, displacements over its size \[m\].
+fn product(p: &[f64], q: &[f64], size: f64) -> f64 {
+    let weight = |k: usize| {
+        if k % NODE < 3 { size.powi(-2) } else { 1.0 }
+    };
+    let all = p.iter().zip(q).enumerate();
+    all.map(|(k, (x, y))| weight(k) * x * y).sum()
+}
+
+/// Velocity of the fastest node of all elastic wings over that of the stream.
 pub(super) fn drift(state: &FlightState, speed: f64) -> f64 {
-    let nodes = state.wings[0].structure.velocity.chunks_exact(NODE);
+    let wings = state.wings.iter();
+    let nodes = wings.flat_map(|w| w.structure.velocity.chunks_exact(NODE));
     let speeds = nodes.map(|node| DVec3::from_slice(node).length());
     speeds.fold(0.0, f64::max) / speed
 }

@@ -18,14 +18,19 @@ const LONG: usize = 4;
 /// Long steps before the steady state is looked at, a quarter of the short ones after them.
 const LEAST: usize = 60;
 
-/// The deformed steady state.
+/// Difference of two shapes, or of two frequencies, that is none \[1\].
+pub(super) const SAME: f64 = 1e-6;
+
+/// The deformed steady state of an elastic wing.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SteadyWing {
-    /// Displacement of the tip of the first elastic wing, wing components \[m\].
+    /// Number of the wing.
+    pub wing: usize,
+    /// Displacement of the tip, wing components \[m\].
     pub tip: DVec3,
     /// Rotation vector of the tip, wing components \[rad\].
     pub turn: DVec3,
-    /// Velocity of the fastest node that is left over that of the stream \[1\].
+    /// Velocity of the fastest node of all elastic wings that is left over that of the stream \[1\].
     pub drift: f64,
     /// Angular frequencies of the leading modes about it without air [rad/s].
     pub vacuum: Vec<f64>,
@@ -68,53 +73,61 @@ impl ElasticRig {
         })
     }
 
-    /// The first elastic wing.
-    pub fn first(&self) -> &ElasticWing {
-        &self.elastic.wings()[0]
+    /// Elastic wing number `k`.
+    pub(super) fn wing(&self, k: usize) -> &ElasticWing {
+        &self.elastic.wings()[k]
     }
 
-    /// Of each elastic wing whether it is on the other side than the first.
-    pub fn mirrored(&self) -> impl Iterator<Item = bool> + '_ {
-        let side = |w: &ElasticWing| self.setup.animal.wings[w.wing()].side;
-        let first = side(self.first());
-        (self.elastic.wings().iter()).map(move |w| side(w) != first)
+    /// How many elastic wings there are.
+    pub(super) fn count(&self) -> usize {
+        self.elastic.wings().len()
     }
 
-    /// Flies to the steady state: much damping, long steps, then those of the setup.
+    /// Flies to the steady state: much damping, long steps, then those of the setup. Told is how each elastic wing
+    /// is deformed.
     ///
     /// # Errors
     /// A steady state that is not reached, what the flight reports.
     pub fn to_steady(
         &self,
         settings: &FlutterSettings,
-    ) -> Result<(FlightState, SteadyWing), AnalysisError> {
-        let built = Simulation::new(self.damped(1, [0.0; 2]))?;
-        let rest = leading(self, built.state(), settings.modes)?;
-        let [first, second] = [0, 1].map(|k| rest[k.min(rest.len() - 1)].frequency());
-        let damping = [1.0 / second, first];
+    ) -> Result<(FlightState, Vec<SteadyWing>), AnalysisError> {
+        let built = Simulation::new(self.damped(1, &vec![[0.0; 2]; self.count()]))?;
+        let slowest = |k: usize| -> Result<[f64; 2], AnalysisError> {
+            let modes = leading(self, built.state(), k, settings.modes)?;
+            Ok([0, 1].map(|m| modes[m.min(modes.len() - 1)].frequency()))
+        };
+        let mut slowest: Vec<[f64; 2]> =
+            (0..self.count()).map(slowest).collect::<Result<_, _>>()?;
+        same_where_alike(&mut slowest);
+        let damping: Vec<[f64; 2]> = slowest.iter().map(|[a, b]| [1.0 / b, *a]).collect();
+        let first = slowest.iter().map(|s| s[0]).fold(f64::INFINITY, f64::min);
         let settling = |long: usize, least: usize| Settling {
-            setup: self.damped(long, damping),
+            setup: self.damped(long, &damping),
             speed: self.speed,
-            size: self.first().structure().size(),
+            sizes: (self.elastic.wings().iter())
+                .map(|w| w.structure().size())
+                .collect(),
             period: TAU / first,
             least,
             most: settings.settling,
         };
         let long = settling(LONG, LEAST).to_rest(None)?;
         let state = settling(1, 4 * LEAST).to_rest(Some(long))?;
-        let steady = self.steady(&state, settings)?;
+        let wings = (0..self.count()).map(|k| self.steady(&state, k, settings));
+        let steady = wings.collect::<Result<_, _>>()?;
         Ok((state, steady))
     }
 
-    /// The setup with other steps and damping added.
-    fn damped(&self, long: usize, [strain_rate, mass]: [f64; 2]) -> FlightSetup {
+    /// The setup with other steps and damping added, by strain rate and by mass of each elastic wing.
+    fn damped(&self, long: usize, damping: &[[f64; 2]]) -> FlightSetup {
         let mut setup = self.setup.clone();
         setup.time.step *= long as f64;
-        for wing in &mut setup.animal.wings {
-            if let Some(structure) = &mut wing.structure {
-                structure.damping.strain_rate += strain_rate;
-                structure.damping.mass += mass;
-            }
+        let wings = setup.animal.wings.iter_mut();
+        let structures = wings.filter_map(|w| w.structure.as_mut());
+        for (structure, [strain_rate, mass]) in structures.zip(damping) {
+            structure.damping.strain_rate += strain_rate;
+            structure.damping.mass += mass;
         }
         if let AirModel::VortexLattice(options) = &mut setup.air {
             let rows = &mut options.lattice.max_rows;
@@ -126,23 +139,33 @@ impl ElasticRig {
     fn steady(
         &self,
         state: &FlightState,
+        k: usize,
         settings: &FlutterSettings,
     ) -> Result<SteadyWing, AnalysisError> {
         let (at, rest) = (
-            &state.wings[0].structure.configuration,
-            self.first().structure().rest(),
+            &state.wings[k].structure.configuration,
+            self.wing(k).structure().rest(),
         );
         let tip = at.len() - 1;
-        let modes = leading(self, state, settings.modes)?;
+        let modes = leading(self, state, k, settings.modes)?;
         Ok(SteadyWing {
+            wing: self.wing(k).wing(),
             tip: at.position[tip] - rest.position[tip],
             turn: rotation_vector(at.rotation[tip] * rest.rotation[tip].inverse()),
             drift: drift(state, self.speed),
-            vacuum: modes
-                .iter()
-                .map(wingbeat_structure::Mode::frequency)
-                .collect(),
+            vacuum: modes.iter().map(Mode::frequency).collect(),
         })
+    }
+}
+
+/// Makes frequencies of wings that differ by rounding the same: mirror images stay so to the last bit.
+fn same_where_alike(all: &mut [[f64; 2]]) {
+    for k in 1..all.len() {
+        let (before, here) = (&all[..k], all[k]);
+        let is_alike = |other: &&[f64; 2]| (0..2).all(|m| (other[m] / here[m] - 1.0).abs() < SAME);
+        if let Some(&other) = before.iter().find(is_alike) {
+            all[k] = other;
+        }
     }
 }
 
@@ -192,17 +215,18 @@ fn check(setup: &FlightSetup) -> Result<(), AnalysisError> {
     }
 }
 
-/// Leading modes in vacuum of the first elastic wing about a state.
+/// Leading modes in vacuum of elastic wing number `k` about a state.
 pub(super) fn leading(
     rig: &ElasticRig,
     state: &FlightState,
+    k: usize,
     count: usize,
 ) -> Result<Vec<Mode>, AnalysisError> {
-    let at = &state.wings[0].structure.configuration;
-    let found = modes(rig.first().structure(), at, &FrameMotion::REST, None);
+    let (wing, at) = (rig.wing(k), &state.wings[k].structure.configuration);
+    let found = modes(wing.structure(), at, &FrameMotion::REST, None);
     let mut found = found.map_err(wingbeat_flight::FlightError::from)?;
     found.retain(|m| m.square > 0.0);
-    let found = moving(rig.first(), found, count).modes;
+    let found = moving(wing, found, count).modes;
     match found.is_empty() {
         true => Err(AnalysisError::Numbers("the wing has no vibration".into())),
         false => Ok(found),

@@ -66,11 +66,13 @@ class GrowingMode:
 
 @dataclass(frozen=True, slots=True)
 class FlutterCondition:
-    """The elastic wings in the stream at one speed."""
+    """An elastic wing in the stream at one speed."""
 
+    wing: str
+    """Its name; of wings deformed as mirror images of each other the first."""
     speed_m_per_s: float
     tip_m: tuple[float, float, float]
-    """Displacement of the tip of the first elastic wing in the steady state, wing axes."""
+    """Displacement of the tip in the steady state, wing axes."""
     tip_turn_rad: tuple[float, float, float]
     """Rotation vector of the tip, wing axes."""
     vacuum_hz: tuple[float, ...]
@@ -89,8 +91,9 @@ class FlutterCondition:
 
 @dataclass(frozen=True, slots=True)
 class FlutterOnset:
-    """Where flutter begins or ends between two speeds."""
+    """Where flutter of a wing begins or ends between two speeds."""
 
+    wing: str
     certain: bool
     """False where the mode is neutral, within what is known, at the lowest speeds: lower ones make it certain."""
     begins: bool
@@ -101,7 +104,7 @@ class FlutterOnset:
 
 @dataclass(frozen=True)
 class Flutter:
-    """Vibrations over the speed of the stream."""
+    """Vibrations over the speed of the stream: conditions speed by speed, wing by wing."""
 
     conditions: tuple[FlutterCondition, ...]
     onsets: tuple[FlutterOnset, ...]
@@ -116,13 +119,13 @@ def flutter(core: _core.Flight, speeds: list[float], how: tuple[int, float, floa
     """Conditions and onsets at these speeds [m/s]."""
     conditions, onsets = core.flutter(speeds, how, progress)
 
-    def condition(speed: float, tip: Any, vacuum: Any, modes: Any, divergence: Any, rest: Any) -> FlutterCondition:
+    def condition(wing: str, speed: float, tip: Any, vacuum: Any, modes: Any, divergence: Any, rest: Any) -> FlutterCondition:
         growing = tuple(GrowingMode(*mode) for mode in modes)
         return FlutterCondition(
-            speed, tuple(tip[0]), tuple(tip[1]), tuple(vacuum), growing, *(divergence or (None, None)), *rest
+            wing, speed, tuple(tip[0]), tuple(tip[1]), tuple(vacuum), growing, *(divergence or (None, None)), *rest
         )
 
     return Flutter(
         tuple(condition(*parts) for parts in conditions),
-        tuple(FlutterOnset(*parts[:4], (parts[4][0], parts[4][1])) for parts in onsets),
+        tuple(FlutterOnset(*parts[:5], (parts[5][0], parts[5][1])) for parts in onsets),
     )

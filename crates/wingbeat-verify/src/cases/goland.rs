@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 use std::path::Path;
 
-use wingbeat_analysis::flutter::{Condition, FlutterSettings, condition, crossings};
+use wingbeat_analysis::flutter::{FlutterSettings, condition, crossings};
 use wingbeat_analysis::{About, wing_modes};
 use wingbeat_case::LoadedCase;
 
@@ -43,10 +43,8 @@ fn onset(mesh: Mesh) -> Result<[f64; 2], VerifyError> {
         ..FlutterSettings::default()
     };
     let at = |speed| condition(&case.setup, speed, &settings);
-    let both: Vec<Condition> = [164.0, 174.0]
-        .into_iter()
-        .map(at)
-        .collect::<Result<_, _>>()?;
+    let both: [_; 2] = [at(164.0)?, at(174.0)?];
+    let both = both.concat();
     let begins = crossings(&both).into_iter().find(|c| c.begins);
     Ok(begins.map_or([f64::NAN; 2], |c| [c.speed, c.frequency / TAU]))
 }

@@ -179,7 +179,7 @@ fn tip_loads(setup: &FlightSetup) -> Result<Vec<Row>, VerifyError> {
 fn tip(set: &[&str], speed: f64) -> Result<f64, VerifyError> {
     let rig = ElasticRig::new(&setup(set)?, speed)?;
     let (_, steady) = rig.to_steady(&FlutterSettings::default())?;
-    Ok(100.0 * steady.tip.z.abs() / SPAN)
+    Ok(100.0 * steady[0].tip.z.abs() / SPAN)
 }
 
 /// Panels along the span: rings on the edges make coarse wings too long.
@@ -216,7 +216,8 @@ fn onset(angle: f64, speeds: &[f64]) -> Result<[f64; 2], VerifyError> {
     let set = format!("wing.right.motion.psi.constant_deg={angle}");
     let setup = setup(&[&set])?;
     let at = |&speed: &f64| condition(&setup, speed, &FlutterSettings::default());
-    let all: Vec<Condition> = speeds.iter().map(at).collect::<Result<_, _>>()?;
+    let all: Vec<Vec<Condition>> = speeds.iter().map(at).collect::<Result<_, _>>()?;
+    let all = all.concat();
     let begins = crossings(&all).into_iter().find(|c| c.begins);
     Ok(begins.map_or([f64::NAN; 2], |c| [c.speed, c.frequency / TAU]))
 }

@@ -261,10 +261,11 @@ fn flutter(_quick: bool) -> Result<Vec<Row>, VerifyError> {
             modes: 4,
             ..FlutterSettings::default()
         };
-        let both: Vec<Condition> = speeds
+        let both: Vec<Vec<Condition>> = speeds
             .into_iter()
             .map(|speed| condition(&case.setup, speed, &settings))
             .collect::<Result<_, _>>()?;
+        let both = both.concat();
         let begins = crossings(&both).into_iter().find(|c| c.begins);
         let begins = begins.ok_or_else(|| {
             AnalysisError::Numbers(format!(

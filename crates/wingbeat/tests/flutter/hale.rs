@@ -1,6 +1,6 @@
 //! The slender wing of Patil, Hodges & Cesnik (2001) in strips: flutter at 32.2 m/s, divergence at 37.15 m/s.
 
-use wingbeat::analysis::flutter::{Condition, FlutterSettings, condition, crossings};
+use wingbeat::analysis::flutter::{Condition, FlutterSettings, crossings};
 use wingbeat::case::LoadedCase;
 
 const HALE: &str = "format = 1
@@ -44,7 +44,7 @@ inertia_kg_m = [0.1, 0.1]
 fn at(set: &[&str], speed: f64, settings: &FlutterSettings) -> Condition {
     let set: Vec<String> = set.iter().map(|s| (*s).to_owned()).collect();
     let case = LoadedCase::from_text("hale", HALE, std::path::Path::new("."), &set).unwrap();
-    condition(&case.setup, speed, settings).unwrap()
+    super::alone(&case.setup, speed, settings)
 }
 
 /// Without incidence.

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use clap::Args;
 use serde_json::{Value, json};
 use wingbeat::analysis::flutter::{
-    Condition, Crossing, FlutterSettings, Vibration, condition, crossings, growing, likely,
+    Condition, Crossing, FlutterSettings, Vibration, by_wing, condition, crossings, growing, likely,
 };
 use wingbeat::case::LoadedCase;
 
@@ -63,41 +63,46 @@ pub(crate) fn run(args: &FlutterArgs) -> Result<(), Failure> {
             let next = match watched("flutter", || condition(&case.setup, speed, &settings)) {
                 Ok(next) => next,
                 Err(error) => {
-                    if !found.is_empty() {
-                        conclude(report, &found, &crossings(&found));
-                    }
+                    conclude_all(report, &case, &found);
                     return Err(error.into());
                 }
             };
             if found.is_empty() {
-                head(report, &case.name);
+                head(report, &case.name, next.len() > 1);
             }
-            tell(report, &next);
-            found.push(next);
-            report.value("speeds", found.iter().map(values).collect::<Vec<_>>());
+            let name = |c: &Condition| case.setup.animal.wings[c.steady.wing].name.as_str();
+            for c in &next {
+                tell(report, c, (next.len() > 1).then(|| name(c)));
+            }
+            found.extend(next);
+            let all = found.iter().map(|c| values(c, name(c)));
+            report.value("speeds", all.collect::<Vec<_>>());
         }
-        conclude(report, &found, &crossings(&found));
+        conclude_all(report, &case, &found);
         Ok(())
     })
 }
 
-fn head(report: &mut Report, name: &str) {
+fn head(report: &mut Report, name: &str, are_several: bool) {
     report.value("case", name);
     line!(report, "{name}: vibrations about the deformed steady state");
     line!(
         report,
-        "  {:>10}{:>12}{:>12}{:>12}{:>10}{:>12}{:>10}",
+        "  {:>10}{:>12}{:>12}{:>12}{:>10}{:>12}{:>10}{}",
         "speed m/s",
         "tip m",
         "Hz",
         "growth 1/s",
         "+-",
         "damping",
-        "share"
+        "share",
+        if are_several { "  wing" } else { "" }
     );
 }
 
-fn tell(report: &mut Report, c: &Condition) {
+/// The modes at a speed; of which `wing`, where there are several.
+fn tell(report: &mut Report, c: &Condition, wing: Option<&str>) {
+    let wing = wing.map_or(String::new(), |name| format!("  {name}"));
     for (k, m) in c.modes.iter().enumerate() {
         let (speed, tip) = match k {
             0 => (
@@ -108,7 +113,7 @@ fn tell(report: &mut Report, c: &Condition) {
         };
         line!(
             report,
-            "  {speed:>10}{tip:>12}{:>12.4}{:>12.4}{:>10.1e}{:>12.5}{:>10.4}",
+            "  {speed:>10}{tip:>12}{:>12.4}{:>12.4}{:>10.1e}{:>12.5}{:>10.4}{wing}",
             m.frequency / TAU,
             m.growth,
             c.uncertainty[k],
@@ -119,7 +124,7 @@ fn tell(report: &mut Report, c: &Condition) {
     if let Some((motion, uncertainty)) = c.divergence.filter(|_| c.diverges()) {
         line!(
             report,
-            "  {:>10}{:>12}{:>12}{:>12.4}{:>10.1e}{:>12}{:>10.4}",
+            "  {:>10}{:>12}{:>12}{:>12.4}{:>10.1e}{:>12}{:>10.4}{wing}",
             "",
             "",
             "none",
@@ -158,7 +163,7 @@ fn notes(c: &Condition) -> Vec<String> {
     notes
 }
 
-fn values(c: &Condition) -> Value {
+fn values(c: &Condition, wing: &str) -> Value {
     let mode = |(m, u): (&Vibration, &f64)| {
         json!({
             "frequency_hz": m.frequency / TAU,
@@ -169,6 +174,7 @@ fn values(c: &Condition) -> Value {
         })
     };
     json!({
+        "wing": wing,
         "speed_m_s": c.speed,
         "tip_m": c.steady.tip.to_array(),
         "tip_turn_rad": c.steady.turn.to_array(),
@@ -226,6 +232,40 @@ fn doubtful(speeds: &[f64], found: &[Crossing]) -> Option<String> {
     })
 }
 
+/// What follows for each wing.
+fn conclude_all(report: &mut Report, case: &LoadedCase, found: &[Condition]) {
+    let wings = by_wing(found);
+    let mut onsets = vec![];
+    for of_wing in &wings {
+        let wing = &case.setup.animal.wings[of_wing[0].steady.wing].name;
+        if wings.len() > 1 {
+            line!(report, "\nThe wing `{wing}`:");
+        }
+        conclude(report, of_wing, &crossings(of_wing));
+        onsets.extend(onset_values(of_wing, wing));
+    }
+    if !found.is_empty() {
+        report.value("flutter", onsets);
+    }
+}
+
+/// Onsets and ends, certain or likely.
+fn onset_values(conditions: &[Condition], wing: &str) -> Vec<Value> {
+    let value = |(c, certain): (Crossing, bool)| {
+        json!({
+            "wing": wing,
+            "certain": certain,
+            "begins": c.begins,
+            "speed_m_s": c.speed,
+            "frequency_hz": c.frequency / TAU,
+            "between_m_s": c.between,
+        })
+    };
+    let certain = crossings(conditions).into_iter().map(|c| (c, true));
+    let likely = likely(conditions).into_iter().map(|c| (c, false));
+    certain.chain(likely).map(value).collect()
+}
+
 fn conclude(report: &mut Report, conditions: &[Condition], found: &[Crossing]) {
     for c in found {
         let what = if c.begins { "begins" } else { "ends" };
@@ -278,18 +318,6 @@ fn conclude(report: &mut Report, conditions: &[Condition], found: &[Crossing]) {
             "\nModes whose growth is smaller than what is not known of it (+-) are neutral within what is known: they count for no onset."
         );
     }
-    let value = |(c, certain): (&Crossing, bool)| {
-        json!({
-            "certain": certain,
-            "begins": c.begins,
-            "speed_m_s": c.speed,
-            "frequency_hz": c.frequency / TAU,
-            "between_m_s": c.between,
-        })
-    };
-    let all = found.iter().map(|c| (c, true));
-    let all = all.chain(likely.iter().map(|c| (c, false)));
-    report.value("flutter", all.map(value).collect::<Vec<_>>());
 }
 
 /// What is said where no growth changes its sign and none is positive throughout.
