@@ -47,12 +47,53 @@ impl Path {
     }
 }
 
-/// Name, axis along, axis upward (0 forward, 1 left, 2 up), names of both.
-const VIEWS: [(&str, [usize; 2], [&str; 2]); 3] = [
-    ("from above", [0, 1], ["forward", "left"]),
-    ("from the right", [0, 2], ["forward", "up"]),
-    ("from behind", [1, 2], ["left", "up"]),
+/// A view of the path.
+struct View {
+    name: &'static str,
+    /// Axis along and axis upward: 0 forward, 1 left, 2 up.
+    axes: [usize; 2],
+    /// Which way the axis along is looked at: 1, or -1 where it points to the left of the picture.
+    sense: f64,
+    /// What the axes of the picture show.
+    words: [&'static str; 2],
+}
+
+const VIEWS: [View; 3] = [
+    View {
+        name: "from above",
+        axes: [0, 1],
+        sense: 1.0,
+        words: ["forward", "left"],
+    },
+    View {
+        name: "from the right",
+        axes: [0, 2],
+        sense: 1.0,
+        words: ["forward", "up"],
+    },
+    View {
+        name: "from behind",
+        axes: [1, 2],
+        sense: -1.0,
+        words: ["right", "up"],
+    },
 ];
+
+impl View {
+    /// A place in the picture.
+    fn flat(&self, p: &[f64; 3]) -> [f64; 2] {
+        let [along, up] = self.axes.map(|c| p[c]);
+        [self.sense * along, up]
+    }
+
+    /// Ranges of the axes of the picture, by those of space.
+    fn ranges(&self, all: &[[f64; 2]; 3]) -> [[f64; 2]; 2] {
+        let [[a, b], up] = self.axes.map(|c| all[c]);
+        let along = if self.sense > 0.0 { [a, b] } else { [-b, -a] };
+        [along, up]
+    }
+}
+
 /// More starts of wingbeats than this are not marked.
 const MAX_DOTS: usize = 60;
 
@@ -63,7 +104,7 @@ pub(super) fn path(
     look: &Look,
 ) -> Option<Drawing> {
     let frame = Frame::of(path, setup, look)?;
-    let high: f64 = VIEWS.iter().map(|v| frame.height(v.1, look)).sum();
+    let high: f64 = VIEWS.iter().map(|v| frame.height(v.axes, look)).sum();
     let mut drawing = Drawing::new([look.width, look.head() + high]);
     let title = format!(
         "{}: path of the body (dots: starts of wingbeats){}",
@@ -73,22 +114,28 @@ pub(super) fn path(
     plot::title(&mut drawing, &title, look);
     let dots = setup.time.period.map_or(vec![], |p| path.beats(p));
     let mut top = look.head();
-    for (name, axes, words) in VIEWS {
-        let flat = |p: &[f64; 3]| axes.map(|c| p[c] / frame.scale);
+    for view in &VIEWS {
+        let flat = |p: &[f64; 3]| view.flat(&p.map(|x| x / frame.scale));
         let points = path.points.iter().map(|p| flat(&p.1)).collect();
         let unit = frame.unit;
         let labels = [
-            format!("{} [{unit}m]", words[0]),
-            format!("{name}: {} [{unit}m]", words[1]),
+            format!("{} [{unit}m]", view.words[0]),
+            format!("{}: {} [{unit}m]", view.name, view.words[1]),
         ];
-        let plot = view(labels, axes.map(|c| frame.ranges[c]), points, look);
-        let area = frame.area(axes, top + head(look), look);
+        let plot = plot_of(labels, view.ranges(&frame.ranges), points, look);
+        let area = frame.area(view.axes, top + head(look), look);
         let placed = plot.draw(&mut drawing, area, look);
         if dots.len() <= MAX_DOTS {
             dots.iter()
                 .for_each(|p| drawing.dot(placed.at(flat(p)), 1.3 * look.line, COLOURS[1]));
         }
-        start_mark(&mut drawing, placed.at([0.0, 0.0]), &part.start(), look);
+        let end = area.left + area.width;
+        start_mark(
+            &mut drawing,
+            (placed.at([0.0, 0.0]), end),
+            &part.start(),
+            look,
+        );
         top = area.top + (area.height + foot(look));
     }
     Some(drawing)
@@ -176,7 +223,7 @@ fn ends(path: &Path) -> [[f64; 2]; 3] {
 }
 
 /// The plot of one view.
-fn view(
+fn plot_of(
     [x_label, y_label]: [String; 2],
     [x, y]: [[f64; 2]; 2],
     points: Vec<[f64; 2]>,
@@ -192,11 +239,16 @@ fn view(
     }
 }
 
-/// Marks where the path starts.
-fn start_mark(drawing: &mut Drawing, start: [f64; 2], name: &str, look: &Look) {
+/// Marks where the path starts, the name left of it where it would go beyond the end of the picture \[pt\].
+fn start_mark(drawing: &mut Drawing, (start, end): ([f64; 2], f64), name: &str, look: &Look) {
     drawing.dot(start, 1.8 * look.line, INK);
-    let at = [start[0] + 0.6 * look.font, start[1] - 0.4 * look.font];
-    drawing.text(at, name, look.font, Anchor::Start);
+    let gap = 0.6 * look.font;
+    let width = 0.6 * look.font * name.len() as f64;
+    let (x, anchor) = match start[0] + gap + width > end {
+        true => (start[0] - gap, Anchor::End),
+        false => (start[0] + gap, Anchor::Start),
+    };
+    drawing.text([x, start[1] - 0.4 * look.font], name, look.font, anchor);
 }
 
 #[cfg(test)]
@@ -236,8 +288,10 @@ mod tests {
             of.fold([f64::MAX, f64::MIN], |[a, b], x| [a.min(x), b.max(x)])
         };
         let size = |k: usize, c: usize| extent(k, c)[1] - extent(k, c)[0];
+        // It begins upwards and goes to the right first: to the right of who looks from behind.
+        assert!(curves[2][90][0] > curves[2][0][0]);
         assert!((size(2, 0) - size(2, 1)).abs() < 1e-9 * size(2, 0));
-        assert!((size(0, 1) - size(2, 0)).abs() < 1e-9 * size(2, 0)); // left, in two views
+        assert!((size(0, 1) - size(2, 0)).abs() < 1e-9 * size(2, 0)); // left and right, in two views
         assert!((size(1, 0) - size(0, 0)).abs() < 1e-9 * size(0, 0)); // forward, in two views
     }
 }
