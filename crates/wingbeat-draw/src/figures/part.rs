@@ -101,6 +101,9 @@ impl Part {
         match self.beat {
             Some((n, is_last)) => {
                 let words = match is_last {
+                    true if self.length - n as f64 > 1e-6 => {
+                        format!("in wingbeat {n}, the last whole one")
+                    }
                     true => "in the last wingbeat".to_owned(),
                     false => format!("in wingbeat {n}"),
                 };
@@ -118,7 +121,7 @@ impl Part {
     pub fn lacks_beat(&self) -> Option<String> {
         let [from, to] = self.range.filter(|_| self.beating && self.beat.is_none())?;
         Some(format!(
-            "there is no whole wingbeat from {} to {} wingbeats; choose another --from, --to or --beats",
+            "there is no whole wingbeat from {} to {} wingbeats (they are counted from the start of the flight: 0 to 1, 1 to 2, ...); choose another --from, --to or --beats",
             short(from),
             short(to)
         ))

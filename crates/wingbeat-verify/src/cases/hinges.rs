@@ -157,12 +157,12 @@ fn errors(
 
 fn over_all(marks: &[Mark], computed: &[f64]) -> Row {
     let mut points: Vec<[f64; 3]> = (marks.iter().zip(computed))
-        .map(|(m, c)| [m.amplitude, m.pitch(), *c])
+        .map(|(m, c)| [m.pitch(), m.pitch(), *c])
         .collect();
     points.sort_by(|a, b| a[0].total_cmp(&b[0]));
     let drawn = Comparison {
         quantity: "pitch at mid stroke [deg]".into(),
-        along: "stroke amplitude [deg]".into(),
+        along: "measured [deg]".into(),
         against: "measured, five wings".into(),
         name: "blade elements".into(),
         points,
