@@ -406,3 +406,29 @@ fn refuses_waypoints_within_a_wingbeat_with_a_plain_bound() {
     );
     assert!(said.contains("allowed: a number >= 0.105\n"), "{said}");
 }
+
+/// What is rigid with the wing frame does not bend: veins and regions there have no effect but by their mass.
+#[test]
+fn refuses_veins_and_regions_where_the_sheet_is_held() {
+    let film = "wing.right.structure={ shell={ young_pa = 3e9, thickness_m = [1e-4, 1e-4], rigid_fraction = 0.5 } }";
+    let vein = |more: &str| {
+        format!(
+            "wing.right.structure.vein=[{{ radius_m = [1e-4, 1e-4], young_pa = 1e9, from = [0, 0], to = [0, 1]{more} }}]"
+        )
+    };
+    let region = |x: f64| {
+        format!(
+            "wing.right.structure.region=[{{ chord_range = [0, {x}], prestress_newton_per_m = [1, 0] }}]"
+        )
+    };
+    let said = |key: &str| refusal("hawkmoth-veins", &[film, key]);
+    assert!(said(&vein("")).contains("vein[0]: this has no effect"));
+    assert!(said(&region(0.4)).contains("region[0]: this has no effect"));
+    for key in [vein(", density_kg_m3 = 1200"), region(0.8)] {
+        let set = [film.to_owned(), key];
+        LoadedCase::find("hawkmoth-veins", &set).unwrap();
+    }
+    let rule = "wing.right.structure={ shell={ rule = \"combes_daniel\", density_kg_m3 = 1200 } }";
+    let said = refusal("hawkmoth-veins", &[rule]);
+    assert!(said.contains("shell.density_kg_m3 = 1200"), "{said}");
+}

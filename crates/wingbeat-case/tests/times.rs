@@ -117,3 +117,30 @@ fn behaves_a_law_that_does_not_close_jumps() {
         "{wrong}"
     );
 }
+
+/// A hole in a table is named; what is merely uneven, or coarse all over, is not.
+#[test]
+fn behaves_a_gap_between_samples_is_named() {
+    let gaps = |keeps: &dyn Fn(i32) -> bool, count: i32| {
+        let angle = |k: i32| 60.0 * (TAU * f64::from(k % count) / f64::from(count)).sin();
+        let row = |k: i32| format!("[{}, {}]", f64::from(k) / f64::from(count), angle(k));
+        let ends = [0, count];
+        let rows = (0..=count).filter(|k| keeps(*k) || ends.contains(k));
+        let rows: Vec<String> = rows.map(row).collect();
+        let law = format!(
+            "wing.right.motion.phi={{table={{rows_deg=[{}]}}}}",
+            rows.join(",")
+        );
+        let case = LoadedCase::find("fruit-fly-tethered", &[law]).unwrap();
+        case.setup.gaps_in_angles().join("\n")
+    };
+    let hole = gaps(&|k| !(51..=99).contains(&k), 200);
+    let says = "motion.phi has no samples from phase 0.250 to 0.500, where others are 0.0050 wingbeats apart";
+    assert!(hole.contains(says), "{hole}");
+    let last = gaps(&|k| (0..180).contains(&k), 200);
+    assert!(last.contains("from phase 0.895 to 1.000"), "{last}");
+    for (count, keeps) in [(200, 7), (12, 100), (16, 3)] {
+        let found = gaps(&|k| k % keeps != 1, count);
+        assert!(found.is_empty(), "{count} {keeps}: {found}");
+    }
+}

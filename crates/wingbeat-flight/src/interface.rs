@@ -12,6 +12,9 @@ use crate::error::FlightError;
 use crate::memory::AirMemory;
 use crate::record::Snapshot;
 
+/// What is said of models of the air in which no wing can bend.
+pub(crate) const NO_BENDING: &str = "it gives no loads along the wings, so no wing can bend in it: take vortex_lattice, blade_element or none, or leave out [wing.NAME.structure]";
+
 /// The bodies at one instant, as the air sees them.
 #[derive(Clone, Copy, Debug)]
 pub struct Instant<'a> {
@@ -205,7 +208,7 @@ pub trait Air: fmt::Debug + Send + Sync {
         Err(FlightError::Setup {
             key: "air.model",
             value: "this model".into(),
-            problem: "it gives no loads along the wings, so no wing can bend in it: take vortex_lattice, blade_element or none, or leave out [wing.NAME.structure]".into(),
+            problem: NO_BENDING.into(),
         })
     }
 

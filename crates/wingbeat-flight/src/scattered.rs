@@ -36,6 +36,29 @@ impl FlightSetup {
         found.into_iter().map(named).collect()
     }
 
+    /// Says of which tables of wing angles a part of the beat has no samples, which the spline crosses as it happens to.
+    pub fn gaps_in_angles(&self) -> Vec<String> {
+        let mut found = vec![];
+        for (angle, table) in self.animal.wings.iter().flat_map(tables) {
+            let rows: Vec<(f64, f64)> = table.rows().collect();
+            let mut apart: Vec<f64> = rows.windows(2).map(|two| two[1].0 - two[0].0).collect();
+            let widest = (0..apart.len()).max_by(|&a, &b| apart[a].total_cmp(&apart[b]));
+            let Some(at) = widest else { continue };
+            let gap = apart[at];
+            apart.sort_by(f64::total_cmp);
+            let usual = apart[apart.len() / 2];
+            if gap > GAP[0].max(GAP[1] * usual) {
+                found.push(format!(
+                    "motion.{angle} has no samples from phase {:.3} to {:.3}, where others are {usual:.4} wingbeats apart: the spline crosses the gap as it happens to; give the samples that are missing, or fit the others by `harmonics`",
+                    rows[at].0,
+                    rows[at + 1].0
+                ));
+            }
+        }
+        found.dedup();
+        found
+    }
+
     fn say_scatter(&self, angle: &str, s: &Scatter) -> String {
         let least = STEPS * s.samples as f64;
         let steps = self.time.period.map(|p| p / self.time.step);
@@ -54,6 +77,9 @@ impl FlightSetup {
         )
     }
 }
+
+/// Least part of a wingbeat, and least multiple of the usual distance of samples, that is a gap \[1\].
+const GAP: [f64; 2] = [0.05, 8.0];
 
 /// A jump is more than so many times any other step from sample to sample: a wrong sample has two steps.
 const JUMPS: f64 = 5.0;
@@ -96,8 +122,8 @@ fn say_jump(angle: &str, jump: &Jump) -> String {
     )
 }
 
-/// The angles of a wing whose samples scatter, by noise or by a single jump.
-fn scatters(wing: &Wing) -> impl Iterator<Item = (&'static str, Scatter, Option<Jump>)> {
+/// The angles of a wing that are tables.
+fn tables(wing: &Wing) -> impl Iterator<Item = (&'static str, &PeriodicSpline)> {
     let laws = &wing.motion.angles;
     let angles = [
         ("phi", &laws.phi),
@@ -105,7 +131,12 @@ fn scatters(wing: &Wing) -> impl Iterator<Item = (&'static str, Scatter, Option<
         ("psi", &laws.psi),
     ];
     angles.into_iter().filter_map(|(name, law)| match law {
-        AngleLaw::Table(table) => Some((name, table.scatter()?, Jump::of(table))),
+        AngleLaw::Table(table) => Some((name, table)),
         _ => None,
     })
+}
+
+/// The angles of a wing whose samples scatter, by noise or by a single jump.
+fn scatters(wing: &Wing) -> impl Iterator<Item = (&'static str, Scatter, Option<Jump>)> {
+    tables(wing).filter_map(|(name, table)| Some((name, table.scatter()?, Jump::of(table))))
 }

@@ -1,6 +1,7 @@
 //! What a setup must fulfil as a whole; bodies, lattice and motions check their own parts.
 
 use crate::error::FlightError;
+use crate::interface::NO_BENDING;
 use crate::setup::{
     AirModel, BaumgarteChoice, FlightSetup, FormulationChoice, IntegratorChoice, MotionMode,
     StabilizationChoice,
@@ -30,6 +31,8 @@ impl FlightSetup {
                 check(v.is_finite() && v >= 0.0, key, v, "a finite number >= 0")?;
             }
         }
+        let bends = matches!(self.air, AirModel::External(_)) && self.animal.is_elastic();
+        check(!bends, "air.model", "external", NO_BENDING)?;
         let last = self.animal.wings.len() + self.animal.segments.len();
         for load in &self.loads {
             let problem = "no such body: 0 is the root, wings follow in their order, then segments";

@@ -254,6 +254,22 @@ pub enum MemberError {
         /// Which vein, counted from 0.
         number: usize,
     },
+    /// A vein without mass where the sheet is held all along it.
+    #[error(
+        "vein[{number}]: this has no effect: the sheet is held all along it, and it has no mass; remove it, give it density_kg_m3, or hold less of the sheet"
+    )]
+    IdleVein {
+        /// Which vein, counted from 0.
+        number: usize,
+    },
+    /// A region of a sheet that is held everywhere in it, and no heavier or lighter for it.
+    #[error(
+        "region[{number}]: this has no effect: the sheet is held all over it; remove it, or hold less of the sheet"
+    )]
+    IdleRegion {
+        /// Which region, counted from 0.
+        number: usize,
+    },
     /// Veins that leave no mass for the sheet.
     #[error(
         "the veins weigh {veins:e} kg and the whole wing {wing:e} kg: nothing is left for the sheet; give shell.density_kg_m3 in place of the mass of the wing, or veins of less radius_m or density_kg_m3"

@@ -202,6 +202,7 @@ pub(super) fn doubts(setup: &FlightSetup, e: &Estimate) -> Vec<String> {
     list.extend(against_each_other(&setup.animal.wings));
     list.extend(setup.trailing_edges_ahead());
     list.extend(setup.scattered_angles());
+    list.extend(setup.gaps_in_angles());
     list.extend(setup.crossing_wings());
     list.extend(setup.wings_inside_parts());
     list.extend(setup.roots_on_bodies());

@@ -38,7 +38,15 @@ fn shapes(case: &BodyCase) -> Built<Vec<(String, Revolution)>> {
     let Some(length) = case.length_m else {
         return Ok(shapes);
     };
-    if shapes.is_empty() || shapes.len() < case.part.len() {
+    if case.part.is_empty() {
+        return Err(Fault::new(
+            "body.length_m",
+            "this body has no parts whose lengths it could be",
+            "body.length_m together with parts that have length_m and diameter_m",
+            "remove it, or add [body.part.NAME]",
+        ));
+    }
+    if shapes.len() < case.part.len() {
         return Err(Fault::new(
             "body.length_m",
             "only surfaces of revolution can be scaled to a body length",

@@ -108,7 +108,15 @@ fn refused(case: &AirCase, error: &AirError) -> Fault {
         key,
         format!("{value}{unit} does not fit the other settings"),
         *allowed,
-        "change this key or the one it does not fit",
+        match key {
+            "air.loads" => {
+                "air.loads = \"joukowski\", or another air.leading_edge than vortex_lift"
+            }
+            "air.plane_wakes" => {
+                "leave tip and root out of air.shed, and air.particles and air.wake_blob_length_m out; or air.plane_wakes = false"
+            }
+            _ => "change this key or the one it does not fit",
+        },
     )
 }
 

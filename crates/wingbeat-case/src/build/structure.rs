@@ -26,6 +26,14 @@ pub(super) fn make(wing: Wing, path: &str, case: &StructureCase) -> Built<Wing> 
             let (table, path) = (path, format!("{path}.shell"));
             check_clamps(&path, shell, [wing.mesh.rows, wing.mesh.cols])?;
             let sheet = match shell.rule {
+                Some(ShellRule::CombesDaniel) if shell.density_kg_m3.is_some() => {
+                    return Err(Fault::new(
+                        format!("{path}.density_kg_m3"),
+                        "the rule takes the thickness of the sheet from the mass of the wing, and this would give that from the thickness",
+                        "the wing's mass_kg beside rule, or thickness_m and young_pa beside density_kg_m3",
+                        "remove it and give the wing mass_kg",
+                    ));
+                }
                 Some(ShellRule::CombesDaniel) => {
                     let (report, mass) = (wing.report(), wing.mass.mass);
                     let sizes = [report.length, report.area, mass];

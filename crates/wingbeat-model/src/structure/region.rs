@@ -86,6 +86,11 @@ impl Region {
         }
     }
 
+    /// Whether it has a mass over area of its own, in a sheet with a density.
+    pub(super) fn weighs(&self) -> bool {
+        self.thickness.is_some() || self.density.is_some()
+    }
+
     pub(super) fn scaled(&self, s: f64) -> Self {
         Self {
             thickness: self.thickness.map(|h| s * h),

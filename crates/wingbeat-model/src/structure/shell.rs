@@ -108,6 +108,9 @@ impl WingShell {
                 let nodes = mesh.node_of.iter().enumerate();
                 (nodes.filter(|(_, m)| **m == n)).any(|(p, _)| self.is_held(grid, p))
             };
+            if vein.mass == 0.0 && vein.nodes.iter().all(|&n| held(n)) {
+                return Err(MemberError::IdleVein { number });
+            }
             if vein.clamped.is_some_and(held) {
                 return Err(MemberError::HeldVein { number });
             }
@@ -174,6 +177,10 @@ impl WingShell {
             if !(0..count).any(|k| region.holds(place(k)) && counts(k)) {
                 return Err(MemberError::CoveredRegion { number });
             }
+            let weighs = self.density.is_some() && region.weighs();
+            if !weighs && !(0..count).any(|k| region.holds(place(k)) && self.moves(grid, k)) {
+                return Err(MemberError::IdleRegion { number });
+            }
         }
         let lamina = |k: usize| {
             let [r, x] = place(k);
@@ -219,6 +226,14 @@ impl WingShell {
         // Of mass that has no density the inertia is that of the sheet's thickness.
         section.rotary_inertia = section.area_density * lamina.thickness.powi(2) / 12.0;
         Shell::new(&mesh.rest, nodes, &section).map(Some)
+    }
+
+    /// Whether a node of panel `k` is free.
+    fn moves(&self, grid: &GridMesh, k: usize) -> bool {
+        let [i, j] = [k / grid.cols, k % grid.cols];
+        let corners = [[0, 0], [0, 1], [1, 0], [1, 1]];
+        let mut corners = corners.map(|[a, b]| grid.node(i + a, j + b)).into_iter();
+        corners.any(|p| !self.is_held(grid, p))
     }
 
     /// Whether node `p` of the mesh is rigid with the wing frame.

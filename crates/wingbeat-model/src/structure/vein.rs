@@ -124,6 +124,7 @@ impl Vein {
         }
         let clamped = self.is_clamped.then_some(path[0]);
         Ok(VeinBody {
+            nodes: path,
             beams,
             mass,
             clamped,
@@ -175,6 +176,8 @@ impl Vein {
 
 /// A vein on a mesh.
 pub(super) struct VeinBody {
+    /// Nodes of the structure along it.
+    pub nodes: Vec<usize>,
     pub beams: Vec<Beam>,
     /// Mass \[kg\].
     pub mass: f64,

@@ -227,6 +227,12 @@ fn balances(setup: &FlightSetup, summary: &Summary, list: &mut Warnings) {
         ("momentum", summary.momentum_residual_relative, momentum),
     ];
     for (what, residual, [tolerance, open]) in balances {
+        let advice = match (what, is_held) {
+            ("momentum", true) if setup.scattered_angles().is_empty() => {
+                "take smaller steps before trusting the reaction of the support"
+            }
+            _ => advice,
+        };
         let text = format!(
             "The {what} balance does not close: residual {residual:.1e} (tolerance {tolerance:.0e}); {advice}."
         );
