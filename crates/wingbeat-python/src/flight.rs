@@ -326,12 +326,13 @@ impl Flight {
     }
 
     /// Vibrations at these speeds [m/s], and where they begin or cease to grow; modes that are disturbed, amplitude
-    /// of the disturbance over the length of the wing, periods of the response.
+    /// of the disturbance over the length of the wing, periods of the response, whether mirror images move against
+    /// each other.
     fn flutter(
         &self,
         py: Python<'_>,
         speeds: Vec<f64>,
-        how: (usize, f64, f64),
+        how: (usize, f64, f64, bool),
         progress: Option<Py<PyAny>>,
     ) -> PyResult<(Vec<vibration::ConditionParts>, Vec<vibration::OnsetParts>)> {
         let found = vibration::flutter(py, &self.flight, speeds, how, progress);

@@ -94,7 +94,7 @@ pub fn flutter(
     py: Python<'_>,
     flight: &wingbeat::Flight,
     speeds: Vec<f64>,
-    (modes, disturbance, periods): (usize, f64, f64),
+    (modes, disturbance, periods, antisymmetric): (usize, f64, f64, bool),
     progress: Option<Py<PyAny>>,
 ) -> PyResult<(Vec<ConditionParts>, Vec<OnsetParts>)> {
     let rising = speeds.windows(2).all(|w| w[0] < w[1]);
@@ -106,6 +106,7 @@ pub fn flutter(
         modes,
         disturbance,
         periods,
+        antisymmetric,
         ..FlutterSettings::default()
     };
     let setup = flight.setup.clone();

@@ -300,6 +300,7 @@ const SIX: FlutterSettings = FlutterSettings {
     disturbance: 1e-5,
     periods: 1.5,
     settling: 4000,
+    antisymmetric: false,
 };
 
 #[test]

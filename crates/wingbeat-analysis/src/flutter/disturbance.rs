@@ -19,19 +19,24 @@ pub(crate) struct Disturbance {
 
 impl Disturbance {
     /// The leading modes of each elastic wing about `state`, each of the amplitude that `settings` has; mirror
-    /// images of wings before them (`image_of`) have theirs mirrored.
+    /// images of wings before them (`image_of`) have theirs mirrored, or the opposite of that.
     ///
     /// # Errors
-    /// Modes that cannot be found.
+    /// Modes that cannot be found; wings that are to be disturbed against each other and are not two, or one half
+    /// of the air computed.
     pub fn new(
         rig: &ElasticRig,
         (state, image_of): (&FlightState, &[Option<usize>]),
         settings: &FlutterSettings,
     ) -> Result<Self, AnalysisError> {
+        let sense = if settings.antisymmetric { -1.0 } else { 1.0 };
+        if settings.antisymmetric {
+            check_antisymmetric(rig, image_of)?;
+        }
         let mut velocity: Vec<Vec<f64>> = vec![];
         for (k, image_of) in image_of.iter().enumerate() {
             velocity.push(match image_of {
-                Some(other) => mirrored(&velocity[*other]),
+                Some(other) => mirrored(&velocity[*other], sense),
                 None => in_modes(rig, state, k, settings)?,
             });
         }
@@ -76,10 +81,27 @@ fn in_modes(
 
 const SIGNS: [f64; NODE] = [1.0, -1.0, 1.0, -1.0, 1.0, -1.0];
 
-/// The mirror image of velocities: places in W, turns in node components.
-fn mirrored(velocity: &[f64]) -> Vec<f64> {
+/// The mirror image of velocities, places in W, turns in node components; of sense -1 its opposite.
+fn mirrored(velocity: &[f64], sense: f64) -> Vec<f64> {
     let numbers = velocity.iter().enumerate();
-    numbers.map(|(k, v)| SIGNS[k % NODE] * v).collect()
+    numbers.map(|(k, v)| sense * SIGNS[k % NODE] * v).collect()
+}
+
+/// Refuses wings against each other where there are no two, or where the air is one half and its image.
+fn check_antisymmetric(rig: &ElasticRig, image_of: &[Option<usize>]) -> Result<(), AnalysisError> {
+    if rig.setup.air.is_mirrored() {
+        return Err(AnalysisError::not_covered(
+            "one half of the air is computed, so both sides move alike",
+            "air.mirror = false",
+        ));
+    }
+    match image_of.iter().any(Option::is_some) {
+        true => Ok(()),
+        false => Err(AnalysisError::not_covered(
+            "no two elastic wings are deformed as mirror images of each other",
+            "leave --antisymmetric out: wings that differ are looked at one by one",
+        )),
+    }
 }
 
 /// Of each elastic wing in the steady state the wing before it that it is the mirror image of, deformed as it is, if

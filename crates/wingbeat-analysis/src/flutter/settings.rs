@@ -9,6 +9,8 @@ pub struct FlutterSettings {
     pub disturbance: f64,
     /// Length of the response in periods of the first mode \[1\].
     pub periods: f64,
+    /// Whether mirror images are disturbed against each other: one side up, the other down.
+    pub antisymmetric: bool,
     /// Most steps to the steady state, long ones, or 30 periods of the first mode if those are more.
     pub settling: usize,
 }
@@ -19,6 +21,7 @@ impl Default for FlutterSettings {
             modes: 3,
             disturbance: 1e-5,
             periods: 1.5,
+            antisymmetric: false,
             settling: 4000,
         }
     }

@@ -121,7 +121,7 @@ impl Settling {
                     "It still calms down: longer steps (time.step_s) and damping of its own (structure.damping_s) bring it further"
                 }
                 false => {
-                    "A wing that diverges or whose flow separates has no steady state: try lower speeds, less incidence or a stiffer wing"
+                    "A wing that diverges, whose flow separates or whose wake rolls up with narrow cores has no steady state: try lower speeds, less incidence, a stiffer wing or a wider air.wake_core"
                 }
             },
         }

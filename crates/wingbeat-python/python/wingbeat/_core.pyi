@@ -63,10 +63,10 @@ class Flight:
         self, /, count: int, steady: bool
     ) -> list[tuple[str, float, _Array, _Array, list[_Array], list[_Array] | None]]: ...
     def flutter(
-        self, /, speeds: Sequence[float], how: tuple[int, float, float], progress: Progress | None
+        self, /, speeds: Sequence[float], how: tuple[int, float, float, bool], progress: Progress | None
     ) -> tuple[
-        list[tuple[float, list[list[float]], list[float], list[list[float]], list[float] | None, list[float]]],
-        list[tuple[bool, bool, float, float, list[float]]],
+        list[tuple[str, float, list[list[float]], list[float], list[list[float]], list[float] | None, list[float]]],
+        list[tuple[str, bool, bool, float, float, list[float]]],
     ]: ...
 
 @final

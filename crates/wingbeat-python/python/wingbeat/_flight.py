@@ -327,14 +327,19 @@ class Flight:
         modes: int = 3,
         disturbance: float = 1e-5,
         periods: float = 1.5,
+        antisymmetric: bool = False,
         progress: bool | Progress | None = None,
     ) -> Flutter:
         """Vibrations about the deformed steady state in streams of these rising speeds, and where they begin to grow.
 
         ``modes`` of the deformed wing are disturbed by ``disturbance`` over its length, and the response is followed for
-        ``periods`` of the first of them. ``progress`` is called with speeds done and all speeds. See docs/flexible-flutter.md.
+        ``periods`` of the first of them, with ``antisymmetric`` of mirror images against each other. ``progress`` is called with speeds done and all speeds. See docs/flexible-flutter.md.
         """
-        how = whole("modes", modes, 1, 20), _share("disturbance", disturbance), _positive("periods", periods)
+        if not isinstance(antisymmetric, bool):
+            raise CaseError(
+                f"antisymmetric = {antisymmetric!r:.60}", key="antisymmetric", remedy="True, of wings against each other; False"
+            )
+        how = whole("modes", modes, 1, 20), _share("disturbance", disturbance), _positive("periods", periods), antisymmetric
         speeds = [float(v) for v in reals("speeds_m_per_s", speeds_m_per_s).ravel()]
         return flutter(self._core, speeds, how, shown(progress, self.name, "speed"))
 

@@ -115,7 +115,7 @@ class Flutter:
         return min((o.speed_m_per_s for o in self.onsets if o.begins), default=None)
 
 
-def flutter(core: _core.Flight, speeds: list[float], how: tuple[int, float, float], progress: Any) -> Flutter:
+def flutter(core: _core.Flight, speeds: list[float], how: tuple[int, float, float, bool], progress: Any) -> Flutter:
     """Conditions and onsets at these speeds [m/s]."""
     conditions, onsets = core.flutter(speeds, how, progress)
 

@@ -1,8 +1,8 @@
 //! Wings that differ: each has its own flutter.
 
-use wingbeat::analysis::flutter::{Condition, by_wing, condition, crossings};
+use wingbeat::analysis::flutter::{Condition, FlutterSettings, by_wing, condition, crossings};
 
-use super::{settings, strips};
+use super::{alone, goland, settings, strips};
 
 /// Goland's wing, and one on the left that is a fifth stiffer.
 fn unlike() -> Vec<String> {
@@ -47,5 +47,39 @@ fn agrees_each_of_two_unlike_wings_with_a_pair_of_its_like() {
             *wing == of && (speed / alone - 1.0).abs() < 5e-4,
             "{both:?} {wanted:?}"
         );
+    }
+}
+
+/// Strips know nothing of the other side: against each other wings flutter as together. In the lattice the other side
+/// makes a difference, and a small one.
+#[test]
+fn agrees_wings_against_each_other_with_wings_together_where_they_know_nothing_of_each_other() {
+    let against = FlutterSettings {
+        antisymmetric: true,
+        ..settings()
+    };
+    let growth = |c: &Condition| c.modes.iter().map(|m| m.growth).fold(f64::MIN, f64::max);
+    let apart = |setup, speed: f64| {
+        let [a, b] = [settings(), against].map(|s| growth(&alone(setup, speed, &s)));
+        (a - b).abs() / a.abs()
+    };
+    let coarse = strips(&[
+        "wing.right.mesh.spanwise=10",
+        "wing.right.structure.beam.elements=8",
+    ]);
+    let in_strips = apart(&coarse.setup, 150.0);
+    assert!(in_strips < 1e-6, "{in_strips:e}"); // rounding, which identification amplifies
+    let both = goland(&["air.mirror=false"]);
+    let in_lattice = apart(&both.setup, 180.0);
+    assert!((0.01..0.3).contains(&in_lattice), "{in_lattice}");
+    for (setup, says) in [
+        (goland(&[]).setup, "air.mirror = false"),
+        (
+            strips(&["wing.right.mirror=false"]).setup,
+            "no two elastic wings",
+        ),
+    ] {
+        let told = condition(&setup, 150.0, &against).map(|_| ()).unwrap_err();
+        assert!(told.to_string().contains(says), "{told}");
     }
 }

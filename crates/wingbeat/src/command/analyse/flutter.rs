@@ -38,6 +38,9 @@ pub(crate) struct FlutterArgs {
     #[arg(long, value_name = "PERIODS", default_value_t = FlutterSettings::default().periods,
           value_parser = options::positive)]
     periods: f64,
+    /// Disturb wings that are mirror images against each other: one side up, the other down.
+    #[arg(long)]
+    antisymmetric: bool,
     #[command(flatten)]
     report: ReportArgs,
 }
@@ -48,6 +51,7 @@ pub(crate) fn run(args: &FlutterArgs) -> Result<(), Failure> {
         modes: args.modes,
         disturbance: args.disturbance,
         periods: args.periods,
+        antisymmetric: args.antisymmetric,
         ..FlutterSettings::default()
     };
     args.report.deliver([], |report, []| {
