@@ -227,6 +227,7 @@ fn expected_in_words(text: &str) -> String {
         ("floating point", "the number"),
         ("a sequence", "a list"),
         ("sequence", "a list"),
+        ("a map", "a table"),
         ("map", "a table"),
         ("f64", "a number"),
         ("usize", "a whole number >= 0"),

@@ -41,6 +41,7 @@ fn refuses_slips_by_name() {
             &["wing.right.structure.region=[{}]"],
             "made of the same as the rest",
         ),
+        ("fruit-fly-hover", &["wing=[1]"], "allowed: a table"),
         (
             "fruit-fly-hover",
             &["wing.rihgt.mass_kg=1e-9"],
