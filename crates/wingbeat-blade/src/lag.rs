@@ -15,7 +15,7 @@
 //!
 //! | symbol | name in code | meaning | unit |
 //! |---|---|---|---|
-//! | w | `drive` | downwash of the strip's motion, `w + C_rot / pi c q`: at 3/4 of the chord in the theory | m/s |
+//! | w | `drive` | downwash of the strip's motion, `w + C_rot / pi c q u / sqrt(u^2 + w^2)`: at 3/4 of the chord from the edge in front in the theory | m/s |
 //! | lambda | `downwash` | downwash of the wake, and what is still missing of the wind's | m/s |
 //! | s | `way` | way through the air in half chords | 1 |
 //! | z | `wake`, `gust` | states of the wake | m/s |
@@ -54,7 +54,8 @@ pub(crate) struct StripWind {
     pub at_axis: f64,
     /// Its velocity where the strip meets the air, N components \[m/s\].
     pub at_front: DVec3,
-    /// Of it what has changed everywhere at once since the memory, N components \[m/s\].
+    /// Of it what has changed everywhere at once since the memory, all that there is at the start, N components
+    /// \[m/s\].
     pub at_once: DVec3,
     /// Normal of the strip, N components \[1\].
     pub normal: DVec3,
@@ -89,6 +90,14 @@ pub enum Lag<'a> {
 }
 
 impl Lag<'_> {
+    /// Whether the strips remember nothing yet: what blows then blows from the start on.
+    pub fn begins(&self) -> bool {
+        match self {
+            Self::Trial { memory, .. } => memory.strips.iter().all(|s| s.normal == DVec3::ZERO),
+            Self::Known(_) => false,
+        }
+    }
+
     /// When the memory was accepted \[s\]; none of a trial that is known.
     pub fn since(&self) -> Option<f64> {
         match self {

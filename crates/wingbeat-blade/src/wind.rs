@@ -25,8 +25,8 @@ pub trait LocalWind {
         DVec3::ZERO
     }
 
-    /// Of the part that is the same everywhere: by how much it has changed since the memory of the strips
-    /// [m/s], and its rate [m/s2].
+    /// Of the part that is the same everywhere: by how much it has changed since the memory of the strips (since
+    /// still air where they remember nothing yet) [m/s], and its rate [m/s2].
     fn at_once(&self) -> [DVec3; 2] {
         [DVec3::ZERO; 2]
     }

@@ -22,6 +22,7 @@ mod presets;
 mod shedding;
 mod slips;
 mod starts_of_loops;
+mod strips_with_wakes;
 mod table1;
 mod tables;
 mod times;
