@@ -1,7 +1,9 @@
 //! Flights step by step.
 
-use std::sync::Mutex;
+use std::sync::{Mutex, PoisonError};
+use std::thread::{self, ThreadId};
 
+use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 use wingbeat::case::OutputSettings;
 use wingbeat::flight::{Record, Simulation, Snapshot};
@@ -12,7 +14,7 @@ use crate::errors::{broken, raised, refused};
 use crate::frame::{Frame, is_framed};
 use crate::own::PendingException;
 use crate::run::Run;
-use crate::threads::detached;
+use crate::threads::within;
 
 /// A flight and what it has flown.
 struct Course {
@@ -22,10 +24,43 @@ struct Course {
     outcome: Outcome,
 }
 
+/// The thread that works on a flight, while one does.
+#[derive(Default)]
+struct Holder(Mutex<Option<ThreadId>>);
+
+impl Holder {
+    fn set(&self, thread: Option<ThreadId>) {
+        *self.0.lock().unwrap_or_else(PoisonError::into_inner) = thread;
+    }
+
+    /// Takes down this thread until the answer is dropped.
+    fn here(&self) -> Held<'_> {
+        self.set(Some(thread::current().id()));
+        Held(self)
+    }
+
+    /// Whether it is this one: a controller or air written in Python asks within a step.
+    fn is_here(&self) -> bool {
+        let holder = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        *holder == Some(thread::current().id())
+    }
+}
+
+/// While a thread works on the flight.
+struct Held<'a>(&'a Holder);
+
+impl Drop for Held<'_> {
+    fn drop(&mut self) {
+        self.0.set(None);
+    }
+}
+
 /// A flight in progress.
 #[pyclass(frozen, module = "wingbeat._core")]
 pub struct Stepper {
     course: Mutex<Course>,
+    /// The thread that has the flight now.
+    holder: Holder,
     output: OutputSettings,
     case: String,
     pending: PendingException,
@@ -53,6 +88,7 @@ impl Stepper {
         };
         Self {
             course: Mutex::new(course),
+            holder: Holder::default(),
             output,
             case,
             pending,
@@ -60,21 +96,40 @@ impl Stepper {
         }
     }
 
-    /// Does `work` beside the interpreter, once no other thread has the flight.
+    /// Does `work` beside the interpreter, once no other thread has the flight. A part of it that is written in
+    /// Python and asks within a step, in the thread of that step, would wait for itself: it is refused.
     fn with<T: Send>(
         &self,
         py: Python<'_>,
         work: impl FnOnce(&mut Course) -> T + Send,
     ) -> PyResult<T> {
-        let done = detached(py, || {
-            self.course.lock().ok().map(|mut course| work(&mut course))
-        })?;
-        done.ok_or_else(broken)
+        self.check(py)?;
+        // The lock is waited for outside the pool: one of its threads may be the one that has it.
+        py.detach(|| {
+            let mut course = self.course.lock().map_err(|_| broken())?;
+            let course = &mut *course;
+            let done = within(move || {
+                let _held = self.holder.here();
+                work(course)
+            });
+            done.map_err(|e| PyRuntimeError::new_err(e.to_string()))
+        })
     }
 }
 
 #[pymethods]
 impl Stepper {
+    /// Refuses what a part of the flight asks for within a step.
+    fn check(&self, py: Python<'_>) -> PyResult<()> {
+        if self.holder.is_here() {
+            let problem = "the flight is within a step, in which its own controller or air asks for it";
+            let remedy = "ask between calls of step(); what a controller is called with has time_s, the motion of the \
+                          body and the mass centre";
+            return Err(refused(py, "stepper", problem, remedy));
+        }
+        Ok(())
+    }
+
     /// A second flight that goes on from here.
     fn copy(&self, py: Python<'_>) -> PyResult<Self> {
         if self.remembers {
@@ -87,6 +142,7 @@ impl Stepper {
         let course = course.map_err(|e| self.pending.take().unwrap_or_else(|| raised(py, &e)))?;
         Ok(Self {
             course: Mutex::new(course),
+            holder: Holder::default(),
             output: self.output,
             case: self.case.clone(),
             pending: self.pending.clone(),

@@ -340,13 +340,18 @@ class Flight:
 
 
 class Stepper:
-    """A flight in progress."""
+    """A flight in progress. Its own controller and air, which are called within a step, cannot ask for it: they are refused;
+    other threads wait for the end of the step.
+    """
 
     def __init__(self, core: _core.Stepper) -> None:
         self._core = core
 
     def __repr__(self) -> str:
-        return f"<wingbeat.Stepper after step {self.steps_done}>"
+        try:
+            return f"<wingbeat.Stepper after step {self.steps_done}>"
+        except CaseError:  # asked by its own controller or air
+            return "<wingbeat.Stepper within a step>"
 
     def __reduce__(self) -> NoReturn:
         raise CaseError(
@@ -373,6 +378,7 @@ class Stepper:
         its ``run``.
         """
         number = whole("count", count, 0, sys.maxsize)
+        self._core.check()
         try:
             return self._core.step(number)
         except BaseException as error:
