@@ -3,6 +3,8 @@
 use std::sync::{Arc, Mutex, PoisonError};
 
 use numpy::{PyReadonlyArray2, PyReadwriteArray1, PyReadwriteArray2};
+use pyo3::PyTraverseError;
+use pyo3::gc::PyVisit;
 use pyo3::prelude::*;
 use rayon::prelude::*;
 use wingbeat::analysis::control::{CONTROLS, Regulator, Weights};
@@ -10,6 +12,7 @@ use wingbeat::analysis::episode::{Course, Episode, OBSERVED, Task};
 use wingbeat::analysis::{AnalysisError, Trim};
 
 use crate::errors::{broken, named, raised, refused};
+use crate::own::Parts;
 use crate::threads::detached;
 
 /// An episode that is stepped over and over.
@@ -46,6 +49,8 @@ pub struct Fleet {
     autoreset: Autoreset,
     /// At the start of an episode.
     regulator: Option<Regulator>,
+    /// Parts of the flyer that are written in Python.
+    parts: Parts,
 }
 
 /// Settings of a fleet: a dictionary of Python.
@@ -91,7 +96,13 @@ impl Settings {
 
 impl Fleet {
     /// Episodes about the trimmed flight `trim`, of these seeds.
-    pub fn of(py: Python<'_>, trim: Trim, settings: Settings, seeds: Vec<u64>) -> PyResult<Self> {
+    pub fn of(
+        py: Python<'_>,
+        trim: Trim,
+        settings: Settings,
+        seeds: Vec<u64>,
+        parts: Parts,
+    ) -> PyResult<Self> {
         let autoreset = named(
             py,
             "autoreset_mode",
@@ -124,6 +135,7 @@ impl Fleet {
                 course,
                 autoreset,
                 regulator,
+                parts,
             })
         })?;
         built.map_err(|e: AnalysisError| raised(py, &e.into()))
@@ -253,6 +265,10 @@ impl<'a> Rows<'a> {
 
 #[pymethods]
 impl Fleet {
+    fn __traverse__(&self, visit: PyVisit<'_>) -> Result<(), PyTraverseError> {
+        self.parts.traverse(&visit)
+    }
+
     /// Names of the tasks.
     #[classattr]
     #[pyo3(name = "TASKS")]

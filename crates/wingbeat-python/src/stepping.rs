@@ -3,7 +3,9 @@
 use std::sync::{Mutex, PoisonError};
 use std::thread::{self, ThreadId};
 
+use pyo3::PyTraverseError;
 use pyo3::exceptions::PyRuntimeError;
+use pyo3::gc::PyVisit;
 use pyo3::prelude::*;
 use wingbeat::case::OutputSettings;
 use wingbeat::flight::{Record, Simulation, Snapshot};
@@ -12,7 +14,7 @@ use wingbeat::results::Outcome;
 use crate::arrays::{points, vectors};
 use crate::errors::{broken, raised, refused};
 use crate::frame::{Frame, is_framed};
-use crate::own::PendingException;
+use crate::own::{Parts, PendingException};
 use crate::run::Run;
 use crate::threads::within;
 
@@ -63,18 +65,20 @@ pub struct Stepper {
     holder: Holder,
     output: OutputSettings,
     case: String,
+    parts: Parts,
     pending: PendingException,
     /// Whether parts written in Python remember what they were called with.
     remembers: bool,
 }
 
 impl Stepper {
-    /// Before the first step of `flight`, whose parts written in Python keep their exceptions there, and may
+    /// Before the first step of `flight`, whose `parts` written in Python keep their exceptions there, and may
     /// remember what they were called with.
     pub fn new(
         flight: Simulation,
         output: OutputSettings,
         case: String,
+        parts: Parts,
         (pending, remembers): (PendingException, bool),
     ) -> Self {
         let course = Course {
@@ -91,6 +95,7 @@ impl Stepper {
             holder: Holder::default(),
             output,
             case,
+            parts,
             pending,
             remembers,
         }
@@ -119,10 +124,15 @@ impl Stepper {
 
 #[pymethods]
 impl Stepper {
+    fn __traverse__(&self, visit: PyVisit<'_>) -> Result<(), PyTraverseError> {
+        self.parts.traverse(&visit)
+    }
+
     /// Refuses what a part of the flight asks for within a step.
     fn check(&self, py: Python<'_>) -> PyResult<()> {
         if self.holder.is_here() {
-            let problem = "the flight is within a step, in which its own controller or air asks for it";
+            let problem =
+                "the flight is within a step, in which its own controller or air asks for it";
             let remedy = "ask between calls of step(); what a controller is called with has time_s, the motion of the \
                           body and the mass centre";
             return Err(refused(py, "stepper", problem, remedy));
@@ -145,6 +155,7 @@ impl Stepper {
             holder: Holder::default(),
             output: self.output,
             case: self.case.clone(),
+            parts: self.parts.copy(py),
             pending: self.pending.clone(),
             remembers: false,
         })
