@@ -63,6 +63,7 @@ after the start. Starts and noise of the sensors follow from the seed of ``reset
 from __future__ import annotations
 
 import inspect
+import operator
 from collections.abc import Sequence
 from difflib import get_close_matches
 from typing import TYPE_CHECKING, Any, NoReturn, Self
@@ -90,6 +91,22 @@ def _size(key: str, number: float, most: float) -> float:
     if isinstance(number, bool) or not isinstance(number, int | float | np.number) or not 0.0 <= number <= most:
         raise CaseError(f"{key} = {number!r}: out of range", key=key, remedy=f"a number from 0 to {most}")
     return float(number)
+
+
+def _seed(number: Any) -> int:
+    """A whole number that is not negative, as gymnasium has seeds."""
+    try:
+        plain = -1 if isinstance(number, bool) else operator.index(number)
+    except TypeError:
+        plain = -1
+    if plain < 0:
+        raise CaseError(f"seed = {number!r:.60}: out of range", key="seed", remedy="a whole number from 0 on")
+    return plain
+
+
+def _folded(seed: int) -> int:
+    """The seed of the core, 64 bits: itself, or what larger ones are hashed to."""
+    return seed if seed < 2**64 else int(np.random.SeedSequence(seed).generate_state(1, np.uint64)[0])
 
 
 def _check_plain(flight: Flight) -> None:
@@ -190,6 +207,7 @@ class _Fleet(_Uncopied):
         _check_plain(flight)
         trim = flight.trim(steps=steps)
         trim._check()
+        self.is_seeded = False
         self.count = whole("num_envs", count, 1, 1_000_000)
         self.period_s = trim.period_s
         seeds = np.random.default_rng().integers(2**63, size=self.count)  # until reset() gives others
@@ -202,9 +220,15 @@ class _Fleet(_Uncopied):
         self.observation_space = gymnasium.spaces.Box(-np.inf, np.inf, (_OBSERVED,), np.float32)
         self.action_space = gymnasium.spaces.Box(-1.0, 1.0, (_CONTROLS,), np.float32)
 
+    def first(self, seed: int | None, of: gymnasium.Env[Any, Any] | gymnasium.vector.VectorEnv[Any, Any, Any]) -> int | None:
+        """The seed to begin with: before any was given that which gymnasium draws for its own generator."""
+        is_drawn = seed is None and not self.is_seeded
+        drawn = of.np_random_seed if is_drawn else seed
+        return None if drawn is None or drawn < 0 else drawn  # negative: a generator of the user's
+
     def reset(self, seeds: Sequence[int | None], mask: Sequence[bool]) -> None:
-        seeds = [None if s is None else whole("seed", s, 0, 2**64 - 1) for s in seeds]
-        self.core.reset(seeds, list(mask), self.observed)
+        self.is_seeded = True
+        self.core.reset([None if s is None else _folded(s) for s in seeds], list(mask), self.observed)
 
     def step(self, actions: Any) -> bool:
         """Whether any episode has ended."""
@@ -287,11 +311,13 @@ class Environment(_Uncopied, gymnasium.Env[Any, Any]):
         self.action_space = self._fleet.action_space
 
     def reset(self, *, seed: int | None = None, options: dict[str, Any] | None = None) -> tuple[Any, dict[str, Any]]:
-        """A new episode; the first of ``seed``, else the next one (before any seed, one drawn at random)."""
+        """A new episode; the first of ``seed``, else the next one. Before any seed ``np_random_seed`` is drawn at random, which
+        repeats the episodes when it is given as the seed.
+        """
         _check_options(options)
-        seed = None if seed is None else whole("seed", seed, 0, 2**64 - 1)
+        seed = None if seed is None else _seed(seed)
         super().reset(seed=seed)
-        self._fleet.reset([seed], [True])
+        self._fleet.reset([self._fleet.first(seed, self)], [True])
         return self._fleet.observed[0].copy(), {}
 
     def step(self, action: Any) -> tuple[Any, float, bool, bool, dict[str, Any]]:
@@ -373,20 +399,27 @@ class VectorEnvironment(_Uncopied, gymnasium.vector.VectorEnv[Any, Any, Any]):
     def reset(
         self, *, seed: int | Sequence[int | None] | None = None, options: dict[str, Any] | None = None
     ) -> tuple[Any, dict[str, Any]]:
-        """New episodes, of the seeds ``seed + k`` or those of a list; where ``options["reset_mask"]`` says, if given."""
+        """New episodes, of the seeds ``seed + k`` or those of a list; where ``options["reset_mask"]`` says, if given.
+
+        Without a seed each is the next of its environment. Before any seed ``np_random_seed`` is drawn at random, which repeats
+        the episodes when it is given as the seed; ``np_random`` follows from it, of a list from its first seed.
+        """
         _check_options(options, "reset_mask")
         count = self.num_envs
-        if isinstance(seed, Sequence | np.ndarray):
-            seeds: list[int | None] = list(seed)
+        if isinstance(seed, Sequence | np.ndarray) and not isinstance(seed, str | bytes):
+            seeds = [None if s is None else _seed(s) for s in seed]
+            first = next((s for s in seeds if s is not None), None)
         else:
-            first = None if seed is None else whole("seed", seed, 0, 2**64 - count)
-            seeds = [None if first is None else first + k for k in range(count)]
+            first = None if seed is None else _seed(seed)
+            begun = self._fleet.first(first, self)
+            seeds = [None if begun is None else begun + k for k in range(count)]
         mask = np.ones(count, np.bool_) if options is None else options.get("reset_mask", np.ones(count, np.bool_))
         if len(seeds) != count:
             raise CaseError(f"seed: {len(seeds)} of them for {count} environments", key="seed", remedy=f"{count} seeds")
         if np.shape(mask) != (count,):
             problem = f"reset_mask: an array of shape {np.shape(mask)}"
             raise CaseError(problem, key="reset_mask", remedy=f"shape ({count},), True where an episode begins")
+        super().reset(seed=first)
         self._fleet.reset(seeds, [bool(x) for x in mask])
         observed = self._fleet.observed
         return (observed.copy() if self._copy else observed), {}
