@@ -16,6 +16,7 @@ from wingbeat._frame import Frame
 from wingbeat._mechanics import Derivatives, LinearModel, Power, Trim, WakeTrim
 from wingbeat._numbers import real, reals, whole
 from wingbeat._own import Air, Controller, Loads, Steering
+from wingbeat._paths import path
 from wingbeat._run import Run
 from wingbeat._source import Source
 from wingbeat._vibration import Flutter, WingModes, flutter, wing_modes
@@ -49,8 +50,9 @@ class Flight:
         return _made, (self._source,)
 
     @staticmethod
-    def preset(name: str) -> Flight:
+    def preset(name: str | os.PathLike[str]) -> Flight:
         """An embedded preset (:func:`wingbeat.presets`), or a case file by its path."""
+        name = path("name", name)
         return Flight(_core.Flight.find(name, []), Source.named(name))
 
     @staticmethod
@@ -62,21 +64,21 @@ class Flight:
             return _made(Source("case", case, ""))
         if not isinstance(case, str | os.PathLike):
             raise CaseError(f"a case is no {type(case).__name__}", key="case", remedy="the path of a file, the text of a case, or a dict")
-        path = Path(case)
-        if not path.is_file():
+        name = path("case", case)
+        if not Path(name).is_file():
             raise CaseError(
-                f"there is no case file `{path}`",
-                key=str(path),
+                f"there is no case file `{name}`",
+                key=name,
                 remedy="the path of a file, the text of a case, a dict, or Flight.preset(NAME)",
             )
-        return Flight.preset(os.fspath(path))
+        return Flight.preset(name)
 
     def __repr__(self) -> str:
         return f"<wingbeat.Flight {self.name}: {self.steps} steps of {self.step_s:.4g} s>"
 
     def set(self, key: str | Mapping[str, Any], value: Any = _UNSET) -> Flight:
         """A new flight with a key of the case at another value, e.g. ``set("motion.frequency_hz", 210)``, or several
-        by a dict; None takes a key out of the case. All keys: docs/case-keys.md.
+        by a dict; None takes a key out of the case. Files are named by texts or ``pathlib.Path``. All keys: docs/case-keys.md.
         """
         items: Mapping[str, Any] = key if isinstance(key, Mapping) else {key: value}
         sets = []
@@ -237,6 +239,7 @@ class Flight:
         state is saved, and ``wingbeat resume`` goes on from it. Whatever exception ends a flight, what was flown is its
         ``run``: None if it ended at its start.
         """
+        folder = None if out is None else path("out", out)
         if out is not None and self._core.is_own:
             raise CaseError(
                 "out: this flight has parts written in Python, which no case of a result holds",
@@ -244,7 +247,6 @@ class Flight:
                 remedy="fly() in memory, then run.write(FOLDER)",
             )
         bar = shown(progress, self.name, "step")
-        folder = None if out is None else os.fspath(out)
         run, error = self._core.fly(folder, bar, frames)
         if error is not None:
             _keep(error, None if run is None else Run(run))

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
 from wingbeat import _core
 from wingbeat._own import Adjustment
+from wingbeat._paths import path as plain_path
 from wingbeat.errors import AnalysisError, ResultError
 
 if TYPE_CHECKING:
@@ -91,10 +92,11 @@ class LinearModel:
         import numpy as np
         from scipy.io import savemat
 
-        if os.path.exists(path) and not overwrite:
-            raise ResultError(f"{os.fspath(path)} exists already", key=os.fspath(path), remedy="overwrite=True, or another file")
+        name = plain_path("path", path)
+        if os.path.exists(name) and not overwrite:
+            raise ResultError(f"{name} exists already", key=name, remedy="overwrite=True, or another file")
         texts = {k: np.array(v, dtype=object) for k, v in self.to_dict().items() if isinstance(v, list)}
-        savemat(os.fspath(path), self.to_dict() | texts)
+        savemat(name, self.to_dict() | texts)
 
 
 @dataclass(frozen=True)
