@@ -10,7 +10,7 @@ use wingbeat::analysis::TrimSettings;
 use wingbeat::analysis::wake::WakeSettings;
 use wingbeat::campaign::named;
 use wingbeat::case::{IoError, LoadedCase};
-use wingbeat::flight::Snapshot;
+use wingbeat::flight::{MotionMode, Snapshot};
 
 use crate::errors::{raised, refused};
 use crate::frame::is_framed;
@@ -190,6 +190,12 @@ impl Flight {
     #[getter]
     fn held_beats(&self) -> f64 {
         self.case.raw.flight.held_beats
+    }
+
+    /// Whether the body moves as prescribed.
+    #[getter]
+    fn is_tethered(&self) -> bool {
+        matches!(self.flight.setup.mode, MotionMode::Tethered(_))
     }
 
     /// Whether it has parts written in Python.

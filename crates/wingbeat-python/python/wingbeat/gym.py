@@ -117,6 +117,12 @@ def _check_plain(flight: Flight) -> None:
             key="control.controller",
             remedy='a flight without one: set("control.controller", "none"), or leave out with_controller',
         )
+    if flight._core.is_tethered:
+        raise CaseError(
+            "flight: it is tethered, and episodes are free flights",
+            key="flight.mode",
+            remedy='set("flight.mode", "free")',
+        )
     if flight._core.held_beats > 0.0:
         raise CaseError(
             "flight: its body is held at first, and episodes begin in free flight",
