@@ -232,7 +232,7 @@ class Flight:
         progress: bool | Progress | None = None,
         frames: bool = True,
     ) -> Run:
-        """Flies it to its end, in memory or into the new result directory ``out``.
+        """Flies it to its end, in memory or into the new result directory ``out``; a folder that exists is refused.
 
         ``progress`` is called with steps done and all steps; True shows a bar (tqdm where there is one). ``frames=False``
         keeps no surfaces and wakes in memory. Other threads run meanwhile. Ctrl-C stops the flight: with ``out`` its
@@ -274,8 +274,8 @@ class Flight:
         steps: int = 100,
     ) -> Trim:
         """Steady flight with this mean velocity (forward, to the right, up) and turn (to the right) as a periodic orbit, in
-        air without memory, feedback left out, and the tether of a case that has one (``flight.mode``). Three ``unknowns`` are chosen by it; six where the flight turns, slips or
-        has wings that differ; those beyond for least power. ``bounds`` are of unknowns, in radians, parts of 1,
+        air without memory, feedback left out, and the tether of a case that has one (``flight.mode``). Three ``unknowns`` are
+        chosen by it; six where the flight turns, slips or has wings that differ; those beyond for least power. ``bounds`` are of unknowns, in radians, parts of 1,
         wingbeats (``feathering_lead``) and wing lengths forward (``mass_centre``). See
         docs/flight-mechanics.md.
         """
