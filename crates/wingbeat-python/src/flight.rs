@@ -10,7 +10,7 @@ use wingbeat::analysis::TrimSettings;
 use wingbeat::analysis::wake::WakeSettings;
 use wingbeat::campaign::named;
 use wingbeat::case::{IoError, LoadedCase};
-use wingbeat::flight::{MotionMode, Snapshot};
+use wingbeat::flight::{AirModel, MotionMode, Snapshot};
 
 use crate::errors::{raised, refused};
 use crate::frame::is_framed;
@@ -70,6 +70,18 @@ impl Flight {
             parts: self.parts.copy(function.py()).with(function.unbind()),
             remembers: self.remembers || remembers,
         }
+    }
+}
+
+impl Flight {
+    /// Refuses to trim in air written in Python that has a memory.
+    fn check_memory(&self, py: Python<'_>) -> PyResult<()> {
+        if self.is_own() && matches!(self.flight.setup.air, AirModel::External(_)) {
+            let problem = "it has a memory (`accept`): no wingbeat need be like the next";
+            let remedy = "air without `accept` whose `is_steady_and_uniform` is True; or fly it";
+            return Err(refused(py, "air", problem, remedy));
+        }
+        Ok(())
     }
 }
 
@@ -298,6 +310,7 @@ impl Flight {
 
     /// Steady flight, in so many steps per wingbeat.
     fn trim(&self, py: Python<'_>, asked: mechanics::Asked, steps: usize) -> PyResult<Trim> {
+        self.check_memory(py)?;
         let problem = mechanics::problem(py, &self.flight, &asked, steps)?;
         let case = (!self.is_own()).then(|| self.case.clone());
         let parts = self.parts.copy(py);
@@ -328,6 +341,7 @@ impl Flight {
             ..WakeSettings::default()
         };
         let steps = TrimSettings::default().steps;
+        self.check_memory(py)?;
         let problem = mechanics::problem(py, &self.flight, &asked, steps)?;
         let case = (!self.is_own()).then(|| self.case.clone());
         let found = wake::trim(py, &self.flight, problem, settings, case);

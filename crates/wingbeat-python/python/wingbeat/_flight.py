@@ -113,7 +113,7 @@ class Flight:
             raise CaseError("with_motion: no angle is given", key="motion", remedy="phi_deg, theta_deg or psi_deg")
         names = [name for name, _ in self._core.wings]
         if wing is not None and wing not in names:
-            raise CaseError(f"wing = {wing!r}: there is none of this name", key="wing", remedy=", ".join(names))
+            raise CaseError(f"wing = {wing!r:.60}: there is none of this name", key="wing", remedy=", ".join(names))
         wings = [name for name, side in self._core.wings if side > 0] if wing is None else [wing]
         keys = {
             f"wing.{name}.motion.{angle}": {"table": {"rows_deg": rows}}
@@ -469,12 +469,12 @@ def _asked(
     names = None if unknowns is None or isinstance(unknowns, str) else list(unknowns)
     if unknowns is not None and (names is None or not all(isinstance(name, str) for name in names)):
         remedy = "as ('body_pitch', 'stroke_amplitude', 'stroke_offset')"
-        raise CaseError(f"unknowns = {unknowns!r}: not a list of names", key="unknowns", remedy=remedy)
+        raise CaseError(f"unknowns = {unknowns!r:.60}: not a list of names", key="unknowns", remedy=remedy)
     try:
         ranges = [(name, float(least), float(most)) for name, (least, most) in (bounds or {}).items()]
     except (AttributeError, TypeError, ValueError):
         raise CaseError(
-            f"bounds = {bounds!r}: not pairs by name", key="bounds", remedy="as {'stroke_amplitude': (-0.2, 0.2)}"
+            f"bounds = {bounds!r:.60}: not pairs by name", key="bounds", remedy="as {'stroke_amplitude': (-0.2, 0.2)}"
         ) from None
     return velocity, turn_rate, names, ranges
 
@@ -515,7 +515,7 @@ def shown(progress: bool | Progress | None, name: str, unit: str) -> Progress | 
         return _bar(name, unit) if progress else None
     if not callable(progress):
         raise CaseError(
-            f"progress = {progress!r}: cannot be called",
+            f"progress = {progress!r:.60}: cannot be called",
             key="progress",
             remedy="True for a bar, or a function of what is done and of all",
         )

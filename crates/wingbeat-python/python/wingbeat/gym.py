@@ -64,7 +64,9 @@ from __future__ import annotations
 
 import inspect
 import operator
-from collections.abc import Sequence
+import threading
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from difflib import get_close_matches
 from typing import TYPE_CHECKING, Any, NoReturn, Self
 
@@ -89,7 +91,7 @@ _OBSERVED, _CONTROLS = _core.Fleet.OBSERVED, _core.Fleet.CONTROLS
 
 def _size(key: str, number: float, most: float) -> float:
     if isinstance(number, bool) or not isinstance(number, int | float | np.number) or not 0.0 <= number <= most:
-        raise CaseError(f"{key} = {number!r}: out of range", key=key, remedy=f"a number from 0 to {most}")
+        raise CaseError(f"{key} = {number!r:.60}: out of range", key=key, remedy=f"a number from 0 to {most}")
     return float(number)
 
 
@@ -133,6 +135,9 @@ def _check_plain(flight: Flight) -> None:
 
 def _check_options(options: dict[str, Any] | None, *known: str) -> None:
     """Refuses options of ``reset`` that are not known."""
+    if options is not None and not isinstance(options, Mapping):
+        remedy = f"a dict with {', '.join(known)}, or None" if known else "leave it out"
+        raise CaseError(f"options = {options!r:.60}: no dict", key="options", remedy=remedy)
     for name in options or {}:
         if name not in known:
             near = get_close_matches(str(name), known, 1)
@@ -209,11 +214,14 @@ class _Fleet(_Uncopied):
         flight = Flight.preset("fruit-fly-blade") if flight is None else flight
         if not isinstance(flight, Flight):
             remedy = "Flight.preset(NAME) or Flight.from_case(FILE)"
-            raise CaseError(f"flight = {flight!r}: no Flight", key="flight", remedy=remedy)
+            raise CaseError(f"flight = {flight!r:.60}: no Flight", key="flight", remedy=remedy)
+        if not isinstance(task, str):
+            raise CaseError(f"task = {task!r:.60}: no name", key="task", remedy=", ".join(TASKS))
         _check_plain(flight)
         trim = flight.trim(steps=steps)
         trim._check()
         self.is_seeded = False
+        self._lock = threading.Lock()
         self.count = whole("num_envs", count, 1, 1_000_000)
         self.period_s = trim.period_s
         seeds = np.random.default_rng().integers(2**63, size=self.count)  # until reset() gives others
@@ -232,9 +240,24 @@ class _Fleet(_Uncopied):
         drawn = of.np_random_seed if is_drawn else seed
         return None if drawn is None or drawn < 0 else drawn  # negative: a generator of the user's
 
+    @contextmanager
+    def alone(self) -> Iterator[_core.Fleet]:
+        """The environments, which one thread has at a time."""
+        if not self._lock.acquire(blocking=False):
+            raise CaseError(
+                "another thread steps these environments, or they are asked within their own step",
+                key="environment",
+                remedy="an environment for each thread, or a threading.Lock about its calls",
+            )
+        try:
+            yield self.core
+        finally:
+            self._lock.release()
+
     def reset(self, seeds: Sequence[int | None], mask: Sequence[bool]) -> None:
-        self.is_seeded = True
-        self.core.reset([None if s is None else _folded(s) for s in seeds], list(mask), self.observed)
+        with self.alone() as core:
+            core.reset([None if s is None else _folded(s) for s in seeds], list(mask), self.observed)
+            self.is_seeded = True
 
     def step(self, actions: Any) -> bool:
         """Whether any episode has ended."""
@@ -242,11 +265,14 @@ class _Fleet(_Uncopied):
         if plain.shape != (self.count, _CONTROLS):
             remedy = f"shape ({self.count}, {_CONTROLS})"
             raise CaseError(f"actions: an array of shape {plain.shape}", key="actions", remedy=remedy)
-        return self.core.step(plain, self.observed, self.last, self.rewards, self.terminated, self.truncated)
+        with self.alone() as core:
+            return core.step(plain, self.observed, self.last, self.rewards, self.terminated, self.truncated)
 
     def regulated(self) -> NDArray[np.float32]:
         actions = np.zeros((self.count, _CONTROLS), np.float32)
-        if not self.core.regulate(actions):
+        with self.alone() as core:
+            is_possible = core.regulate(actions)
+        if not is_possible:
             raise AnalysisError(
                 "the regulator looks once per wingbeat, at once", remedy="controls_per_beat = 1 and delay = 0"
             )
@@ -374,7 +400,7 @@ class VectorEnvironment(_Uncopied, gymnasium.vector.VectorEnv[Any, Any, Any]):
             mode = AutoresetMode(autoreset_mode)
         except ValueError:
             names = ", ".join(m.value for m in AutoresetMode)
-            raise CaseError(f"autoreset_mode = {autoreset_mode!r}", key="autoreset_mode", remedy=names) from None
+            raise CaseError(f"autoreset_mode = {autoreset_mode!r:.60}", key="autoreset_mode", remedy=names) from None
         if render_mode is not None:
             raise CaseError("render_mode: there is none", key="render_mode", remedy="leave it out")
         self._fleet = _Fleet(
@@ -422,9 +448,10 @@ class VectorEnvironment(_Uncopied, gymnasium.vector.VectorEnv[Any, Any, Any]):
         mask = np.ones(count, np.bool_) if options is None else options.get("reset_mask", np.ones(count, np.bool_))
         if len(seeds) != count:
             raise CaseError(f"seed: {len(seeds)} of them for {count} environments", key="seed", remedy=f"{count} seeds")
-        if np.shape(mask) != (count,):
-            problem = f"reset_mask: an array of shape {np.shape(mask)}"
-            raise CaseError(problem, key="reset_mask", remedy=f"shape ({count},), True where an episode begins")
+        if np.shape(mask) != (count,) or np.asarray(mask).dtype != bool:
+            problem = f"reset_mask: an array of {np.asarray(mask).dtype}, shape {np.shape(mask)}"
+            remedy = f"truth values, shape ({count},), True where an episode begins"
+            raise CaseError(problem, key="reset_mask", remedy=remedy)
         super().reset(seed=first)
         self._fleet.reset(seeds, [bool(x) for x in mask])
         observed = self._fleet.observed
@@ -452,11 +479,13 @@ class VectorEnvironment(_Uncopied, gymnasium.vector.VectorEnv[Any, Any, Any]):
 
     def distances_m(self) -> NDArray[np.float64]:
         """Distances of the mass centres from their targets, without noise, shape (num_envs,) [m]."""
-        return np.array(self._fleet.core.distances())
+        with self._fleet.alone() as core:
+            return np.array(core.distances())
 
     def core_seconds(self, count: int) -> float:
         """Seconds that ``count`` control steps of all take within Rust: what Python adds is seen beside it."""
-        return self._fleet.core.core_seconds(whole("count", count, 0, 10**9))
+        with self._fleet.alone() as core:
+            return core.core_seconds(whole("count", count, 0, 10**9))
 
 
 for _task in TASKS:
