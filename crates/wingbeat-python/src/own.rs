@@ -21,13 +21,15 @@ use wingbeat::flight::AirMemory;
 use wingbeat::flight::control::{check_heeded, for_all};
 use wingbeat::flight::{
     Air, AirModel, AirScratch, Announcement, ControlModel, Controller, ExternalAir,
-    ExternalSession, Feedback, FlightError, FlightSetup, Instant,
+    ExternalSession, Feedback, FeltAir, FlightError, FlightSetup, Instant,
 };
 use wingbeat::math::DVec3;
 use wingbeat::model::Wing;
 use wingbeat::model::motion::Adjustment;
 
-use crate::arrays::{array, vector};
+use crate::arrays::{array, points, rows, vector};
+use crate::errors::{no_lattice, refused};
+use crate::threads::detached;
 
 /// The exception of a part that failed.
 #[derive(Clone, Default)]
@@ -79,57 +81,106 @@ impl Parts {
 
 /// What a controller sees.
 #[pyclass(frozen, module = "wingbeat._core")]
-pub struct Sensed(wingbeat::flight::Sensed);
+pub struct Sensed {
+    seen: wingbeat::flight::Sensed,
+    air: Mutex<AtLook>,
+}
+
+/// The air at a look.
+enum AtLook {
+    Lattice(FeltAir),
+    /// It is no vortex lattice.
+    Other,
+    /// The look is over.
+    Over,
+}
+
+impl Sensed {
+    fn new(seen: wingbeat::flight::Sensed, air: Option<FeltAir>) -> Self {
+        let air = Mutex::new(air.map_or(AtLook::Other, AtLook::Lattice));
+        Self { seen, air }
+    }
+
+    /// Ends the look: who keeps what was seen keeps no wakes.
+    fn end(&self) {
+        *self.air.lock().unwrap_or_else(PoisonError::into_inner) = AtLook::Over;
+    }
+
+    /// The lattice at the look.
+    fn lattice(&self, py: Python<'_>) -> PyResult<FeltAir> {
+        match &*self.air.lock().unwrap_or_else(PoisonError::into_inner) {
+            AtLook::Lattice(air) => Ok(air.clone()),
+            AtLook::Other => Err(no_lattice(py)),
+            AtLook::Over => {
+                let remedy = "ask within the call of the controller; after a step, air_velocity of the stepper";
+                Err(refused(py, "sensed", "this look is over", remedy))
+            }
+        }
+    }
+}
 
 #[pymethods]
 impl Sensed {
+    /// Velocity of the air at points at this look, both N components of shape (n, 3) [m, m/s], a single point as (3,)
+    /// too: vortex lattice only, and within the call of the controller.
+    fn air_velocity<'py>(
+        &self,
+        py: Python<'py>,
+        points_m: &Bound<'py, PyAny>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let at = points(points_m)?;
+        let air = self.lattice(py)?;
+        let velocity = detached(py, || air.velocity(&at))?;
+        rows(py, &velocity.ok_or_else(|| no_lattice(py))?)
+    }
+
     /// Number of this look, from 0.
     #[getter]
     fn look(&self) -> usize {
-        self.0.look
+        self.seen.look
     }
 
     /// Time since the release [s].
     #[getter]
     fn time_s(&self) -> f64 {
-        self.0.time
+        self.seen.time
     }
 
     /// Origin of the body, N components, shape (3,) [m].
     #[getter]
     fn position_m<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        vector(py, self.0.root.p)
+        vector(py, self.seen.root.p)
     }
 
     /// Velocity of that origin, N components, shape (3,) [m/s].
     #[getter]
     fn velocity_m_per_s<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        vector(py, self.0.root.v)
+        vector(py, self.seen.root.v)
     }
 
     /// Attitude R_NB, from body to N components, shape (3, 3).
     #[getter]
     fn rotation<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        let rows = self.0.root.r.transpose().to_cols_array();
+        let rows = self.seen.root.r.transpose().to_cols_array();
         array(py, rows.to_vec(), &[3, 3])
     }
 
     /// Angular velocity, body components, shape (3,) [rad/s].
     #[getter]
     fn angular_velocity_rad_per_s<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        vector(py, self.0.root.w)
+        vector(py, self.seen.root.w)
     }
 
     /// Mass centre of the whole, N components, shape (3,) [m].
     #[getter]
     fn mass_centre_m<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        vector(py, self.0.centre)
+        vector(py, self.seen.centre)
     }
 
     /// Velocity of the mass centre, N components, shape (3,) [m/s].
     #[getter]
     fn mass_centre_velocity_m_per_s<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        vector(py, self.0.velocity)
+        vector(py, self.seen.velocity)
     }
 }
 
@@ -197,6 +248,7 @@ impl ControlModel for PythonController {
         }
         Ok(Box::new(Steered {
             function: self.function.clone(),
+            air: None,
             wings: setup.animal.wings.clone(),
         }))
     }
@@ -205,14 +257,27 @@ impl ControlModel for PythonController {
 /// The controller of a flight.
 struct Steered {
     function: Function,
+    /// At the look that follows.
+    air: Option<FeltAir>,
     wings: Vec<Wing>,
 }
 
 impl Controller for Steered {
+    fn feels_air(&self) -> bool {
+        true
+    }
+
+    fn feel(&mut self, air: Option<FeltAir>) {
+        self.air = air;
+    }
+
     fn command(&mut self, sensed: &wingbeat::flight::Sensed) -> Result<Vec<Adjustment>, String> {
+        let air = self.air.take();
         let answer = Python::attach(|py| -> PyResult<Vec<[f64; 8]>> {
-            let seen = Bound::new(py, Sensed(*sensed))?;
-            self.function.get(py)?.call1((seen,))?.extract()
+            let seen = Bound::new(py, Sensed::new(*sensed, air))?;
+            let answer = self.function.get(py)?.call1((&seen,));
+            seen.get().end();
+            answer?.extract()
         });
         let numbers = self.function.pending.keep(answer)?;
         let command: Vec<Adjustment> = numbers.into_iter().map(Adjustment::of_numbers).collect();

@@ -11,8 +11,8 @@ use wingbeat::case::OutputSettings;
 use wingbeat::flight::{Record, Simulation, Snapshot};
 use wingbeat::results::Outcome;
 
-use crate::arrays::{points, vectors};
-use crate::errors::{broken, raised, refused};
+use crate::arrays::{points, rows};
+use crate::errors::{broken, no_lattice, raised, refused};
 use crate::frame::{Frame, is_framed};
 use crate::own::{Parts, PendingException};
 use crate::run::Run;
@@ -134,7 +134,7 @@ impl Stepper {
             let problem =
                 "the flight is within a step, in which its own controller or air asks for it";
             let remedy = "ask between calls of step(); what a controller is called with has time_s, the motion of the \
-                          body and the mass centre";
+                          body and air_velocity";
             return Err(refused(py, "stepper", problem, remedy));
         }
         Ok(())
@@ -197,23 +197,15 @@ impl Stepper {
         self.with(py, |course| Frame::from(&course.flight.snapshot()))
     }
 
-    /// Velocity of the air at points, shape (n, 3), N components [m, m/s]; none where the air is no vortex
-    /// lattice.
+    /// Velocity of the air at points, shape (n, 3), N components [m, m/s].
     fn air_velocity<'py>(
         &self,
         py: Python<'py>,
         at: &Bound<'py, PyAny>,
-    ) -> PyResult<Option<Bound<'py, PyAny>>> {
+    ) -> PyResult<Bound<'py, PyAny>> {
         let at = points(at)?;
-        let velocity = self.with(py, |course| {
-            let at = at.iter().map(|p| wingbeat::math::DVec3::from_array(*p));
-            course.flight.air_velocity(&at.collect())
-        })?;
-        let list = |v: wingbeat::air::Points| {
-            let rows = v.len();
-            vectors(py, (0..rows).map(|k| v.get(k).to_array()), &[rows])
-        };
-        velocity.map(list).transpose()
+        let velocity = self.with(py, |course| course.flight.air_velocity(&at))?;
+        rows(py, &velocity.ok_or_else(|| no_lattice(py))?)
     }
 
     /// What was flown so far.

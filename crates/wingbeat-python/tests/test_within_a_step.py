@@ -124,3 +124,56 @@ def test_refuses_it_in_forks_too(blade):
     shown, problem = here.recv()
     process.join(10)
     assert shown == "<wingbeat.Stepper within a step>" and "within a step" in problem
+
+
+LATTICE = {
+    "time.beats": 2,
+    "time.steps_per_beat": 12,
+    "flight.held_beats": 1,
+    "wing.right.mesh.chordwise": 2,
+    "wing.right.mesh.spanwise": 3,
+}
+POINTS = np.array([[0.0, 0.0, 1e-3], [1e-3, 1e-3, 2e-3], [-2e-3, 0.0, 3e-3]])
+
+
+@pytest.mark.parametrize("integrator", ["hamming", "bdf"])
+def test_agrees_the_air_at_a_look_with_that_after_its_step(integrator):
+    """With the same bits, at the release and after it, and a flight whose controller feels the air with one that does not."""
+    keys = LATTICE | {"dynamics.integrator": integrator}
+    flight = Flight.preset("fruit-fly-hover").set(keys)
+    felt: list[np.ndarray] = []
+
+    def feels(sensed: wingbeat.Sensed) -> Adjustment:
+        felt.append(sensed.air_velocity(POINTS))
+        np.testing.assert_array_equal(sensed.air_velocity(points_m=POINTS[0]), felt[-1][:1])
+        return Adjustment(stroke_amplitude=0.05)
+
+    stepper, after = flight.with_controller(feels, every_steps=4).start(), []
+    while stepper.step():
+        if len(felt) > len(after):
+            after.append(stepper.air_velocity(POINTS))
+    assert len(felt) == len(after) == 4
+    np.testing.assert_array_equal(felt, after)
+    assert np.abs(felt).min() > 0.0 and len({row.tobytes() for row in felt}) == 4
+    free = flight.with_controller(lambda _: Adjustment(stroke_amplitude=0.05), every_steps=4).fly()
+    np.testing.assert_array_equal(stepper.run.arrays["body_z_m"], free.arrays["body_z_m"])
+
+
+def test_refuses_to_tell_of_air_that_is_no_lattice_and_of_looks_that_are_over(blade):
+    looks: list[wingbeat.Sensed] = []
+
+    def keeps(sensed: wingbeat.Sensed) -> Adjustment:
+        looks.append(sensed)
+        return Adjustment()
+
+    Flight.preset("fruit-fly-hover").set(LATTICE).with_controller(keeps, every_steps=4).fly()
+    with pytest.raises(wingbeat.CaseError, match="this look is over") as caught:
+        looks[0].air_velocity(POINTS)
+    assert caught.value.key == "sensed" and "stepper" in caught.value.remedy
+    for wrong in ([[np.nan, 0.0, 0.0]], np.zeros((3, 2)), "a"):
+        with pytest.raises(wingbeat.CaseError) as caught:
+            looks[0].air_velocity(wrong)
+        assert caught.value.key == "points_m"
+    with pytest.raises(wingbeat.CaseError, match="no vortex lattice") as caught:
+        blade.with_controller(lambda sensed: sensed.air_velocity(POINTS)).fly()
+    assert caught.value.key == "air.model"

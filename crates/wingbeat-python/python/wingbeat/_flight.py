@@ -412,19 +412,7 @@ class Stepper:
         """Velocity of the air at points, both N components of shape (n, 3) [m, m/s], a single point as (3,) too: vortex lattice
         only.
         """
-        import numpy as np
-
-        points = reals("points_m", points_m)
-        if points.ndim not in (1, 2) or points.shape[-1] != 3 or not np.isfinite(points).all():
-            what = f"an array of shape {points.shape}" if np.isfinite(points).all() else "a number is not finite"
-            remedy = "finite coordinates, shape (n, 3) or (3,)"
-            raise CaseError(f"points_m: {what}", key="points_m", remedy=remedy)
-        velocity = self._core.air_velocity(points)
-        if velocity is None:
-            raise CaseError(
-                "the air of this flight is no vortex lattice", key="air.model", remedy='air.model = "vortex_lattice"'
-            )
-        return velocity
+        return self._core.air_velocity(points_m)
 
     @property
     def run(self) -> Run:

@@ -32,6 +32,17 @@ def real(key: str, number: Any) -> float:
         raise CaseError(f"{key} = {number!r:.60}: no number", key=key, remedy="a number") from None
 
 
+def points(key: str, given: Any) -> NDArray[Any]:
+    """Points, finite, in rows of three coordinates; a single one as three numbers."""
+    import numpy as np
+
+    array = reals(key, given)
+    if array.ndim not in (1, 2) or array.shape[-1] != 3 or not np.isfinite(array).all():
+        what = f"an array of shape {array.shape}" if np.isfinite(array).all() else "a number is not finite"
+        raise CaseError(f"{key}: {what}", key=key, remedy="finite coordinates, shape (n, 3) or (3,)")
+    return array.reshape(-1, 3)
+
+
 def reals(key: str, numbers: Any, kind: Any = float) -> NDArray[Any]:
     """An array of real numbers: complex ones would lose a part, texts and ragged lists are none."""
     import numpy as np
