@@ -58,6 +58,9 @@ gust    0.1        0.05           0.02            one horizontal gust, see below
 The gust is a single pulse that is even in space, no turbulence: it rises and falls as ``(1 - cos(2 pi t / (4 T))) / 2`` over four
 wingbeats. Its peak is drawn evenly from 0.2 to 0.5 R / T, its direction from all horizontal ones, its beginning from 2 T to 20 T
 after the start. Starts and noise of the sensors follow from the seed of ``reset`` and the number of the episode since.
+
+``save()`` gives what environments remember, which can be pickled, and ``restore(state)`` goes on from there with the same bits: to
+try several actions from one state, or to go on another day.
 """
 
 from __future__ import annotations
@@ -67,6 +70,7 @@ import operator
 import threading
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
+from copy import deepcopy as copy_of
 from difflib import get_close_matches
 from typing import TYPE_CHECKING, Any, NoReturn, Self
 
@@ -78,15 +82,26 @@ from gymnasium.vector.utils import batch_space
 from wingbeat import _core
 from wingbeat._flight import Flight
 from wingbeat._numbers import reals, whole
+from wingbeat._saved import SavedState
 from wingbeat.errors import AnalysisError, CaseError
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-__all__ = ["TASKS", "Environment", "VectorEnvironment"]
+__all__ = ["TASKS", "Environment", "SavedState", "VectorEnvironment"]
 
 TASKS = tuple(_core.Fleet.TASKS)
 _OBSERVED, _CONTROLS = _core.Fleet.OBSERVED, _core.Fleet.CONTROLS
+
+
+_Gymnasium = gymnasium.Env[Any, Any] | gymnasium.vector.VectorEnv[Any, Any, Any]
+
+
+def _bits(state: dict[str, Any]) -> np.random.BitGenerator:
+    """The generator of this state, of the kind that it names."""
+    bits: np.random.BitGenerator = getattr(np.random, state["bit_generator"])()
+    bits.state = copy_of(state)
+    return bits
 
 
 def _size(key: str, number: float, most: float) -> float:
@@ -165,7 +180,7 @@ class _Uncopied:
         raise CaseError(
             f"wingbeat.gym.{type(self).__name__} cannot be copied or pickled: its flyers cannot",
             key="environment",
-            remedy="keep its settings, its seed and the actions since reset(seed=...): the same ones give the same bits",
+            remedy="keep its settings and save(), which restore() goes on from; or its seed and the actions since reset(seed=...)",
         )
 
 
@@ -224,6 +239,8 @@ class _Fleet(_Uncopied):
         self._lock = threading.Lock()
         self.count = whole("num_envs", count, 1, 1_000_000)
         self.period_s = trim.period_s
+        told = {"num_envs": self.count, "steps_per_beat": steps, "controls_per_beat": controls, "flight": flight.case_text}
+        self._settings = settings | told
         seeds = np.random.default_rng().integers(2**63, size=self.count)  # until reset() gives others
         self.core = trim._core.fleet(settings, [int(s) for s in seeds])
         self.observed = np.zeros((self.count, _OBSERVED), np.float32)
@@ -234,7 +251,7 @@ class _Fleet(_Uncopied):
         self.observation_space = gymnasium.spaces.Box(-np.inf, np.inf, (_OBSERVED,), np.float32)
         self.action_space = gymnasium.spaces.Box(-1.0, 1.0, (_CONTROLS,), np.float32)
 
-    def first(self, seed: int | None, of: gymnasium.Env[Any, Any] | gymnasium.vector.VectorEnv[Any, Any, Any]) -> int | None:
+    def first(self, seed: int | None, of: _Gymnasium) -> int | None:
         """The seed to begin with: before any was given that which gymnasium draws for its own generator."""
         is_drawn = seed is None and not self.is_seeded
         drawn = of.np_random_seed if is_drawn else seed
@@ -258,6 +275,22 @@ class _Fleet(_Uncopied):
         with self.alone() as core:
             core.reset([None if s is None else _folded(s) for s in seeds], list(mask), self.observed)
             self.is_seeded = True
+
+    def save(self, of: _Gymnasium) -> SavedState:
+        generator = of._np_random
+        drawn = None if generator is None else copy_of(dict(generator.bit_generator.state))
+        with self.alone() as core:
+            return SavedState(dict(self._settings), *core.save(), (of._np_random_seed, drawn, self.is_seeded))
+
+    def restore(self, state: Any, of: _Gymnasium) -> None:
+        if not isinstance(state, SavedState):
+            raise CaseError(f"state = {state!r:.60}: none", key="state", remedy="what save() gave")
+        state.check(self._settings)
+        with self.alone() as core:
+            counts, numbers, regulators = map(np.ascontiguousarray, (state.counts, state.numbers, state.regulators))
+            core.restore(counts, numbers, regulators, self.observed)
+            of._np_random_seed, drawn, self.is_seeded = state.generator
+            of._np_random = None if drawn is None else np.random.Generator(_bits(drawn))
 
     def step(self, actions: Any) -> bool:
         """Whether any episode has ended."""
@@ -361,6 +394,16 @@ class Environment(_Uncopied, gymnasium.Env[Any, Any]):
         fleet.step(plain[np.newaxis])
         ended = bool(fleet.terminated[0]), bool(fleet.truncated[0])
         return fleet.observed[0].copy(), float(fleet.rewards[0]), *ended, {}
+
+    def save(self) -> SavedState:
+        """What it remembers now: :meth:`restore` goes on from there with the same bits, here or in another environment."""
+        return self._fleet.save(self)
+
+    def restore(self, state: SavedState) -> NDArray[np.float32]:
+        """Goes on from what :meth:`save` of an environment with the same settings gave; the observation then."""
+        self._fleet.restore(state, self)
+        observed: NDArray[np.float32] = self._fleet.observed[0].copy()
+        return observed
 
     def regulated(self) -> NDArray[np.float32]:
         """What the linear-quadratic regulator would do now, shape (4,): a baseline. It remembers: once per step."""
@@ -472,6 +515,15 @@ class VectorEnvironment(_Uncopied, gymnasium.vector.VectorEnv[Any, Any, Any]):
             ends = fleet.terminated.copy(), fleet.truncated.copy()
             return fleet.observed.copy(), fleet.rewards.copy(), *ends, info
         return fleet.observed, fleet.rewards, fleet.terminated, fleet.truncated, info
+
+    def save(self) -> SavedState:
+        """What all remember now: :meth:`restore` goes on from there with the same bits, here or in other environments."""
+        return self._fleet.save(self)
+
+    def restore(self, state: SavedState) -> NDArray[np.float32]:
+        """Goes on from what :meth:`save` of environments with the same settings gave; the observations then."""
+        self._fleet.restore(state, self)
+        return self._fleet.observed.copy() if self._copy else self._fleet.observed
 
     def regulated(self) -> NDArray[np.float32]:
         """What the linear-quadratic regulator would do now, shape (num_envs, 4): a baseline. It remembers: once per step."""
