@@ -243,7 +243,8 @@ fn behaves_no_tumble_ends_by_itself() {
     assert!((1..=8).all(|seed| open.recovery(seed).expect("a flight").beats.is_none()));
 }
 
-/// Noise of the sensors is that of the seed and of the episode, from the first look on; the flight knows nothing of it.
+/// Noise of the sensors is that of the seed and of the episode, from the first look on; the flight knows
+/// nothing of it.
 #[test]
 fn exact_episodes_have_noise_of_their_own() {
     let mut course = Course::new(Task::ALL[0].1, common::hovering(STEPS)).expect("a course");
@@ -269,8 +270,8 @@ fn exact_episodes_have_noise_of_their_own() {
     }
 }
 
-/// Noise, delay, a gust on the way and a command that is under way: an episode that another one goes on from, and
-/// the next one after it, have the same bits.
+/// Noise, delay, a gust on the way and a command that is under way: an episode that another one goes on from,
+/// and the next one after it, have the same bits.
 #[test]
 fn agrees_an_episode_that_goes_on_elsewhere_with_the_one_that_was_kept() {
     for task in [Task::Hover, Task::Path, Task::Gust] {

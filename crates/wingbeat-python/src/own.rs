@@ -3,9 +3,9 @@
 //! An exception in one of them ends the flight; it is kept in its [`PendingException`] and raised when the
 //! flight has stopped.
 //!
-//! Their functions belong to the Python objects that fly them ([`Parts`]), where the garbage collector of Python sees
-//! them: an object whose method is the controller of a flight that it keeps is freed with it. The flight itself, which
-//! Rust shares and the collector cannot look into, has weak references.
+//! Their functions belong to the Python objects that fly them ([`Parts`]), where the garbage collector of
+//! Python sees them: an object whose method is the controller of a flight that it keeps is freed with it. The
+//! flight itself, which Rust shares and the collector cannot look into, has weak references.
 
 use std::fmt;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -121,8 +121,8 @@ impl Sensed {
 
 #[pymethods]
 impl Sensed {
-    /// Velocity of the air at points at this look, both N components of shape (n, 3) [m, m/s], a single point as (3,)
-    /// too: vortex lattice only, and within the call of the controller.
+    /// Velocity of the air at points at this look, both N components of shape (n, 3) [m, m/s], a single point
+    /// as (3,) too: vortex lattice only, and within the call of the controller.
     fn air_velocity<'py>(
         &self,
         py: Python<'py>,
@@ -219,8 +219,8 @@ struct PythonController {
     has_memory: bool,
 }
 
-/// Feedback by `function`, which somebody's [`Parts`] own, every `interval` steps, acting `latency` looks later. One with a memory is reset when a
-/// flight begins.
+/// Feedback by `function`, which somebody's [`Parts`] own, every `interval` steps, acting `latency` looks
+/// later. One with a memory is reset when a flight begins.
 pub fn feedback(
     function: &Bound<'_, PyAny>,
     pending: &PendingException,
@@ -296,10 +296,10 @@ struct PythonAir {
     is_steady_and_uniform: bool,
 }
 
-/// The air of `function`, which somebody's [`Parts`] own, called with time [s] and the motions of all bodies, shape (bodies, 18): origin,
-/// rotation to N by rows, velocity, angular velocity in body components; it answers forces and moments about
-/// the origins, N components, shape (bodies, 6). An air with a memory hears which steps are accepted
-/// (`function.accept(step)`), and is called with the number of the step as well. Loads that
+/// The air of `function`, which somebody's [`Parts`] own, called with time [s] and the motions of all bodies,
+/// shape (bodies, 18): origin, rotation to N by rows, velocity, angular velocity in body components; it answers
+/// forces and moments about the origins, N components, shape (bodies, 6). An air with a memory hears which
+/// steps are accepted (`function.accept(step)`), and is called with the number of the step as well. Loads that
 /// `is_steady_and_uniform` depend on the motions alone, not on time or place.
 pub fn air(
     function: &Bound<'_, PyAny>,

@@ -84,8 +84,8 @@ impl Simulation {
     }
 }
 
-/// The air that is felt at the end of the step whose motion `s` holds, which `memory` has not accepted yet; none where it
-/// is no vortex lattice.
+/// The air that is felt at the end of the step whose motion `s` holds, which `memory` has not accepted yet;
+/// none where it is no vortex lattice.
 fn felt(
     equations: &Equations,
     memory: Option<&AirMemory>,

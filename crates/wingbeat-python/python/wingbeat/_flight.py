@@ -275,8 +275,8 @@ class Flight:
     ) -> Trim:
         """Steady flight with this mean velocity (forward, to the right, up) and turn (to the right) as a periodic orbit, in
         air without memory, feedback left out, and the tether of a case that has one (``flight.mode``). Three ``unknowns`` are
-        chosen by it; six where the flight turns, slips or has wings that differ; those beyond for least power. ``bounds`` are of unknowns, in radians, parts of 1,
-        wingbeats (``feathering_lead``) and wing lengths forward (``mass_centre``). See
+        chosen by it; six where the flight turns, slips or has wings that differ; those beyond for least power. ``bounds`` are
+        of unknowns, in radians, parts of 1, wingbeats (``feathering_lead``) and wing lengths forward (``mass_centre``). See
         docs/flight-mechanics.md.
         """
         velocity = _velocity(forward_m_per_s, sideslip_m_per_s, climb_m_per_s)

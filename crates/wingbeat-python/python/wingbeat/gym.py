@@ -59,8 +59,8 @@ The gust is a single pulse that is even in space, no turbulence: it rises and fa
 wingbeats. Its peak is drawn evenly from 0.2 to 0.5 R / T, its direction from all horizontal ones, its beginning from 2 T to 20 T
 after the start. Starts and noise of the sensors follow from the seed of ``reset`` and the number of the episode since.
 
-``save()`` gives what environments remember, which can be pickled, and ``restore(state)`` goes on from there with the same bits: to
-try several actions from one state, or to go on another day.
+``save()`` gives what environments remember, which can be pickled, and ``restore(state)`` goes on from there with the same
+bits: to try several actions from one state, or to go on another day.
 """
 
 from __future__ import annotations
@@ -180,7 +180,7 @@ class _Uncopied:
         raise CaseError(
             f"wingbeat.gym.{type(self).__name__} cannot be copied or pickled: its flyers cannot",
             key="environment",
-            remedy="keep its settings and save(), which restore() goes on from; or its seed and the actions since reset(seed=...)",
+            remedy="keep its settings and save(), from which restore() goes on; or seed and actions since reset(seed=...)",
         )
 
 

@@ -98,7 +98,8 @@ def _texts(column: Any) -> Any:
     """Paths as the texts that they are."""
     if isinstance(column, os.PathLike):
         return os.fspath(column)
-    if hasattr(column, "dtype") and column.dtype != object or isinstance(column, str | bytes) or not isinstance(column, Iterable):
+    is_plain = hasattr(column, "dtype") and column.dtype != object
+    if is_plain or isinstance(column, str | bytes) or not isinstance(column, Iterable):
         return column
     items = list(column)
     is_path = [isinstance(item, os.PathLike) for item in items]
