@@ -243,7 +243,8 @@ fn behaves_no_tumble_ends_by_itself() {
     assert!((1..=8).all(|seed| open.recovery(seed).expect("a flight").beats.is_none()));
 }
 
-/// Noise of the sensors is that of the seed and of the episode, from the first look on; the flight knows nothing of it.
+/// Noise of the sensors is that of the seed and of the episode, from the first look on; the flight knows
+/// nothing of it.
 #[test]
 fn exact_episodes_have_noise_of_their_own() {
     let mut course = Course::new(Task::ALL[0].1, common::hovering(STEPS)).expect("a course");
@@ -266,5 +267,42 @@ fn exact_episodes_have_noise_of_their_own() {
     for (k, x) in all.iter().enumerate() {
         assert!((1e-6..1e-3).contains(&x.length()), "{x}");
         assert!(all[..k].iter().all(|y| x.distance(*y) > 1e-6), "{k}");
+    }
+}
+
+/// Noise, delay, a gust on the way and a command that is under way: an episode that another one goes on from,
+/// and the next one after it, have the same bits.
+#[test]
+fn agrees_an_episode_that_goes_on_elsewhere_with_the_one_that_was_kept() {
+    for task in [Task::Hover, Task::Path, Task::Gust] {
+        let mut course = Course::new(task, common::hovering(STEPS)).expect("a course");
+        (course.interval, course.delay) = (STEPS / 4, 3);
+        course.sensors.noise.position = 1e-5;
+        let course = Arc::new(course);
+        let model = course.model().expect("a model");
+        let begin = |seed| Episode::new(Arc::clone(&course), &model, seed).expect("an episode");
+        let observed = |episode: &Episode| {
+            let mut numbers = [0.0; OBSERVED];
+            episode.observe(&mut numbers);
+            numbers
+        };
+        let action = |k: usize| [0.3, -0.2, 0.1, 0.4].map(|x| x * (k as f64).sin());
+        let (mut first, mut second) = (begin(5), begin(9));
+        first.reset(None).expect("the next episode");
+        for k in 0..17 {
+            first.step(&action(k));
+        }
+        let kept = first.keep();
+        second.go_on(&kept).expect("the same course");
+        assert_eq!(second.keep(), kept);
+        for k in 17..60 {
+            assert_eq!(observed(&first), observed(&second), "{task:?} {k}");
+            assert_eq!(first.step(&action(k)), second.step(&action(k)));
+        }
+        first.reset(None).expect("the next episode");
+        second.reset(None).expect("the next episode");
+        assert_eq!(observed(&first), observed(&second));
+        let short = wingbeat_analysis::episode::Kept::default();
+        assert!(second.go_on(&short).is_err());
     }
 }

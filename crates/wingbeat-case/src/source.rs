@@ -95,7 +95,7 @@ impl CaseSource {
             error.remedy += &words;
         }
         if let Some((key, typed)) = overridden {
-            error.origin = format!("{key}={typed} (set on top of {})", self.name);
+            error.origin = format!("{key}={} (set on top of {})", shortened(typed), self.name);
         } else if let Some(span) = self.span(&fault.key, error.problem.starts_with("unknown key")) {
             self.mark(&mut error, span);
         }

@@ -14,6 +14,7 @@ use wingbeat_model::{Side, Wing, WingMotion};
 
 pub use crate::controller::{Aim, Controller, Sensed, check_heeded, fits, for_all};
 use crate::error::FlightError;
+use crate::felt::FeltAir;
 use crate::setup::{AirModel, FlightSetup, MotionMode};
 pub use crate::setup::{ControlModel, Feedback};
 
@@ -284,6 +285,16 @@ impl Loop {
     /// Angles of the wings at time `t` [s].
     pub fn angles(&self, t: f64) -> impl Iterator<Item = DVec3> {
         self.wings.iter().map(move |w| w.angles(t))
+    }
+
+    /// Whether the controller is given the air before each look.
+    pub fn feels_air(&self) -> bool {
+        self.controller.feels_air()
+    }
+
+    /// Gives it the air at the look that follows.
+    pub fn feel(&mut self, air: Option<FeltAir>) {
+        self.controller.feel(air);
     }
 
     /// Asks the controller at time `t` [s]; the passage to the command that is due begins.

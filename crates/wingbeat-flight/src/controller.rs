@@ -5,6 +5,8 @@ use wingbeat_math::DVec3;
 use wingbeat_model::Wing;
 use wingbeat_model::motion::Adjustment;
 
+use crate::felt::FeltAir;
+
 /// What a controller sees.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sensed {
@@ -41,6 +43,14 @@ pub trait Controller: Send {
     /// # Errors
     /// Why it has none; the flight ends with it.
     fn command(&mut self, sensed: &Sensed) -> Result<Vec<Adjustment>, String>;
+
+    /// Whether it is given the air before each look.
+    fn feels_air(&self) -> bool {
+        false
+    }
+
+    /// The air at the look that follows; none where it is no vortex lattice.
+    fn feel(&mut self, _air: Option<FeltAir>) {}
 
     /// Where it steers to at `time` [s] since the release; none before its first look, or if it does not know.
     fn aim(&self, _time: f64) -> Option<Aim> {

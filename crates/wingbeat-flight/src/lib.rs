@@ -33,6 +33,7 @@ mod edge_ahead;
 pub mod elastic;
 mod equations;
 mod error;
+mod felt;
 mod free;
 mod impossible;
 mod interface;
@@ -63,6 +64,7 @@ pub use bodies::{
 pub use control::Passage;
 pub use controller::{Aim, Controller, Sensed};
 pub use error::FlightError;
+pub use felt::FeltAir;
 pub use free::{FreeFlight, FreeFlightScratch};
 pub use interface::{
     Air, AirScratch, Announcement, ExternalAir, ExternalSession, Instant, Shape, WingInertia,

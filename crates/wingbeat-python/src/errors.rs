@@ -41,6 +41,12 @@ pub fn refused(py: Python<'_>, key: &str, problem: &str, remedy: &str) -> PyErr 
     exception(py, "CaseError", &message, parts)
 }
 
+/// Of a question to air that is no vortex lattice.
+pub fn no_lattice(py: Python<'_>) -> PyErr {
+    let problem = "the air of this flight is no vortex lattice";
+    refused(py, "air.model", problem, "air.model = \"vortex_lattice\"")
+}
+
 /// What has this name among `all`, given as `key`.
 pub fn named<T: Copy>(py: Python<'_>, key: &str, name: &str, all: &[(&str, T)]) -> PyResult<T> {
     let found = all.iter().find(|(own, _)| *own == name);

@@ -2,14 +2,18 @@
 
 use std::sync::{Arc, Mutex, PoisonError};
 
-use numpy::{PyReadonlyArray2, PyReadwriteArray1, PyReadwriteArray2};
+use numpy::{PyReadonlyArray2, PyReadwriteArray1, PyReadwriteArray2, PyUntypedArrayMethods};
+use pyo3::PyTraverseError;
+use pyo3::gc::PyVisit;
 use pyo3::prelude::*;
 use rayon::prelude::*;
 use wingbeat::analysis::control::{CONTROLS, Regulator, Weights};
-use wingbeat::analysis::episode::{Course, Episode, OBSERVED, Task};
+use wingbeat::analysis::episode::{Course, Episode, Kept, OBSERVED, Task};
 use wingbeat::analysis::{AnalysisError, Trim};
 
+use crate::arrays::array;
 use crate::errors::{broken, named, raised, refused};
+use crate::own::Parts;
 use crate::threads::detached;
 
 /// An episode that is stepped over and over.
@@ -46,6 +50,8 @@ pub struct Fleet {
     autoreset: Autoreset,
     /// At the start of an episode.
     regulator: Option<Regulator>,
+    /// Parts of the flyer that are written in Python.
+    parts: Parts,
 }
 
 /// Settings of a fleet: a dictionary of Python.
@@ -91,7 +97,13 @@ impl Settings {
 
 impl Fleet {
     /// Episodes about the trimmed flight `trim`, of these seeds.
-    pub fn of(py: Python<'_>, trim: Trim, settings: Settings, seeds: Vec<u64>) -> PyResult<Self> {
+    pub fn of(
+        py: Python<'_>,
+        trim: Trim,
+        settings: Settings,
+        seeds: Vec<u64>,
+        parts: Parts,
+    ) -> PyResult<Self> {
         let autoreset = named(
             py,
             "autoreset_mode",
@@ -124,6 +136,7 @@ impl Fleet {
                 course,
                 autoreset,
                 regulator,
+                parts,
             })
         })?;
         built.map_err(|e: AnalysisError| raised(py, &e.into()))
@@ -251,8 +264,18 @@ impl<'a> Rows<'a> {
     }
 }
 
+/// Of a state that other environments have saved.
+fn foreign(py: Python<'_>) -> PyErr {
+    let remedy = "the state of environments with the same settings and the same flight";
+    refused(py, "state", "it is that of other environments", remedy)
+}
+
 #[pymethods]
 impl Fleet {
+    fn __traverse__(&self, visit: PyVisit<'_>) -> Result<(), PyTraverseError> {
+        self.parts.traverse(&visit)
+    }
+
     /// Names of the tasks.
     #[classattr]
     #[pyo3(name = "TASKS")]
@@ -386,6 +409,64 @@ impl Fleet {
             Ok(begun.elapsed().as_secs_f64())
         })?;
         timed.map_err(|e: AnalysisError| raised(py, &e.into()))
+    }
+
+    /// Everything that the environments remember: counts, shape (environments, 5), numbers, and those of the
+    /// regulators, (environments, any).
+    fn save<'py>(&self, py: Python<'py>) -> PyResult<[Bound<'py, PyAny>; 3]> {
+        let (mut counts, mut numbers, mut regulators) = (vec![], vec![], vec![]);
+        let cells = self.cells.lock().unwrap_or_else(PoisonError::into_inner);
+        for cell in &*cells {
+            let kept = cell.episode.keep();
+            counts.extend(kept.counts);
+            counts.push(u64::from(cell.is_done));
+            numbers.extend(kept.numbers);
+            regulators.extend(cell.regulator.iter().flat_map(Regulator::memory));
+        }
+        let n = cells.len();
+        let [of_numbers, of_regulators] = [numbers.len(), regulators.len()].map(|all| all / n);
+        Ok([
+            array(py, counts, &[n, 5])?,
+            array(py, numbers, &[n, of_numbers])?,
+            array(py, regulators, &[n, of_regulators])?,
+        ])
+    }
+
+    /// Goes on from there; observations into `observed`, shape (environments, 17).
+    fn restore(
+        &self,
+        py: Python<'_>,
+        counts: PyReadonlyArray2<'_, u64>,
+        numbers: PyReadonlyArray2<'_, f64>,
+        regulators: PyReadonlyArray2<'_, f64>,
+        mut observed: PyReadwriteArray2<'_, f32>,
+    ) -> PyResult<()> {
+        let mut cells = self.cells.lock().unwrap_or_else(PoisonError::into_inner);
+        let widths = [counts.shape()[1], numbers.shape()[1], regulators.shape()[1]];
+        let heights = [counts.shape()[0], numbers.shape()[0], regulators.shape()[0]];
+        if widths[0] != 5 || heights != [cells.len(); 3] {
+            return Err(foreign(py));
+        }
+        let (counts, numbers) = (counts.as_slice()?.as_chunks::<5>().0, numbers.as_slice()?);
+        let (regulators, observed) = (regulators.as_slice()?, observed.as_slice_mut()?);
+        let row = |all: &[f64], k: usize, n: usize| all[n * k..n * (k + 1)].to_vec();
+        for (k, cell) in cells.iter_mut().enumerate() {
+            let [seed, number, looks, steps, is_done] = counts[k];
+            let kept = Kept {
+                counts: [seed, number, looks, steps],
+                numbers: row(numbers, k, widths[1]),
+            };
+            let gone_on = cell.episode.go_on(&kept);
+            gone_on.map_err(|e| raised(py, &e.into()))?;
+            cell.is_done = is_done != 0;
+            cell.regulator.clone_from(&self.regulator);
+            if let Some(regulator) = &mut cell.regulator {
+                let memory = row(regulators, k, widths[2]);
+                regulator.restore(&memory).map_err(|_| foreign(py))?;
+            }
+            cell.observe(&mut observed[OBSERVED * k..OBSERVED * (k + 1)]);
+        }
+        Ok(())
     }
 
     /// Distances of the mass centres from their targets [m].

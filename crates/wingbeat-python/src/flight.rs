@@ -3,17 +3,19 @@
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
+use pyo3::PyTraverseError;
+use pyo3::gc::PyVisit;
 use pyo3::prelude::*;
 use wingbeat::analysis::TrimSettings;
 use wingbeat::analysis::wake::WakeSettings;
 use wingbeat::campaign::named;
 use wingbeat::case::{IoError, LoadedCase};
-use wingbeat::flight::Snapshot;
+use wingbeat::flight::{AirModel, MotionMode, Snapshot};
 
 use crate::errors::{raised, refused};
 use crate::frame::is_framed;
 use crate::mechanics::{self, Trim};
-use crate::own::{PendingException, air, feedback};
+use crate::own::{Parts, PendingException, air, feedback};
 use crate::run::Run;
 use crate::stepping::Stepper;
 use crate::threads::detached;
@@ -31,8 +33,8 @@ pub struct Flight {
     sets: Vec<String>,
     /// Exceptions of parts written in Python.
     pending: PendingException,
-    /// Whether it has such parts.
-    is_own: bool,
+    /// Such parts, if it has any.
+    parts: Parts,
     /// Whether one of these remembers what it was called with.
     remembers: bool,
 }
@@ -45,13 +47,18 @@ impl Flight {
             base,
             sets,
             pending: PendingException::default(),
-            is_own: false,
+            parts: Parts::default(),
             remembers: false,
         }
     }
 
-    /// The same with another part, which may remember what it was called with.
-    fn with(&self, remembers: bool, change: impl FnOnce(&mut wingbeat::Flight)) -> Self {
+    /// The same with another part, a `function` which may remember what it was called with.
+    fn with(
+        &self,
+        function: Bound<'_, PyAny>,
+        remembers: bool,
+        change: impl FnOnce(&mut wingbeat::Flight),
+    ) -> Self {
         let mut flight = self.flight.clone();
         change(&mut flight);
         Self {
@@ -60,14 +67,30 @@ impl Flight {
             base: self.base.clone(),
             sets: self.sets.clone(),
             pending: self.pending.clone(),
-            is_own: true,
+            parts: self.parts.copy(function.py()).with(function.unbind()),
             remembers: self.remembers || remembers,
         }
     }
 }
 
+impl Flight {
+    /// Refuses to trim in air written in Python that has a memory.
+    fn check_memory(&self, py: Python<'_>) -> PyResult<()> {
+        if self.is_own() && matches!(self.flight.setup.air, AirModel::External(_)) {
+            let problem = "it has a memory (`accept`): no wingbeat need be like the next";
+            let remedy = "air without `accept` whose `is_steady_and_uniform` is True; or fly it";
+            return Err(refused(py, "air", problem, remedy));
+        }
+        Ok(())
+    }
+}
+
 #[pymethods]
 impl Flight {
+    fn __traverse__(&self, visit: PyVisit<'_>) -> Result<(), PyTraverseError> {
+        self.parts.traverse(&visit)
+    }
+
     /// A preset or case file with keys set to other values, each as `KEY=VALUE`.
     #[staticmethod]
     fn find(py: Python<'_>, name: &str, sets: Vec<String>) -> PyResult<Self> {
@@ -97,7 +120,7 @@ impl Flight {
 
     /// The same with further keys set to other values.
     fn set(&self, py: Python<'_>, sets: Vec<String>) -> PyResult<Self> {
-        if self.is_own {
+        if self.is_own() {
             let problem = "this flight has parts written in Python";
             let remedy = "set keys first, then with_controller and with_air";
             return Err(refused(py, "set", problem, remedy));
@@ -128,7 +151,7 @@ impl Flight {
     fn with_controller(
         &self,
         py: Python<'_>,
-        function: Py<PyAny>,
+        function: Bound<'_, PyAny>,
         times: (usize, usize),
         has_memory: bool,
     ) -> PyResult<Self> {
@@ -137,8 +160,8 @@ impl Flight {
             let remedy = "set(\"control.controller\", \"none\") first";
             return Err(refused(py, "control.controller", problem, remedy));
         }
-        let feedback = feedback(function, &self.pending, times, has_memory);
-        Ok(self.with(has_memory, |flight| {
+        let feedback = feedback(&function, &self.pending, times, has_memory)?;
+        Ok(self.with(function, has_memory, |flight| {
             flight.setup.feedback = Some(feedback);
         }))
     }
@@ -147,14 +170,14 @@ impl Flight {
     fn with_air(
         &self,
         py: Python<'_>,
-        function: Py<PyAny>,
+        function: Bound<'_, PyAny>,
         has_memory: bool,
         is_steady_and_uniform: bool,
     ) -> PyResult<Self> {
         let checked = self.case.check_own_air();
         checked.map_err(|e| raised(py, &IoError::Case(e).into()))?;
-        let air = air(function, &self.pending, has_memory, is_steady_and_uniform);
-        Ok(self.with(has_memory, |flight| flight.setup.air = air))
+        let air = air(&function, &self.pending, has_memory, is_steady_and_uniform)?;
+        Ok(self.with(function, has_memory, |flight| flight.setup.air = air))
     }
 
     /// Name of the case.
@@ -181,10 +204,16 @@ impl Flight {
         self.case.raw.flight.held_beats
     }
 
+    /// Whether the body moves as prescribed.
+    #[getter]
+    fn is_tethered(&self) -> bool {
+        matches!(self.flight.setup.mode, MotionMode::Tethered(_))
+    }
+
     /// Whether it has parts written in Python.
     #[getter]
     fn is_own(&self) -> bool {
-        self.is_own
+        !self.parts.is_empty()
     }
 
     /// Number of steps.
@@ -274,17 +303,21 @@ impl Flight {
             flight,
             self.case.output,
             self.case_text(),
+            self.parts.copy(py),
             (self.pending.clone(), self.remembers),
         ))
     }
 
     /// Steady flight, in so many steps per wingbeat.
     fn trim(&self, py: Python<'_>, asked: mechanics::Asked, steps: usize) -> PyResult<Trim> {
+        self.check_memory(py)?;
         let problem = mechanics::problem(py, &self.flight, &asked, steps)?;
-        let case = (!self.is_own).then(|| self.case.clone());
-        let found = mechanics::trim(py, &self.flight, problem, case);
+        let case = (!self.is_own()).then(|| self.case.clone());
+        let parts = self.parts.copy(py);
+        let found = mechanics::trim(py, &self.flight, problem, case, parts);
         found.map_err(|e| self.pending.take().unwrap_or(e))
     }
+
     /// The same in air with a memory, its steps those of the case: the body is held for `held_beats` wingbeats
     /// while its wake grows; trimmed is what has residuals within `tolerance`.
     fn trim_with_wake(
@@ -308,8 +341,9 @@ impl Flight {
             ..WakeSettings::default()
         };
         let steps = TrimSettings::default().steps;
+        self.check_memory(py)?;
         let problem = mechanics::problem(py, &self.flight, &asked, steps)?;
-        let case = (!self.is_own).then(|| self.case.clone());
+        let case = (!self.is_own()).then(|| self.case.clone());
         let found = wake::trim(py, &self.flight, problem, settings, case);
         found.map_err(|e| self.pending.take().unwrap_or(e))
     }

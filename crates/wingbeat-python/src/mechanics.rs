@@ -1,5 +1,7 @@
 //! Trim, stability, controls, power.
 
+use pyo3::PyTraverseError;
+use pyo3::gc::PyVisit;
 use pyo3::prelude::*;
 use wingbeat::analysis::{
     AnalysisError, Bound as Limits, CONTROL_NAMES, ControlDerivative, LinearModel, Mode, ModeSet,
@@ -12,6 +14,7 @@ use wingbeat::math::DVec3;
 use crate::arrays::array;
 use crate::errors::{raised, refused};
 use crate::fleet::{Fleet, Settings};
+use crate::own::Parts;
 use crate::solution::TrimSolution;
 use crate::worker::analyse;
 
@@ -78,18 +81,19 @@ fn limits(
     }
 }
 
-/// Trims the flight, its feedback left out.
+/// Trims the flight, its feedback left out; its `parts` go with what is found.
 pub fn trim(
     py: Python<'_>,
     flight: &wingbeat::Flight,
     problem: TrimProblem,
     case: Option<LoadedCase>,
+    parts: Parts,
 ) -> PyResult<Trim> {
     let mut open = flight.clone();
     open.setup.feedback = None;
     let found = analyse(py, move || open.trim(&problem))?;
     let trim = found.map_err(|e| raised(py, &e))?;
-    Ok(Trim { trim, case })
+    Ok(Trim { trim, case, parts })
 }
 
 /// A trimmed flight, or the best point that was found.
@@ -98,6 +102,7 @@ pub struct Trim {
     trim: wingbeat::analysis::Trim,
     /// None where parts written in Python fly, which no case says.
     case: Option<LoadedCase>,
+    parts: Parts,
 }
 
 /// Name, plane, growth [1/s], frequency [rad/s], multiplier, eigenvector: component, size, phase [rad].
@@ -158,6 +163,10 @@ impl Trim {
 
 #[pymethods]
 impl Trim {
+    fn __traverse__(&self, visit: PyVisit<'_>) -> Result<(), PyTraverseError> {
+        self.parts.traverse(&visit)
+    }
+
     /// What was found.
     #[getter]
     fn solution(&self) -> TrimSolution {
@@ -244,7 +253,7 @@ impl Trim {
 
     /// Episodes about it, one for each seed.
     fn fleet(&self, py: Python<'_>, settings: Settings, seeds: Vec<u64>) -> PyResult<Fleet> {
-        Fleet::of(py, self.trim.clone(), settings, seeds)
+        Fleet::of(py, self.trim.clone(), settings, seeds, self.parts.copy(py))
     }
 
     /// Names of the state of the averaged model, and of the controls.

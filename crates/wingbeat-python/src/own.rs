@@ -2,24 +2,34 @@
 //!
 //! An exception in one of them ends the flight; it is kept in its [`PendingException`] and raised when the
 //! flight has stopped.
+//!
+//! Their functions belong to the Python objects that fly them ([`Parts`]), where the garbage collector of
+//! Python sees them: an object whose method is the controller of a flight that it keeps is freed with it. The
+//! flight itself, which Rust shares and the collector cannot look into, has weak references.
 
 use std::fmt;
 use std::sync::{Arc, Mutex, PoisonError};
 
 use numpy::{PyArray2, PyArrayMethods};
+use pyo3::PyTraverseError;
+use pyo3::exceptions::PyReferenceError;
+use pyo3::gc::PyVisit;
 use pyo3::prelude::*;
+use pyo3::types::{PyWeakrefMethods, PyWeakrefReference};
 use wingbeat::dynamics::{BodyMotion, Wrench};
 use wingbeat::flight::AirMemory;
 use wingbeat::flight::control::{check_heeded, for_all};
 use wingbeat::flight::{
     Air, AirModel, AirScratch, Announcement, ControlModel, Controller, ExternalAir,
-    ExternalSession, Feedback, FlightError, FlightSetup, Instant,
+    ExternalSession, Feedback, FeltAir, FlightError, FlightSetup, Instant,
 };
 use wingbeat::math::DVec3;
 use wingbeat::model::Wing;
 use wingbeat::model::motion::Adjustment;
 
-use crate::arrays::{array, vector};
+use crate::arrays::{array, points, rows, vector};
+use crate::errors::{no_lattice, refused};
+use crate::threads::detached;
 
 /// The exception of a part that failed.
 #[derive(Clone, Default)]
@@ -41,67 +51,159 @@ impl PendingException {
     }
 }
 
+/// The functions of the parts of a flight, owned by a Python object: each object that flies them has its own.
+#[derive(Default)]
+pub struct Parts(Vec<Py<PyAny>>);
+
+impl Parts {
+    /// The same of another object.
+    pub fn copy(&self, py: Python<'_>) -> Self {
+        Self(self.0.iter().map(|part| part.clone_ref(py)).collect())
+    }
+
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+
+    /// With another function.
+    pub fn with(mut self, function: Py<PyAny>) -> Self {
+        self.0.push(function);
+        self
+    }
+
+    /// Tells the garbage collector of all. None changes, so none is taken away: cycles go through attributes of
+    /// theirs, or of what they call.
+    pub fn traverse(&self, visit: &PyVisit<'_>) -> Result<(), PyTraverseError> {
+        self.0.iter().try_for_each(|part| visit.call(part))
+    }
+}
+
 /// What a controller sees.
 #[pyclass(frozen, module = "wingbeat._core")]
-pub struct Sensed(wingbeat::flight::Sensed);
+pub struct Sensed {
+    seen: wingbeat::flight::Sensed,
+    air: Mutex<AtLook>,
+}
+
+/// The air at a look.
+enum AtLook {
+    Lattice(FeltAir),
+    /// It is no vortex lattice.
+    Other,
+    /// The look is over.
+    Over,
+}
+
+impl Sensed {
+    fn new(seen: wingbeat::flight::Sensed, air: Option<FeltAir>) -> Self {
+        let air = Mutex::new(air.map_or(AtLook::Other, AtLook::Lattice));
+        Self { seen, air }
+    }
+
+    /// Ends the look: who keeps what was seen keeps no wakes.
+    fn end(&self) {
+        *self.air.lock().unwrap_or_else(PoisonError::into_inner) = AtLook::Over;
+    }
+
+    /// The lattice at the look.
+    fn lattice(&self, py: Python<'_>) -> PyResult<FeltAir> {
+        match &*self.air.lock().unwrap_or_else(PoisonError::into_inner) {
+            AtLook::Lattice(air) => Ok(air.clone()),
+            AtLook::Other => Err(no_lattice(py)),
+            AtLook::Over => {
+                let remedy = "ask within the call of the controller; after a step, air_velocity of the stepper";
+                Err(refused(py, "sensed", "this look is over", remedy))
+            }
+        }
+    }
+}
 
 #[pymethods]
 impl Sensed {
+    /// Velocity of the air at points at this look, both N components of shape (n, 3) [m, m/s], a single point
+    /// as (3,) too: vortex lattice only, and within the call of the controller.
+    fn air_velocity<'py>(
+        &self,
+        py: Python<'py>,
+        points_m: &Bound<'py, PyAny>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let at = points(points_m)?;
+        let air = self.lattice(py)?;
+        let velocity = detached(py, || air.velocity(&at))?;
+        rows(py, &velocity.ok_or_else(|| no_lattice(py))?)
+    }
+
     /// Number of this look, from 0.
     #[getter]
     fn look(&self) -> usize {
-        self.0.look
+        self.seen.look
     }
 
     /// Time since the release [s].
     #[getter]
     fn time_s(&self) -> f64 {
-        self.0.time
+        self.seen.time
     }
 
     /// Origin of the body, N components, shape (3,) [m].
     #[getter]
     fn position_m<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        vector(py, self.0.root.p)
+        vector(py, self.seen.root.p)
     }
 
     /// Velocity of that origin, N components, shape (3,) [m/s].
     #[getter]
     fn velocity_m_per_s<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        vector(py, self.0.root.v)
+        vector(py, self.seen.root.v)
     }
 
     /// Attitude R_NB, from body to N components, shape (3, 3).
     #[getter]
     fn rotation<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        let rows = self.0.root.r.transpose().to_cols_array();
+        let rows = self.seen.root.r.transpose().to_cols_array();
         array(py, rows.to_vec(), &[3, 3])
     }
 
     /// Angular velocity, body components, shape (3,) [rad/s].
     #[getter]
     fn angular_velocity_rad_per_s<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        vector(py, self.0.root.w)
+        vector(py, self.seen.root.w)
     }
 
     /// Mass centre of the whole, N components, shape (3,) [m].
     #[getter]
     fn mass_centre_m<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        vector(py, self.0.centre)
+        vector(py, self.seen.centre)
     }
 
     /// Velocity of the mass centre, N components, shape (3,) [m/s].
     #[getter]
     fn mass_centre_velocity_m_per_s<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        vector(py, self.0.velocity)
+        vector(py, self.seen.velocity)
     }
 }
 
-/// A function of Python in a part of the flight.
+/// A function of Python in a part of the flight, which [`Parts`] own.
 #[derive(Clone)]
 struct Function {
-    function: Arc<Py<PyAny>>,
+    function: Arc<Py<PyWeakrefReference>>,
     pending: PendingException,
+}
+
+impl Function {
+    fn new(function: &Bound<'_, PyAny>, pending: &PendingException) -> PyResult<Self> {
+        Ok(Self {
+            function: Arc::new(PyWeakrefReference::new(function)?.unbind()),
+            pending: pending.clone(),
+        })
+    }
+
+    /// The function. It is gone where nobody waits for the flight any more.
+    fn get<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let function = self.function.bind(py).upgrade();
+        function.ok_or_else(|| PyReferenceError::new_err("the flight of this part is gone"))
+    }
 }
 
 impl fmt::Debug for Function {
@@ -117,39 +219,36 @@ struct PythonController {
     has_memory: bool,
 }
 
-/// Feedback by `function` every `interval` steps, acting `latency` looks later. One with a memory is reset when a
-/// flight begins.
+/// Feedback by `function`, which somebody's [`Parts`] own, every `interval` steps, acting `latency` looks
+/// later. One with a memory is reset when a flight begins.
 pub fn feedback(
-    function: Py<PyAny>,
+    function: &Bound<'_, PyAny>,
     pending: &PendingException,
     (interval, latency): (usize, usize),
     has_memory: bool,
-) -> Feedback {
-    let function = Function {
-        function: Arc::new(function),
-        pending: pending.clone(),
-    };
-    Feedback {
+) -> PyResult<Feedback> {
+    Ok(Feedback {
         controller: Arc::new(PythonController {
-            function,
+            function: Function::new(function, pending)?,
             has_memory,
         }),
         interval,
         latency,
         lag: 0.0,
-    }
+    })
 }
 
 impl ControlModel for PythonController {
     fn open(&self, setup: &FlightSetup) -> Result<Box<dyn Controller>, FlightError> {
         if self.has_memory {
-            let function = &self.function.function;
-            let reset = Python::attach(|py| function.call_method0(py, "reset").map(drop));
+            let function = &self.function;
+            let reset = Python::attach(|py| function.get(py)?.call_method0("reset").map(drop));
             let refused = |problem| FlightError::Control { time: 0.0, problem };
             self.function.pending.keep(reset).map_err(refused)?;
         }
         Ok(Box::new(Steered {
             function: self.function.clone(),
+            air: None,
             wings: setup.animal.wings.clone(),
         }))
     }
@@ -158,14 +257,27 @@ impl ControlModel for PythonController {
 /// The controller of a flight.
 struct Steered {
     function: Function,
+    /// At the look that follows.
+    air: Option<FeltAir>,
     wings: Vec<Wing>,
 }
 
 impl Controller for Steered {
+    fn feels_air(&self) -> bool {
+        true
+    }
+
+    fn feel(&mut self, air: Option<FeltAir>) {
+        self.air = air;
+    }
+
     fn command(&mut self, sensed: &wingbeat::flight::Sensed) -> Result<Vec<Adjustment>, String> {
+        let air = self.air.take();
         let answer = Python::attach(|py| -> PyResult<Vec<[f64; 8]>> {
-            let seen = Bound::new(py, Sensed(*sensed))?;
-            self.function.function.call1(py, (seen,))?.extract(py)
+            let seen = Bound::new(py, Sensed::new(*sensed, air))?;
+            let answer = self.function.get(py)?.call1((&seen,));
+            seen.get().end();
+            answer?.extract()
         });
         let numbers = self.function.pending.keep(answer)?;
         let command: Vec<Adjustment> = numbers.into_iter().map(Adjustment::of_numbers).collect();
@@ -184,28 +296,25 @@ struct PythonAir {
     is_steady_and_uniform: bool,
 }
 
-/// The air of `function`, called with time [s] and the motions of all bodies, shape (bodies, 18): origin,
-/// rotation to N by rows, velocity, angular velocity in body components; it answers forces and moments about
-/// the origins, N components, shape (bodies, 6). An air with a memory hears which steps are accepted
-/// (`function.accept(step)`), and is called with the number of the step as well. Loads that
+/// The air of `function`, which somebody's [`Parts`] own, called with time [s] and the motions of all bodies,
+/// shape (bodies, 18): origin, rotation to N by rows, velocity, angular velocity in body components; it answers
+/// forces and moments about the origins, N components, shape (bodies, 6). An air with a memory hears which
+/// steps are accepted (`function.accept(step)`), and is called with the number of the step as well. Loads that
 /// `is_steady_and_uniform` depend on the motions alone, not on time or place.
 pub fn air(
-    function: Py<PyAny>,
+    function: &Bound<'_, PyAny>,
     pending: &PendingException,
     has_memory: bool,
     is_steady_and_uniform: bool,
-) -> AirModel {
+) -> PyResult<AirModel> {
     let air = PythonAir {
-        function: Function {
-            function: Arc::new(function),
-            pending: pending.clone(),
-        },
+        function: Function::new(function, pending)?,
         is_steady_and_uniform,
     };
-    match has_memory {
+    Ok(match has_memory {
         true => AirModel::External(Arc::new(air)),
         false => AirModel::Own(Arc::new(air)),
-    }
+    })
 }
 
 impl PythonAir {
@@ -219,8 +328,8 @@ impl PythonAir {
         let answer = Python::attach(|py| {
             let numbers = motions.iter().flat_map(numbers).collect();
             let motions = array(py, numbers, &[motions.len(), 18])?;
-            let answer = self.function.function.call1(py, (step, time, motions))?;
-            let loads = answer.bind(py).cast::<PyArray2<f64>>()?.readonly();
+            let answer = self.function.get(py)?.call1((step, time, motions))?;
+            let loads = answer.cast::<PyArray2<f64>>()?.readonly();
             for (load, row) in out.iter_mut().zip(loads.as_slice()?.as_chunks::<6>().0) {
                 load.force = DVec3::from_slice(row);
                 load.moment = DVec3::from_slice(&row[3..]);
@@ -258,9 +367,10 @@ impl ExternalAir for PythonAir {
     fn open(&self, flyer: &Announcement) -> Result<Box<dyn ExternalSession>, String> {
         let opened = Python::attach(|py| {
             let bodies = flyer.bodies.clone();
-            let open = &self.function.function;
-            let open = open.call_method1(py, "open", (bodies, flyer.step));
-            open.map(drop)
+            let function = self.function.get(py)?;
+            function
+                .call_method1("open", (bodies, flyer.step))
+                .map(drop)
         });
         self.function.pending.keep(opened)?;
         Ok(Box::new(self.clone()))
@@ -280,9 +390,8 @@ impl ExternalSession for PythonAir {
 
     fn accept(&mut self, step: usize) -> Result<(), String> {
         let accepted = Python::attach(|py| {
-            let accept = &self.function.function;
-            let accept = accept.call_method1(py, "accept", (step,));
-            accept.map(drop)
+            let function = self.function.get(py)?;
+            function.call_method1("accept", (step,)).map(drop)
         });
         self.function.pending.keep(accepted)
     }

@@ -1,18 +1,22 @@
 //! Flights step by step.
 
-use std::sync::Mutex;
+use std::sync::{Mutex, PoisonError};
+use std::thread::{self, ThreadId};
 
+use pyo3::PyTraverseError;
+use pyo3::exceptions::PyRuntimeError;
+use pyo3::gc::PyVisit;
 use pyo3::prelude::*;
 use wingbeat::case::OutputSettings;
 use wingbeat::flight::{Record, Simulation, Snapshot};
 use wingbeat::results::Outcome;
 
-use crate::arrays::{points, vectors};
-use crate::errors::{broken, raised, refused};
+use crate::arrays::{points, rows};
+use crate::errors::{broken, no_lattice, raised, refused};
 use crate::frame::{Frame, is_framed};
-use crate::own::PendingException;
+use crate::own::{Parts, PendingException};
 use crate::run::Run;
-use crate::threads::detached;
+use crate::threads::within;
 
 /// A flight and what it has flown.
 struct Course {
@@ -22,24 +26,59 @@ struct Course {
     outcome: Outcome,
 }
 
+/// The thread that works on a flight, while one does.
+#[derive(Default)]
+struct Holder(Mutex<Option<ThreadId>>);
+
+impl Holder {
+    fn set(&self, thread: Option<ThreadId>) {
+        *self.0.lock().unwrap_or_else(PoisonError::into_inner) = thread;
+    }
+
+    /// Takes down this thread until the answer is dropped.
+    fn here(&self) -> Held<'_> {
+        self.set(Some(thread::current().id()));
+        Held(self)
+    }
+
+    /// Whether it is this one: a controller or air written in Python asks within a step.
+    fn is_here(&self) -> bool {
+        let holder = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        *holder == Some(thread::current().id())
+    }
+}
+
+/// While a thread works on the flight.
+struct Held<'a>(&'a Holder);
+
+impl Drop for Held<'_> {
+    fn drop(&mut self) {
+        self.0.set(None);
+    }
+}
+
 /// A flight in progress.
 #[pyclass(frozen, module = "wingbeat._core")]
 pub struct Stepper {
     course: Mutex<Course>,
+    /// The thread that has the flight now.
+    holder: Holder,
     output: OutputSettings,
     case: String,
+    parts: Parts,
     pending: PendingException,
     /// Whether parts written in Python remember what they were called with.
     remembers: bool,
 }
 
 impl Stepper {
-    /// Before the first step of `flight`, whose parts written in Python keep their exceptions there, and may
+    /// Before the first step of `flight`, whose `parts` written in Python keep their exceptions there, and may
     /// remember what they were called with.
     pub fn new(
         flight: Simulation,
         output: OutputSettings,
         case: String,
+        parts: Parts,
         (pending, remembers): (PendingException, bool),
     ) -> Self {
         let course = Course {
@@ -53,28 +92,54 @@ impl Stepper {
         };
         Self {
             course: Mutex::new(course),
+            holder: Holder::default(),
             output,
             case,
+            parts,
             pending,
             remembers,
         }
     }
 
-    /// Does `work` beside the interpreter, once no other thread has the flight.
+    /// Does `work` beside the interpreter, once no other thread has the flight. A part of it that is written in
+    /// Python and asks within a step, in the thread of that step, would wait for itself: it is refused.
     fn with<T: Send>(
         &self,
         py: Python<'_>,
         work: impl FnOnce(&mut Course) -> T + Send,
     ) -> PyResult<T> {
-        let done = detached(py, || {
-            self.course.lock().ok().map(|mut course| work(&mut course))
-        })?;
-        done.ok_or_else(broken)
+        self.check(py)?;
+        // The lock is waited for outside the pool: one of its threads may be the one that has it.
+        py.detach(|| {
+            let mut course = self.course.lock().map_err(|_| broken())?;
+            let course = &mut *course;
+            let done = within(move || {
+                let _held = self.holder.here();
+                work(course)
+            });
+            done.map_err(|e| PyRuntimeError::new_err(e.to_string()))
+        })
     }
 }
 
 #[pymethods]
 impl Stepper {
+    fn __traverse__(&self, visit: PyVisit<'_>) -> Result<(), PyTraverseError> {
+        self.parts.traverse(&visit)
+    }
+
+    /// Refuses what a part of the flight asks for within a step.
+    fn check(&self, py: Python<'_>) -> PyResult<()> {
+        if self.holder.is_here() {
+            let problem =
+                "the flight is within a step, in which its own controller or air asks for it";
+            let remedy = "ask between calls of step(); what a controller is called with has time_s, the motion of the \
+                          body and air_velocity";
+            return Err(refused(py, "stepper", problem, remedy));
+        }
+        Ok(())
+    }
+
     /// A second flight that goes on from here.
     fn copy(&self, py: Python<'_>) -> PyResult<Self> {
         if self.remembers {
@@ -87,8 +152,10 @@ impl Stepper {
         let course = course.map_err(|e| self.pending.take().unwrap_or_else(|| raised(py, &e)))?;
         Ok(Self {
             course: Mutex::new(course),
+            holder: Holder::default(),
             output: self.output,
             case: self.case.clone(),
+            parts: self.parts.copy(py),
             pending: self.pending.clone(),
             remembers: false,
         })
@@ -130,23 +197,15 @@ impl Stepper {
         self.with(py, |course| Frame::from(&course.flight.snapshot()))
     }
 
-    /// Velocity of the air at points, shape (n, 3), N components [m, m/s]; none where the air is no vortex
-    /// lattice.
+    /// Velocity of the air at points, shape (n, 3), N components [m, m/s].
     fn air_velocity<'py>(
         &self,
         py: Python<'py>,
         at: &Bound<'py, PyAny>,
-    ) -> PyResult<Option<Bound<'py, PyAny>>> {
+    ) -> PyResult<Bound<'py, PyAny>> {
         let at = points(at)?;
-        let velocity = self.with(py, |course| {
-            let at = at.iter().map(|p| wingbeat::math::DVec3::from_array(*p));
-            course.flight.air_velocity(&at.collect())
-        })?;
-        let list = |v: wingbeat::air::Points| {
-            let rows = v.len();
-            vectors(py, (0..rows).map(|k| v.get(k).to_array()), &[rows])
-        };
-        velocity.map(list).transpose()
+        let velocity = self.with(py, |course| course.flight.air_velocity(&at))?;
+        rows(py, &velocity.ok_or_else(|| no_lattice(py))?)
     }
 
     /// What was flown so far.

@@ -205,6 +205,7 @@ FLY = wingbeat.Flight.preset("fruit-fly-blade")
         (FLY.with_controller(lambda _: wingbeat.Adjustment()), "control.controller"),
         (FLY.set("control.controller", "regulator"), "control.controller"),
         (FLY.set("flight.held_beats", 3), "flight.held_beats"),
+        (FLY.set("flight.mode", "tethered"), "flight.mode"),
     ],
 )
 def test_refuses_what_episodes_would_drop_of_a_flight(flight, key):

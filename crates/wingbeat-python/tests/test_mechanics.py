@@ -20,6 +20,13 @@ def trim(blade) -> wingbeat.Trim:
     return blade.trim(**LAWFUL)
 
 
+def test_agrees_the_trim_of_a_tethered_flight_with_that_of_the_free_one(blade):
+    """What is looked for is free flight, as by the command line: the tether is left out."""
+    free, tethered = blade.trim(), blade.set("flight.mode", "tethered").trim()
+    np.testing.assert_array_equal(tethered.residual, free.residual)
+    assert tethered.adjustment == free.adjustment and tethered.converged
+
+
 def test_behaves_the_trimmed_flight_stays_where_it_is(trim):
     assert trim.converged and abs(trim.residual).max() < 1e-9
     run = trim.flight().set("time.beats", 3).fly()

@@ -8,6 +8,7 @@ use wingbeat_flight::{FlightSetup, FreeFlight, FreeFlightScratch, Sensed, WingLa
 use wingbeat_math::ode::Rk4;
 use wingbeat_math::{DVec3, RotationLaw};
 
+use super::kept::{Numbers, of_motion};
 use super::strokes::{SteadyStroke, SteeredStroke, Transition};
 use super::task::Start;
 use crate::AnalysisError;
@@ -174,6 +175,28 @@ impl Flyer {
         let end = self.steps as f64 * h;
         self.root = model.flight.root(end, &self.y, &mut model.scratch)?;
         Ok(())
+    }
+
+    /// State, motion of the root, commands.
+    pub(super) fn numbers(&self) -> Vec<f64> {
+        let commands = self.commands.iter().flat_map(Transition::numbers);
+        let state = self.y.iter().copied();
+        state.chain(of_motion(&self.root)).chain(commands).collect()
+    }
+
+    /// Goes on from numbers in this order, after so many steps.
+    pub(super) fn set_numbers(&mut self, steps: usize, numbers: &mut Numbers<'_>) {
+        self.steps = steps;
+        self.y.iter_mut().for_each(|y| [*y] = numbers.next());
+        self.root = numbers.motion();
+        for command in &mut self.commands {
+            *command = Transition::of_numbers(numbers.next());
+        }
+    }
+
+    /// Steps made.
+    pub(super) fn steps(&self) -> usize {
+        self.steps
     }
 
     /// The state of the momentum form.

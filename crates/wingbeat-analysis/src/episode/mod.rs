@@ -17,6 +17,7 @@
 //! R: wing length, T: period of the wingbeat.
 
 mod flyer;
+mod kept;
 mod recoveries;
 mod strokes;
 mod task;
@@ -33,8 +34,10 @@ use crate::AnalysisError;
 use crate::departure::{CONTROLS, Controls, Departure, Limits, Reference};
 use crate::sensors::Sensors;
 use crate::trim::Trim;
+use kept::{Numbers, of_departure};
 
 pub use flyer::{Flyer, Model, SharedModel};
+pub use kept::Kept;
 pub use recoveries::Recoveries;
 pub use strokes::{SteadyStroke, SteeredStroke, Transition};
 pub use task::{Draw, Start, Task};
@@ -197,6 +200,42 @@ impl Episode {
             is_lost,
             is_over: over,
         }
+    }
+
+    /// What it remembers.
+    pub fn keep(&self) -> Kept {
+        let mut numbers = self.flyer.numbers();
+        numbers.extend(self.seen.iter().flat_map(of_departure));
+        let [looks, steps] = [self.looks, self.flyer.steps()].map(|count| count as u64);
+        Kept {
+            counts: [self.seed, self.number, looks, steps],
+            numbers,
+        }
+    }
+
+    /// Goes on from there.
+    ///
+    /// # Errors
+    /// What an episode of another course remembers; what bodies and air refuse.
+    pub fn go_on(&mut self, kept: &Kept) -> Result<(), AnalysisError> {
+        if kept.numbers.len() != self.keep().numbers.len() {
+            return Err(AnalysisError::not_covered(
+                "the episode that was kept is of another flyer, or has another delay",
+                "go on in an environment of the same flight and the same settings",
+            ));
+        }
+        let [seed, number, looks, steps] = kept.counts;
+        (self.seed, self.number, self.looks) = (seed, number, looks as usize);
+        // Its gust, if it has one, is drawn again.
+        let (course, mut draw) = (&self.course, Draw::new(seed, number));
+        let start = Start::drawn(course.task, &course.trim.beat, &mut draw);
+        self.flyer.restart(&course.trim, &start)?;
+        let numbers = &mut Numbers(&kept.numbers);
+        self.flyer.set_numbers(steps as usize, numbers);
+        for seen in &mut self.seen {
+            *seen = numbers.departure();
+        }
+        Ok(())
     }
 
     /// What is observed, [`OBSERVED`] numbers.

@@ -68,6 +68,22 @@ impl Default for Transition {
 }
 
 impl Transition {
+    /// All numbers of it: commands before and after, start and duration [s].
+    pub(super) fn numbers(&self) -> [f64; 8] {
+        let ([a, b, c], [d, e, f]) = (self.from, self.to);
+        [a, b, c, d, e, f, self.start, self.duration]
+    }
+
+    /// The one of these numbers.
+    pub(super) fn of_numbers([a, b, c, d, e, f, start, duration]: [f64; 8]) -> Self {
+        Self {
+            from: [a, b, c],
+            to: [d, e, f],
+            start,
+            duration,
+        }
+    }
+
     /// What comes after this one: from `start` [s] on the stroke goes over to a command within `duration` [s].
     pub fn then(&self, to: &Adjustment, start: f64, duration: f64) -> Self {
         Self {

@@ -1,10 +1,16 @@
 //! What is done at the end of a step: the controller looks, the record is made, the air is accepted.
 
+use std::sync::Arc;
+
+use wingbeat_air::Points;
 use wingbeat_math::ode::StepReport;
 
 use super::Simulation;
 use crate::control::Sensed;
+use crate::equations::{Equations, Scratch};
 use crate::error::FlightError;
+use crate::felt::FeltAir;
+use crate::memory::AirMemory;
 use crate::recorder::Sources;
 
 impl Simulation {
@@ -65,6 +71,10 @@ impl Simulation {
                 centre: budget.centre,
                 velocity: budget.momentum / stage.equations.core.system().total_mass(),
             };
+            if feedback.feels_air() {
+                let (equations, air) = (&stage.equations, self.state.air.as_ref());
+                feedback.feel(felt(equations, air, &self.scratch)?);
+            }
             feedback.update(t, &sensed)?;
             // What the scratch knows of the wings at this instant is that of the passage before.
             self.scratch.fit(&stage.equations);
@@ -72,4 +82,20 @@ impl Simulation {
         }
         Ok(())
     }
+}
+
+/// The air that is felt at the end of the step whose motion `s` holds, which `memory` has not accepted yet;
+/// none where it is no vortex lattice.
+fn felt(
+    equations: &Equations,
+    memory: Option<&AirMemory>,
+    s: &Scratch,
+) -> Result<Option<FeltAir>, FlightError> {
+    if memory.and_then(AirMemory::wakes).is_none() {
+        return Ok(None);
+    }
+    let (air, mut memory) = (Arc::clone(&equations.air), memory.cloned());
+    air.accept(&mut memory, &s.air_scratch)?;
+    let velocity = move |points: &Points| air.velocity(memory.as_ref(), points);
+    Ok(Some(FeltAir::new(velocity)))
 }

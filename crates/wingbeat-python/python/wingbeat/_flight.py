@@ -16,6 +16,7 @@ from wingbeat._frame import Frame
 from wingbeat._mechanics import Derivatives, LinearModel, Power, Trim, WakeTrim
 from wingbeat._numbers import real, reals, whole
 from wingbeat._own import Air, Controller, Loads, Steering
+from wingbeat._paths import path
 from wingbeat._run import Run
 from wingbeat._source import Source
 from wingbeat._vibration import Flutter, WingModes, flutter, wing_modes
@@ -49,8 +50,9 @@ class Flight:
         return _made, (self._source,)
 
     @staticmethod
-    def preset(name: str) -> Flight:
+    def preset(name: str | os.PathLike[str]) -> Flight:
         """An embedded preset (:func:`wingbeat.presets`), or a case file by its path."""
+        name = path("name", name)
         return Flight(_core.Flight.find(name, []), Source.named(name))
 
     @staticmethod
@@ -62,21 +64,21 @@ class Flight:
             return _made(Source("case", case, ""))
         if not isinstance(case, str | os.PathLike):
             raise CaseError(f"a case is no {type(case).__name__}", key="case", remedy="the path of a file, the text of a case, or a dict")
-        path = Path(case)
-        if not path.is_file():
+        name = path("case", case)
+        if not Path(name).is_file():
             raise CaseError(
-                f"there is no case file `{path}`",
-                key=str(path),
+                f"there is no case file `{name}`",
+                key=name,
                 remedy="the path of a file, the text of a case, a dict, or Flight.preset(NAME)",
             )
-        return Flight.preset(os.fspath(path))
+        return Flight.preset(name)
 
     def __repr__(self) -> str:
         return f"<wingbeat.Flight {self.name}: {self.steps} steps of {self.step_s:.4g} s>"
 
     def set(self, key: str | Mapping[str, Any], value: Any = _UNSET) -> Flight:
         """A new flight with a key of the case at another value, e.g. ``set("motion.frequency_hz", 210)``, or several
-        by a dict; None takes a key out of the case. All keys: docs/case-keys.md.
+        by a dict; None takes a key out of the case. Files are named by texts or ``pathlib.Path``. All keys: docs/case-keys.md.
         """
         items: Mapping[str, Any] = key if isinstance(key, Mapping) else {key: value}
         sets = []
@@ -111,7 +113,7 @@ class Flight:
             raise CaseError("with_motion: no angle is given", key="motion", remedy="phi_deg, theta_deg or psi_deg")
         names = [name for name, _ in self._core.wings]
         if wing is not None and wing not in names:
-            raise CaseError(f"wing = {wing!r}: there is none of this name", key="wing", remedy=", ".join(names))
+            raise CaseError(f"wing = {wing!r:.60}: there is none of this name", key="wing", remedy=", ".join(names))
         wings = [name for name, side in self._core.wings if side > 0] if wing is None else [wing]
         keys = {
             f"wing.{name}.motion.{angle}": {"table": {"rows_deg": rows}}
@@ -230,13 +232,14 @@ class Flight:
         progress: bool | Progress | None = None,
         frames: bool = True,
     ) -> Run:
-        """Flies it to its end, in memory or into the new result directory ``out``.
+        """Flies it to its end, in memory or into the new result directory ``out``; a folder that exists is refused.
 
         ``progress`` is called with steps done and all steps; True shows a bar (tqdm where there is one). ``frames=False``
         keeps no surfaces and wakes in memory. Other threads run meanwhile. Ctrl-C stops the flight: with ``out`` its
         state is saved, and ``wingbeat resume`` goes on from it. Whatever exception ends a flight, what was flown is its
         ``run``: None if it ended at its start.
         """
+        folder = None if out is None else path("out", out)
         if out is not None and self._core.is_own:
             raise CaseError(
                 "out: this flight has parts written in Python, which no case of a result holds",
@@ -244,7 +247,6 @@ class Flight:
                 remedy="fly() in memory, then run.write(FOLDER)",
             )
         bar = shown(progress, self.name, "step")
-        folder = None if out is None else os.fspath(out)
         run, error = self._core.fly(folder, bar, frames)
         if error is not None:
             _keep(error, None if run is None else Run(run))
@@ -272,9 +274,9 @@ class Flight:
         steps: int = 100,
     ) -> Trim:
         """Steady flight with this mean velocity (forward, to the right, up) and turn (to the right) as a periodic orbit, in
-        air without memory, feedback left out. Three ``unknowns`` are chosen by it; six where the flight turns, slips or
-        has wings that differ; those beyond for least power. ``bounds`` are of unknowns, in radians, parts of 1,
-        wingbeats (``feathering_lead``) and wing lengths forward (``mass_centre``). See
+        air without memory, feedback left out, and the tether of a case that has one (``flight.mode``). Three ``unknowns`` are
+        chosen by it; six where the flight turns, slips or has wings that differ; those beyond for least power. ``bounds`` are
+        of unknowns, in radians, parts of 1, wingbeats (``feathering_lead``) and wing lengths forward (``mass_centre``). See
         docs/flight-mechanics.md.
         """
         velocity = _velocity(forward_m_per_s, sideslip_m_per_s, climb_m_per_s)
@@ -345,13 +347,18 @@ class Flight:
 
 
 class Stepper:
-    """A flight in progress."""
+    """A flight in progress. Its own controller and air, which are called within a step, cannot ask for it: they are refused;
+    other threads wait for the end of the step.
+    """
 
     def __init__(self, core: _core.Stepper) -> None:
         self._core = core
 
     def __repr__(self) -> str:
-        return f"<wingbeat.Stepper after step {self.steps_done}>"
+        try:
+            return f"<wingbeat.Stepper after step {self.steps_done}>"
+        except CaseError:  # asked by its own controller or air
+            return "<wingbeat.Stepper within a step>"
 
     def __reduce__(self) -> NoReturn:
         raise CaseError(
@@ -378,6 +385,7 @@ class Stepper:
         its ``run``.
         """
         number = whole("count", count, 0, sys.maxsize)
+        self._core.check()
         try:
             return self._core.step(number)
         except BaseException as error:
@@ -409,19 +417,7 @@ class Stepper:
         """Velocity of the air at points, both N components of shape (n, 3) [m, m/s], a single point as (3,) too: vortex lattice
         only.
         """
-        import numpy as np
-
-        points = reals("points_m", points_m)
-        if points.ndim not in (1, 2) or points.shape[-1] != 3 or not np.isfinite(points).all():
-            what = f"an array of shape {points.shape}" if np.isfinite(points).all() else "a number is not finite"
-            remedy = "finite coordinates, shape (n, 3) or (3,)"
-            raise CaseError(f"points_m: {what}", key="points_m", remedy=remedy)
-        velocity = self._core.air_velocity(points)
-        if velocity is None:
-            raise CaseError(
-                "the air of this flight is no vortex lattice", key="air.model", remedy='air.model = "vortex_lattice"'
-            )
-        return velocity
+        return self._core.air_velocity(points_m)
 
     @property
     def run(self) -> Run:
@@ -466,12 +462,12 @@ def _asked(
     names = None if unknowns is None or isinstance(unknowns, str) else list(unknowns)
     if unknowns is not None and (names is None or not all(isinstance(name, str) for name in names)):
         remedy = "as ('body_pitch', 'stroke_amplitude', 'stroke_offset')"
-        raise CaseError(f"unknowns = {unknowns!r}: not a list of names", key="unknowns", remedy=remedy)
+        raise CaseError(f"unknowns = {unknowns!r:.60}: not a list of names", key="unknowns", remedy=remedy)
     try:
         ranges = [(name, float(least), float(most)) for name, (least, most) in (bounds or {}).items()]
     except (AttributeError, TypeError, ValueError):
         raise CaseError(
-            f"bounds = {bounds!r}: not pairs by name", key="bounds", remedy="as {'stroke_amplitude': (-0.2, 0.2)}"
+            f"bounds = {bounds!r:.60}: not pairs by name", key="bounds", remedy="as {'stroke_amplitude': (-0.2, 0.2)}"
         ) from None
     return velocity, turn_rate, names, ranges
 
@@ -512,7 +508,7 @@ def shown(progress: bool | Progress | None, name: str, unit: str) -> Progress | 
         return _bar(name, unit) if progress else None
     if not callable(progress):
         raise CaseError(
-            f"progress = {progress!r}: cannot be called",
+            f"progress = {progress!r:.60}: cannot be called",
             key="progress",
             remedy="True for a bar, or a function of what is done and of all",
         )

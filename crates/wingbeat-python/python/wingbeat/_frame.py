@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NoReturn, Self
 
 from wingbeat import _core
+from wingbeat.errors import CaseError
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -59,6 +60,19 @@ class Frame:
 
     def __repr__(self) -> str:
         return f"<wingbeat.Frame of step {self.step}: {len(self.wakes)} wake sheets>"
+
+    def __reduce__(self) -> NoReturn:
+        raise CaseError(
+            "a frame cannot be pickled",
+            key="frame",
+            remedy="its arrays (surface, wakes, particles), or fly(out=DIR), from which frames are read again",
+        )
+
+    def __copy__(self) -> Self:
+        return self  # it never changes
+
+    def __deepcopy__(self, memo: dict[int, Any]) -> Self:
+        return self
 
     @property
     def step(self) -> int:

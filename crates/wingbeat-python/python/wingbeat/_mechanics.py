@@ -5,11 +5,12 @@ from __future__ import annotations
 import os
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, Generic, TypeVar
+from typing import TYPE_CHECKING, Any, Generic, NoReturn, Self, TypeVar
 
 from wingbeat import _core
 from wingbeat._own import Adjustment
-from wingbeat.errors import AnalysisError, ResultError
+from wingbeat._paths import path as plain_path
+from wingbeat.errors import AnalysisError, CaseError, ResultError
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -91,10 +92,11 @@ class LinearModel:
         import numpy as np
         from scipy.io import savemat
 
-        if os.path.exists(path) and not overwrite:
-            raise ResultError(f"{os.fspath(path)} exists already", key=os.fspath(path), remedy="overwrite=True, or another file")
+        name = plain_path("path", path)
+        if os.path.exists(name) and not overwrite:
+            raise ResultError(f"{name} exists already", key=name, remedy="overwrite=True, or another file")
         texts = {k: np.array(v, dtype=object) for k, v in self.to_dict().items() if isinstance(v, list)}
-        savemat(os.fspath(path), self.to_dict() | texts)
+        savemat(name, self.to_dict() | texts)
 
 
 @dataclass(frozen=True)
@@ -156,7 +158,22 @@ class _Trimmed(Generic[_Core]):
 
     def __repr__(self) -> str:
         found = "converged" if self.converged else "NOT converged"
+        if self.outside_bounds:
+            found = f"{found}, OUTSIDE its bounds ({', '.join(self.outside_bounds)})"
         return f"<wingbeat.{type(self).__name__} {found}: largest residual {abs(self.residual).max():.1e}>"
+
+    def __reduce__(self) -> NoReturn:
+        raise CaseError(
+            "a trim cannot be pickled",
+            key="trim",
+            remedy="the numbers that are needed of it, or flight() if it is of a case: that can be, and trims again from there",
+        )
+
+    def __copy__(self) -> Self:
+        return self  # it never changes
+
+    def __deepcopy__(self, memo: dict[int, Any]) -> Self:
+        return self
 
     @property
     def converged(self) -> bool:

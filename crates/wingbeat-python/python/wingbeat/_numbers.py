@@ -18,18 +18,29 @@ def whole(key: str, number: Any, least: int, most: int) -> int:
     except TypeError:
         plain = least - 1
     if not least <= plain <= most:
-        raise CaseError(f"{key} = {number!r}: out of range", key=key, remedy=f"a whole number from {least} to {most}")
+        raise CaseError(f"{key} = {number!r:.60}: out of range", key=key, remedy=f"a whole number from {least} to {most}")
     return plain
 
 
 def real(key: str, number: Any) -> float:
-    """A real number; texts that read like one are none."""
+    """A real number; texts that read like one and truth values are none."""
     try:
-        if isinstance(number, str | bytes):
+        if isinstance(number, str | bytes | bool) or getattr(number, "dtype", None) == bool:
             raise TypeError
         return float(number)
     except (TypeError, ValueError, OverflowError):
-        raise CaseError(f"{key} = {number!r}: no number", key=key, remedy="a number") from None
+        raise CaseError(f"{key} = {number!r:.60}: no number", key=key, remedy="a number") from None
+
+
+def points(key: str, given: Any) -> NDArray[Any]:
+    """Points, finite, in rows of three coordinates; a single one as three numbers."""
+    import numpy as np
+
+    array = reals(key, given)
+    if array.ndim not in (1, 2) or array.shape[-1] != 3 or not np.isfinite(array).all():
+        what = f"an array of shape {array.shape}" if np.isfinite(array).all() else "a number is not finite"
+        raise CaseError(f"{key}: {what}", key=key, remedy="finite coordinates, shape (n, 3) or (3,)")
+    return array.reshape(-1, 3)
 
 
 def reals(key: str, numbers: Any, kind: Any = float) -> NDArray[Any]:

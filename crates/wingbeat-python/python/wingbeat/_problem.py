@@ -113,9 +113,9 @@ class Problem:
         from wingbeat import _gradient
 
         if not 0.0 < real("first_step", first_step) <= 0.05:
-            raise CaseError(f"first_step = {first_step!r}: no part of a range", key="first_step", remedy="above 0, up to 0.05")
+            raise CaseError(f"first_step = {first_step!r:.60}: no part of a range", key="first_step", remedy="above 0, up to 0.05")
         if not 0.0 < real("relative", relative) < 1.0:
-            raise CaseError(f"relative = {relative!r}: no part of a number", key="relative", remedy="above 0, below 1, e.g. 1e-7")
+            raise CaseError(f"relative = {relative!r:.60}: no part of a number", key="relative", remedy="above 0, below 1, e.g. 1e-7")
         points = np.atleast_2d(reals("x", x))
         if points.shape[1:] != self.lower.shape or not ((self.lower <= points) & (points <= self.upper)).all():
             raise CaseError("x: not within the bounds of the variables", key="x", remedy="lower <= x <= upper, shape (d,) or (n, d)")
@@ -178,7 +178,7 @@ def _bounds(variables: Mapping[str, tuple[float, float]]) -> dict[str, tuple[flo
             low = high = float("nan")
         if not -float("inf") < low < high < float("inf"):
             remedy = "a lower and a larger upper bound, both finite"
-            raise CaseError(f"variables: {key} = {pair!r}: no range", key=str(key), remedy=remedy)
+            raise CaseError(f"variables: {key} = {pair!r:.60}: no range", key=str(key), remedy=remedy)
         found[key] = (low, high)
     return found
 
@@ -190,7 +190,7 @@ def _objectives(given: str | Iterable[str] | Mapping[str, str]) -> dict[str, str
         raise CaseError("objectives: none is given", key="objectives", remedy="names of numbers, e.g. ['power_watt']")
     for name, sense in found.items():
         if sense not in ("min", "max"):
-            raise CaseError(f"objectives: {name} = {sense!r}", key="objectives", remedy="'min' or 'max'")
+            raise CaseError(f"objectives: {name} = {sense!r:.60}", key="objectives", remedy="'min' or 'max'")
     return found
 
 
@@ -205,6 +205,6 @@ def _constraints(given: Bounds) -> dict[str, tuple[float | None, float | None]]:
             least = most = None  # not a number
         if least is most is None or (least is not None and most is not None and not least <= most):
             remedy = "the least and the most that is allowed, as (1.0, None)"
-            raise CaseError(f"constraints: {name} = {pair!r}: no bounds", key="constraints", remedy=remedy)
+            raise CaseError(f"constraints: {name} = {pair!r:.60}: no bounds", key="constraints", remedy=remedy)
         found[name] = (least, most)
     return found

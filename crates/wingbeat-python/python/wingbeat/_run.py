@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any
 from wingbeat import _core
 from wingbeat._case import Part
 from wingbeat._frame import Frame
+from wingbeat._paths import path
 from wingbeat.errors import CaseError
 
 if TYPE_CHECKING:
@@ -28,7 +29,7 @@ def read(dir: str | os.PathLike[str]) -> Run:
 
     Raises :class:`wingbeat.ResultError` for a directory that holds no run, or whose files were changed.
     """
-    return Run(_core.Run.read(os.fspath(dir)))
+    return Run(_core.Run.read(path("dir", dir)))
 
 
 @dataclass(frozen=True, slots=True)
@@ -220,11 +221,11 @@ class Run:
 
     def write(self, dir: str | os.PathLike[str]) -> None:
         """Writes ``history.csv``, ``summary.txt`` and ``summary.json`` into the new folder ``dir``."""
-        self._core.write(os.fspath(dir))
+        self._core.write(path("dir", dir))
 
     def export(
         self, format: str, into: str | os.PathLike[str] | None = None, *, overwrite: bool = False
     ) -> list[Path]:
         """Exports a result directory as ``hdf5``, ``parquet``, ``vtkhdf`` or ``gltf``; the files written."""
-        folder = None if into is None else os.fspath(into)
+        folder = None if into is None else path("into", into)
         return [Path(file) for file in self._core.export(format, folder, overwrite)]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 import re
 from collections.abc import Iterable, Mapping
 from typing import Any
@@ -13,7 +14,9 @@ _BARE = re.compile(r"[A-Za-z0-9_-]+")
 
 
 def value(x: Any, key: str) -> str:
-    """``x``, which ``key`` gets, as TOML: numbers, texts, truth values, lists, arrays and dicts of them."""
+    """``x``, which ``key`` gets, as TOML: numbers, texts, paths, truth values, lists, arrays and dicts of them."""
+    if isinstance(x, os.PathLike):
+        x = os.fspath(x)
     if hasattr(x, "tolist"):  # numpy
         x = x.tolist()
     if isinstance(x, bool):

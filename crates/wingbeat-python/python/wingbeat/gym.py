@@ -58,12 +58,19 @@ gust    0.1        0.05           0.02            one horizontal gust, see below
 The gust is a single pulse that is even in space, no turbulence: it rises and falls as ``(1 - cos(2 pi t / (4 T))) / 2`` over four
 wingbeats. Its peak is drawn evenly from 0.2 to 0.5 R / T, its direction from all horizontal ones, its beginning from 2 T to 20 T
 after the start. Starts and noise of the sensors follow from the seed of ``reset`` and the number of the episode since.
+
+``save()`` gives what environments remember, which can be pickled, and ``restore(state)`` goes on from there with the same
+bits: to try several actions from one state, or to go on another day.
 """
 
 from __future__ import annotations
 
 import inspect
-from collections.abc import Sequence
+import operator
+import threading
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from copy import deepcopy as copy_of
 from difflib import get_close_matches
 from typing import TYPE_CHECKING, Any, NoReturn, Self
 
@@ -75,21 +82,48 @@ from gymnasium.vector.utils import batch_space
 from wingbeat import _core
 from wingbeat._flight import Flight
 from wingbeat._numbers import reals, whole
+from wingbeat._saved import SavedState
 from wingbeat.errors import AnalysisError, CaseError
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-__all__ = ["TASKS", "Environment", "VectorEnvironment"]
+__all__ = ["TASKS", "Environment", "SavedState", "VectorEnvironment"]
 
 TASKS = tuple(_core.Fleet.TASKS)
 _OBSERVED, _CONTROLS = _core.Fleet.OBSERVED, _core.Fleet.CONTROLS
 
 
+_Gymnasium = gymnasium.Env[Any, Any] | gymnasium.vector.VectorEnv[Any, Any, Any]
+
+
+def _bits(state: dict[str, Any]) -> np.random.BitGenerator:
+    """The generator of this state, of the kind that it names."""
+    bits: np.random.BitGenerator = getattr(np.random, state["bit_generator"])()
+    bits.state = copy_of(state)
+    return bits
+
+
 def _size(key: str, number: float, most: float) -> float:
     if isinstance(number, bool) or not isinstance(number, int | float | np.number) or not 0.0 <= number <= most:
-        raise CaseError(f"{key} = {number!r}: out of range", key=key, remedy=f"a number from 0 to {most}")
+        raise CaseError(f"{key} = {number!r:.60}: out of range", key=key, remedy=f"a number from 0 to {most}")
     return float(number)
+
+
+def _seed(number: Any) -> int:
+    """A whole number that is not negative, as gymnasium has seeds."""
+    try:
+        plain = -1 if isinstance(number, bool) else operator.index(number)
+    except TypeError:
+        plain = -1
+    if plain < 0:
+        raise CaseError(f"seed = {number!r:.60}: out of range", key="seed", remedy="a whole number from 0 on")
+    return plain
+
+
+def _folded(seed: int) -> int:
+    """The seed of the core, 64 bits: itself, or what larger ones are hashed to."""
+    return seed if seed < 2**64 else int(np.random.SeedSequence(seed).generate_state(1, np.uint64)[0])
 
 
 def _check_plain(flight: Flight) -> None:
@@ -99,6 +133,12 @@ def _check_plain(flight: Flight) -> None:
             "flight: it has a controller, and actions are the only commands here",
             key="control.controller",
             remedy='a flight without one: set("control.controller", "none"), or leave out with_controller',
+        )
+    if flight._core.is_tethered:
+        raise CaseError(
+            "flight: it is tethered, and episodes are free flights",
+            key="flight.mode",
+            remedy='set("flight.mode", "free")',
         )
     if flight._core.held_beats > 0.0:
         raise CaseError(
@@ -110,6 +150,9 @@ def _check_plain(flight: Flight) -> None:
 
 def _check_options(options: dict[str, Any] | None, *known: str) -> None:
     """Refuses options of ``reset`` that are not known."""
+    if options is not None and not isinstance(options, Mapping):
+        remedy = f"a dict with {', '.join(known)}, or None" if known else "leave it out"
+        raise CaseError(f"options = {options!r:.60}: no dict", key="options", remedy=remedy)
     for name in options or {}:
         if name not in known:
             near = get_close_matches(str(name), known, 1)
@@ -137,7 +180,7 @@ class _Uncopied:
         raise CaseError(
             f"wingbeat.gym.{type(self).__name__} cannot be copied or pickled: its flyers cannot",
             key="environment",
-            remedy="keep its settings, its seed and the actions since reset(seed=...): the same ones give the same bits",
+            remedy="keep its settings and save(), from which restore() goes on; or seed and actions since reset(seed=...)",
         )
 
 
@@ -186,12 +229,18 @@ class _Fleet(_Uncopied):
         flight = Flight.preset("fruit-fly-blade") if flight is None else flight
         if not isinstance(flight, Flight):
             remedy = "Flight.preset(NAME) or Flight.from_case(FILE)"
-            raise CaseError(f"flight = {flight!r}: no Flight", key="flight", remedy=remedy)
+            raise CaseError(f"flight = {flight!r:.60}: no Flight", key="flight", remedy=remedy)
+        if not isinstance(task, str):
+            raise CaseError(f"task = {task!r:.60}: no name", key="task", remedy=", ".join(TASKS))
         _check_plain(flight)
         trim = flight.trim(steps=steps)
         trim._check()
+        self.is_seeded = False
+        self._lock = threading.Lock()
         self.count = whole("num_envs", count, 1, 1_000_000)
         self.period_s = trim.period_s
+        told = {"num_envs": self.count, "steps_per_beat": steps, "controls_per_beat": controls, "flight": flight.case_text}
+        self._settings = settings | told
         seeds = np.random.default_rng().integers(2**63, size=self.count)  # until reset() gives others
         self.core = trim._core.fleet(settings, [int(s) for s in seeds])
         self.observed = np.zeros((self.count, _OBSERVED), np.float32)
@@ -202,9 +251,46 @@ class _Fleet(_Uncopied):
         self.observation_space = gymnasium.spaces.Box(-np.inf, np.inf, (_OBSERVED,), np.float32)
         self.action_space = gymnasium.spaces.Box(-1.0, 1.0, (_CONTROLS,), np.float32)
 
+    def first(self, seed: int | None, of: _Gymnasium) -> int | None:
+        """The seed to begin with: before any was given that which gymnasium draws for its own generator."""
+        is_drawn = seed is None and not self.is_seeded
+        drawn = of.np_random_seed if is_drawn else seed
+        return None if drawn is None or drawn < 0 else drawn  # negative: a generator of the user's
+
+    @contextmanager
+    def alone(self) -> Iterator[_core.Fleet]:
+        """The environments, which one thread has at a time."""
+        if not self._lock.acquire(blocking=False):
+            raise CaseError(
+                "another thread steps these environments, or they are asked within their own step",
+                key="environment",
+                remedy="an environment for each thread, or a threading.Lock about its calls",
+            )
+        try:
+            yield self.core
+        finally:
+            self._lock.release()
+
     def reset(self, seeds: Sequence[int | None], mask: Sequence[bool]) -> None:
-        seeds = [None if s is None else whole("seed", s, 0, 2**64 - 1) for s in seeds]
-        self.core.reset(seeds, list(mask), self.observed)
+        with self.alone() as core:
+            core.reset([None if s is None else _folded(s) for s in seeds], list(mask), self.observed)
+            self.is_seeded = True
+
+    def save(self, of: _Gymnasium) -> SavedState:
+        generator = of._np_random
+        drawn = None if generator is None else copy_of(dict(generator.bit_generator.state))
+        with self.alone() as core:
+            return SavedState(dict(self._settings), *core.save(), (of._np_random_seed, drawn, self.is_seeded))
+
+    def restore(self, state: Any, of: _Gymnasium) -> None:
+        if not isinstance(state, SavedState):
+            raise CaseError(f"state = {state!r:.60}: none", key="state", remedy="what save() gave")
+        state.check(self._settings)
+        with self.alone() as core:
+            counts, numbers, regulators = map(np.ascontiguousarray, (state.counts, state.numbers, state.regulators))
+            core.restore(counts, numbers, regulators, self.observed)
+            of._np_random_seed, drawn, self.is_seeded = state.generator
+            of._np_random = None if drawn is None else np.random.Generator(_bits(drawn))
 
     def step(self, actions: Any) -> bool:
         """Whether any episode has ended."""
@@ -212,11 +298,14 @@ class _Fleet(_Uncopied):
         if plain.shape != (self.count, _CONTROLS):
             remedy = f"shape ({self.count}, {_CONTROLS})"
             raise CaseError(f"actions: an array of shape {plain.shape}", key="actions", remedy=remedy)
-        return self.core.step(plain, self.observed, self.last, self.rewards, self.terminated, self.truncated)
+        with self.alone() as core:
+            return core.step(plain, self.observed, self.last, self.rewards, self.terminated, self.truncated)
 
     def regulated(self) -> NDArray[np.float32]:
         actions = np.zeros((self.count, _CONTROLS), np.float32)
-        if not self.core.regulate(actions):
+        with self.alone() as core:
+            is_possible = core.regulate(actions)
+        if not is_possible:
             raise AnalysisError(
                 "the regulator looks once per wingbeat, at once", remedy="controls_per_beat = 1 and delay = 0"
             )
@@ -287,11 +376,13 @@ class Environment(_Uncopied, gymnasium.Env[Any, Any]):
         self.action_space = self._fleet.action_space
 
     def reset(self, *, seed: int | None = None, options: dict[str, Any] | None = None) -> tuple[Any, dict[str, Any]]:
-        """A new episode; the first of ``seed``, else the next one (before any seed, one drawn at random)."""
+        """A new episode; the first of ``seed``, else the next one. Before any seed ``np_random_seed`` is drawn at random, which
+        repeats the episodes when it is given as the seed.
+        """
         _check_options(options)
-        seed = None if seed is None else whole("seed", seed, 0, 2**64 - 1)
+        seed = None if seed is None else _seed(seed)
         super().reset(seed=seed)
-        self._fleet.reset([seed], [True])
+        self._fleet.reset([self._fleet.first(seed, self)], [True])
         return self._fleet.observed[0].copy(), {}
 
     def step(self, action: Any) -> tuple[Any, float, bool, bool, dict[str, Any]]:
@@ -303,6 +394,16 @@ class Environment(_Uncopied, gymnasium.Env[Any, Any]):
         fleet.step(plain[np.newaxis])
         ended = bool(fleet.terminated[0]), bool(fleet.truncated[0])
         return fleet.observed[0].copy(), float(fleet.rewards[0]), *ended, {}
+
+    def save(self) -> SavedState:
+        """What it remembers now: :meth:`restore` goes on from there with the same bits, here or in another environment."""
+        return self._fleet.save(self)
+
+    def restore(self, state: SavedState) -> NDArray[np.float32]:
+        """Goes on from what :meth:`save` of an environment with the same settings gave; the observation then."""
+        self._fleet.restore(state, self)
+        observed: NDArray[np.float32] = self._fleet.observed[0].copy()
+        return observed
 
     def regulated(self) -> NDArray[np.float32]:
         """What the linear-quadratic regulator would do now, shape (4,): a baseline. It remembers: once per step."""
@@ -342,7 +443,7 @@ class VectorEnvironment(_Uncopied, gymnasium.vector.VectorEnv[Any, Any, Any]):
             mode = AutoresetMode(autoreset_mode)
         except ValueError:
             names = ", ".join(m.value for m in AutoresetMode)
-            raise CaseError(f"autoreset_mode = {autoreset_mode!r}", key="autoreset_mode", remedy=names) from None
+            raise CaseError(f"autoreset_mode = {autoreset_mode!r:.60}", key="autoreset_mode", remedy=names) from None
         if render_mode is not None:
             raise CaseError("render_mode: there is none", key="render_mode", remedy="leave it out")
         self._fleet = _Fleet(
@@ -373,20 +474,28 @@ class VectorEnvironment(_Uncopied, gymnasium.vector.VectorEnv[Any, Any, Any]):
     def reset(
         self, *, seed: int | Sequence[int | None] | None = None, options: dict[str, Any] | None = None
     ) -> tuple[Any, dict[str, Any]]:
-        """New episodes, of the seeds ``seed + k`` or those of a list; where ``options["reset_mask"]`` says, if given."""
+        """New episodes, of the seeds ``seed + k`` or those of a list; where ``options["reset_mask"]`` says, if given.
+
+        Without a seed each is the next of its environment. Before any seed ``np_random_seed`` is drawn at random, which repeats
+        the episodes when it is given as the seed; ``np_random`` follows from it, of a list from its first seed.
+        """
         _check_options(options, "reset_mask")
         count = self.num_envs
-        if isinstance(seed, Sequence | np.ndarray):
-            seeds: list[int | None] = list(seed)
+        if isinstance(seed, Sequence | np.ndarray) and not isinstance(seed, str | bytes):
+            seeds = [None if s is None else _seed(s) for s in seed]
+            first = next((s for s in seeds if s is not None), None)
         else:
-            first = None if seed is None else whole("seed", seed, 0, 2**64 - count)
-            seeds = [None if first is None else first + k for k in range(count)]
+            first = None if seed is None else _seed(seed)
+            begun = self._fleet.first(first, self)
+            seeds = [None if begun is None else begun + k for k in range(count)]
         mask = np.ones(count, np.bool_) if options is None else options.get("reset_mask", np.ones(count, np.bool_))
         if len(seeds) != count:
             raise CaseError(f"seed: {len(seeds)} of them for {count} environments", key="seed", remedy=f"{count} seeds")
-        if np.shape(mask) != (count,):
-            problem = f"reset_mask: an array of shape {np.shape(mask)}"
-            raise CaseError(problem, key="reset_mask", remedy=f"shape ({count},), True where an episode begins")
+        if np.shape(mask) != (count,) or np.asarray(mask).dtype != bool:
+            problem = f"reset_mask: an array of {np.asarray(mask).dtype}, shape {np.shape(mask)}"
+            remedy = f"truth values, shape ({count},), True where an episode begins"
+            raise CaseError(problem, key="reset_mask", remedy=remedy)
+        super().reset(seed=first)
         self._fleet.reset(seeds, [bool(x) for x in mask])
         observed = self._fleet.observed
         return (observed.copy() if self._copy else observed), {}
@@ -407,17 +516,28 @@ class VectorEnvironment(_Uncopied, gymnasium.vector.VectorEnv[Any, Any, Any]):
             return fleet.observed.copy(), fleet.rewards.copy(), *ends, info
         return fleet.observed, fleet.rewards, fleet.terminated, fleet.truncated, info
 
+    def save(self) -> SavedState:
+        """What all remember now: :meth:`restore` goes on from there with the same bits, here or in other environments."""
+        return self._fleet.save(self)
+
+    def restore(self, state: SavedState) -> NDArray[np.float32]:
+        """Goes on from what :meth:`save` of environments with the same settings gave; the observations then."""
+        self._fleet.restore(state, self)
+        return self._fleet.observed.copy() if self._copy else self._fleet.observed
+
     def regulated(self) -> NDArray[np.float32]:
         """What the linear-quadratic regulator would do now, shape (num_envs, 4): a baseline. It remembers: once per step."""
         return self._fleet.regulated()
 
     def distances_m(self) -> NDArray[np.float64]:
         """Distances of the mass centres from their targets, without noise, shape (num_envs,) [m]."""
-        return np.array(self._fleet.core.distances())
+        with self._fleet.alone() as core:
+            return np.array(core.distances())
 
     def core_seconds(self, count: int) -> float:
         """Seconds that ``count`` control steps of all take within Rust: what Python adds is seen beside it."""
-        return self._fleet.core.core_seconds(whole("count", count, 0, 10**9))
+        with self._fleet.alone() as core:
+            return core.core_seconds(whole("count", count, 0, 10**9))
 
 
 for _task in TASKS:

@@ -5,6 +5,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 mod actuators;
+mod felt;
 mod joints;
 mod refusals;
 #[path = "../support/mod.rs"]

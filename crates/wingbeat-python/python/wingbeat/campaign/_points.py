@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterable, Iterator, Mapping
 from typing import TYPE_CHECKING, Any
 
@@ -75,7 +76,7 @@ def _of_columns(given: Mapping[Any, Any]) -> Points:
         if not isinstance(key, str) or not key:
             raise _wrong(f"{key!r} is no key")
         try:
-            columns[key] = np.asarray(column)
+            columns[key] = np.asarray(_texts(column))
         except ValueError:
             raise _wrong(f"{key}: values of several shapes") from None
         if columns[key].dtype == object and all(isinstance(item, str) for item in columns[key].flat):
@@ -91,6 +92,18 @@ def _of_columns(given: Mapping[Any, Any]) -> Points:
             raise _wrong(f"{key} has {length} values, others have {count}")
     every = {key: c if c.ndim else np.full(count, c) for key, c in columns.items()}
     return Points(every, count)
+
+
+def _texts(column: Any) -> Any:
+    """Paths as the texts that they are."""
+    if isinstance(column, os.PathLike):
+        return os.fspath(column)
+    is_plain = hasattr(column, "dtype") and column.dtype != object
+    if is_plain or isinstance(column, str | bytes) or not isinstance(column, Iterable):
+        return column
+    items = list(column)
+    is_path = [isinstance(item, os.PathLike) for item in items]
+    return [os.fspath(x) if p else x for x, p in zip(items, is_path, strict=True)] if any(is_path) else column
 
 
 def _with_gaps(column: NDArray[Any], key: str) -> NDArray[Any]:

@@ -56,6 +56,12 @@ class Task:
 
     @staticmethod
     def _number(numbers: Mapping[str, Any], name: str) -> float:
+        if not isinstance(numbers, Mapping):
+            raise CaseError(
+                f"do: the function gave {numbers!r:.60}, a value of type {type(numbers).__name__}",
+                key="do",
+                remedy="a function that returns a dict of numbers by the names in keep",
+            )
         if name not in numbers:
             raise CaseError(f"keep = {name!r}: the function gave {', '.join(map(str, numbers)) or 'nothing'}", key="keep")
         number = float(numbers[name])

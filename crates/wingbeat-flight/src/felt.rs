@@ -1,0 +1,26 @@
+//! The air that a controller feels at a look.
+
+use std::sync::Arc;
+
+use wingbeat_air::Points;
+
+/// Velocities [m/s] at points [m], N components; none where there are none.
+type Velocities = dyn Fn(&Points) -> Option<Points> + Send + Sync;
+
+/// The vortex lattice and its wakes at a look, as they are at the end of the step in which it falls. It can be
+/// kept: the flight goes on without it.
+#[derive(Clone)]
+pub struct FeltAir(Arc<Velocities>);
+
+impl FeltAir {
+    /// Air of these velocities.
+    pub fn new(velocity: impl Fn(&Points) -> Option<Points> + Send + Sync + 'static) -> Self {
+        Self(Arc::new(velocity))
+    }
+
+    /// Velocity of the air [m/s] at `points` [m], N components, as [`crate::Simulation::air_velocity`] has it
+    /// after the step.
+    pub fn velocity(&self, points: &Points) -> Option<Points> {
+        self.0(points)
+    }
+}
