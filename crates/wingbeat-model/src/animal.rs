@@ -2,7 +2,7 @@
 
 use crate::deformation::{Deformation, span};
 use crate::error::ModelError;
-use crate::integrate::{scaled_properties, solid};
+use crate::integrate::scaled_properties;
 use crate::mesh::{GridMesh, QuadMesh, Side};
 use crate::motion::WingMotion;
 use crate::structure::{Blank, WingStructure};
@@ -112,6 +112,9 @@ pub struct BodyPart {
     pub name: String,
     /// Closed surface in the body frame \[m\], normals outward.
     pub mesh: QuadMesh,
+    /// Volume \[m3\] and centre of what it encloses, body frame \[m\]: of a surface of revolution those of the round
+    /// solid, whatever the panels.
+    pub enclosed: (f64, DVec3),
     /// Mass properties about the origin of the body frame (zero where the mass is given for the
     /// whole body).
     pub mass: MassProperties,
@@ -171,9 +174,9 @@ impl Animal {
     pub fn body_centre(&self) -> DVec3 {
         /// Part of the size of the parts that moving the origin leaves as rounding.
         const ROUNDING: f64 = 1e-12;
-        let solids = self.parts.iter().map(|p| solid(&p.mesh, 1.0));
-        let (volume, moment) = solids.fold((0.0, DVec3::ZERO), |(v, s), p| {
-            (v + p.mass, s + p.first_moment)
+        let solids = self.parts.iter().map(|p| p.enclosed);
+        let (volume, moment) = solids.fold((0.0, DVec3::ZERO), |(v, s), (volume, centre)| {
+            (v + volume, s + volume * centre)
         });
         if volume <= 0.0 {
             return self.body.centre();
@@ -213,6 +216,7 @@ impl Animal {
         let part = |p: &BodyPart| BodyPart {
             name: p.name.clone(),
             mesh: p.mesh.map(|x| x * s),
+            enclosed: (p.enclosed.0 * s.powi(3), p.enclosed.1 * s),
             mass: scaled_properties(&p.mass, s),
         };
         let segment = |x: &Segment| Segment {

@@ -16,12 +16,8 @@ impl BodyPart {
     /// A mesh that is not closed and outward, a mass that is not allowed.
     pub fn new(name: &str, mesh: QuadMesh, mass: &MassInput) -> Result<Self, ModelError> {
         mesh.check_closed(name)?;
-        let mass = mass.of_solid(name, &integrate::solid(&mesh, 1.0))?;
-        Ok(Self {
-            name: name.to_owned(),
-            mesh,
-            mass,
-        })
+        let solid = integrate::solid(&mesh, 1.0);
+        Self::enclosing(name, mesh, &solid, mass)
     }
 
     /// A surface of revolution. Its mass is that of the round solid, its panels are the surface in the air.
@@ -33,8 +29,33 @@ impl BodyPart {
         shape: &Revolution,
         mass: &MassInput,
     ) -> Result<Self, ModelError> {
-        let round = mass.of_solid(name, &shape.solid(name, 1.0)?)?;
-        Self::new(name, shape.mesh(name)?, &MassInput::Given(round))
+        let round = shape.solid(name, 1.0)?;
+        Self::enclosing(name, shape.mesh(name)?, &round, mass)
+    }
+
+    /// A part within this mesh, of the shape of a `solid` of density 1 kg/m3.
+    fn enclosing(
+        name: &str,
+        mesh: QuadMesh,
+        solid: &MassProperties,
+        mass: &MassInput,
+    ) -> Result<Self, ModelError> {
+        Ok(Self {
+            name: name.to_owned(),
+            mesh,
+            enclosed: (solid.mass, solid.centre()),
+            mass: mass.of_solid(name, solid)?,
+        })
+    }
+
+    /// The same in a frame whose origin is at `origin` \[m\]; axes keep their directions.
+    pub fn about(&self, origin: DVec3) -> Self {
+        Self {
+            name: self.name.clone(),
+            mesh: self.mesh.map(|x| x - origin),
+            enclosed: (self.enclosed.0, self.enclosed.1 - origin),
+            mass: self.mass.moved(DMat3::IDENTITY, -origin),
+        }
     }
 }
 
@@ -135,11 +156,6 @@ impl Animal {
     /// their directions.
     pub fn with_origin(&self, origin: DVec3) -> Self {
         let moved = |m: &MassProperties| m.moved(DMat3::IDENTITY, -origin);
-        let part = |p: &BodyPart| BodyPart {
-            name: p.name.clone(),
-            mesh: p.mesh.map(|x| x - origin),
-            mass: moved(&p.mass),
-        };
         let wing = |w: &Wing| Wing {
             hinge_b: w.hinge_b - origin,
             ..w.clone()
@@ -151,15 +167,15 @@ impl Animal {
         Self {
             name: self.name.clone(),
             body: moved(&self.body),
-            parts: self.parts.iter().map(part).collect(),
+            parts: self.parts.iter().map(|p| p.about(origin)).collect(),
             wings: self.wings.iter().map(wing).collect(),
             segments: self.segments.iter().map(segment).collect(),
         }
     }
 }
 
-/// Scales surfaces of revolution about the origin so that their meshes together extend
-/// `length` \[m\] along b1: the body length L is kept as given.
+/// Scales surfaces of revolution about the origin so that they together extend `length` \[m\] along b1, as round as
+/// they are: the body length L is kept as given.
 ///
 /// # Errors
 /// A length that is not positive, or a shape that is not allowed.
@@ -167,8 +183,8 @@ pub fn fit_body_length(shapes: &[Revolution], length: f64) -> Result<Vec<Revolut
     positive("body.length", length)?;
     let mut ends = [f64::INFINITY, f64::NEG_INFINITY];
     for shape in shapes {
-        let [lo, hi] = shape.mesh("body part")?.bounds();
-        ends = [ends[0].min(lo.x), ends[1].max(hi.x)];
+        let [low, high] = shape.ends_along_b1("body part")?;
+        ends = [ends[0].min(low), ends[1].max(high)];
     }
     let factor = length / positive("extent of the body parts along b1", ends[1] - ends[0])?;
     Ok(shapes.iter().map(|s| s.scaled(factor)).collect())

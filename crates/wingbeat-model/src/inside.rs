@@ -127,11 +127,8 @@ mod tests {
         let mass = MassInput::Total(0.1);
         let right = Wing::new("right", Side::Right, hinge, &shape, &mass, motion).unwrap();
         let trunk = Revolution::ellipsoid(DVec3::ZERO, 2.0, 0.5, [16, 48]);
-        let part = BodyPart {
-            name: "trunk".into(),
-            mesh: trunk.mesh("trunk").unwrap(),
-            mass: MassProperties::point(0.1, DVec3::ZERO),
-        };
+        let mass = MassInput::Given(MassProperties::point(0.1, DVec3::ZERO));
+        let part = BodyPart::revolution("trunk", &trunk, &mass).unwrap();
         Animal {
             name: "inside".into(),
             body: right.mass,

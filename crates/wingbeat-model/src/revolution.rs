@@ -40,6 +40,23 @@ impl Profile {
         }
     }
 
+    /// The largest of `along (1 - 2 s) + across r(s)` over the stations, `across` not negative: how far a tilted shape
+    /// reaches.
+    fn reach(&self, [along, across]: [f64; 2]) -> f64 {
+        match self {
+            Profile::Ellipsoid => along.hypot(across),
+            // With |z|^n + r^n = 1 it is the norm of the conjugate exponent [Hoelder].
+            Profile::Superellipse { exponent: n } if across > 0.0 => {
+                let q = n / (n - 1.0);
+                (along.abs().powf(q) + across.powf(q)).powf(1.0 / q)
+            }
+            Profile::Superellipse { .. } => along.abs(),
+            Profile::Table(rows) => (rows.iter())
+                .map(|(s, r)| along * (1.0 - 2.0 * s) + across * r)
+                .fold(f64::NEG_INFINITY, f64::max),
+        }
+    }
+
     /// The integrals over the station of `r^2`, `r^2 z`, `r^2 z^2` and `r^4`, with `z = s - 1/2` \[1\]: exact.
     fn moments(&self) -> [f64; 4] {
         match self {
@@ -169,6 +186,21 @@ impl Revolution {
         let second = DMat3::from_diagonal(DVec3::splat(across)) + outer(axis) * (along - across);
         let about_middle = from_moments(volume * mass_per_volume, first_moment, second);
         Ok(about_middle.moved(DMat3::IDENTITY, self.centre))
+    }
+
+    /// Where the surface itself begins and ends along b1 \[m\], whatever the panels of its mesh.
+    ///
+    /// # Errors
+    /// As [`Self::mesh`].
+    pub fn ends_along_b1(&self, name: &str) -> Result<[f64; 2], ModelError> {
+        self.check(name)?;
+        let axis = self.direction.normalize();
+        let across = (axis.y * axis.y + axis.z * axis.z).sqrt();
+        let reach = |forward: f64| {
+            let along = 0.5 * self.length * axis.x * forward;
+            self.profile.reach([along, self.radius * across])
+        };
+        Ok([self.centre.x - reach(-1.0), self.centre.x + reach(1.0)])
     }
 
     /// All lengths multiplied by `s`.

@@ -23,13 +23,7 @@ pub(super) fn split(case: &Case, animal: &mut Animal) -> Built<()> {
             name: name.clone(),
             origin_b: origin,
             mass: shifted(&mass),
-            parts: (parts.iter())
-                .map(|p| BodyPart {
-                    name: p.name.clone(),
-                    mesh: p.mesh.map(|x| x - origin),
-                    mass: shifted(&p.mass),
-                })
-                .collect(),
+            parts: parts.iter().map(|p| p.about(origin)).collect(),
         });
     }
     if lumped && !case.segment.is_empty() {

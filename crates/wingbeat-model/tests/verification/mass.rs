@@ -4,7 +4,8 @@ use crate::gap;
 use wingbeat_math::{DMat3, DVec3, MassProperties, r1, r3};
 use wingbeat_model::species::{FlyOptions, drosophila_melanogaster};
 use wingbeat_model::{
-    BodyPart, MassInput, Planform, Profile, QuadMesh, Revolution, Side, WingShape, integrate,
+    Animal, BodyMass, BodyPart, MassInput, Planform, Profile, QuadMesh, Revolution, Side,
+    WingShape, fit_body_length, integrate,
 };
 
 /// A box of edges `e` with its lowest corner at `p`.
@@ -85,6 +86,58 @@ fn exact_mass_of_a_round_ellipsoid_whatever_its_panels() {
         assert!(close(&part(MassInput::Density(rho)), &expected, 1e-14));
         assert!(close(&part(MassInput::Total(m)), &expected, 1e-14));
     }
+}
+
+/// A tilted ellipsoid reaches sqrt((a u)^2 + (b v)^2) to either side; other shapes what their panels come to.
+#[test]
+fn exact_lengths_and_centres_of_bodies_whatever_their_panels() {
+    let table = vec![(0.0, 0.0), (0.25, 0.9), (0.5, 1.0), (1.0, 0.0)];
+    let profiles = [
+        Profile::Ellipsoid,
+        Profile::Superellipse { exponent: 3.0 },
+        Profile::Superellipse { exponent: 1.5 },
+        Profile::Table(table),
+    ];
+    for profile in profiles {
+        let ends = slanted(profile.clone(), [6, 8])
+            .ends_along_b1("part")
+            .unwrap();
+        let fine = slanted(profile.clone(), [240, 480])
+            .mesh("part")
+            .unwrap()
+            .bounds();
+        for (exact, panels) in ends.iter().zip(fine) {
+            // Panels of a table's corners, of second order elsewhere.
+            assert!(
+                (exact - panels.x).abs() < 1e-3,
+                "{profile:?}: {ends:?} {fine:?}"
+            );
+        }
+        let fitted = |panels| fit_body_length(&[slanted(profile.clone(), panels)], 3.0).unwrap();
+        assert_eq!(fitted([6, 8])[0].length, fitted([20, 30])[0].length);
+    }
+    let round = slanted(Profile::Ellipsoid, [6, 8]);
+    let axis = round.direction.normalize();
+    let reach = (axis.x.powi(2) + 0.16 * (1.0 - axis.x.powi(2))).sqrt();
+    let [low, high] = round.ends_along_b1("part").unwrap();
+    assert!((low - (0.3 - reach)).abs() < 1e-15 && (high - (0.3 + reach)).abs() < 1e-15);
+
+    let centre = |stations: usize| {
+        let ahead = Revolution::ellipsoid(DVec3::new(2.0, 0.0, 0.0), 1.0, 0.3, [stations, 6]);
+        let parts = [("a", slanted(Profile::Ellipsoid, [6, 8])), ("b", ahead)];
+        let part = |(name, shape): (&str, Revolution)| {
+            BodyPart::revolution(name, &shape, &MassInput::Density(1.0)).unwrap()
+        };
+        let parts = parts.map(part).to_vec();
+        let animal = Animal::new("two", BodyMass::FromParts, parts, vec![]).unwrap();
+        // Of the density 1, the mass centre is that of the volume.
+        let apart = animal.body_centre() - animal.body.centre();
+        assert!(apart.length() < 1e-14, "{apart:?}");
+        let scaled = animal.scaled(2.0).unwrap().body_centre();
+        assert!((scaled - 2.0 * animal.body_centre()).length() < 1e-14);
+        animal.body_centre()
+    };
+    assert_eq!(centre(4), centre(12));
 }
 
 #[test]
