@@ -57,6 +57,11 @@ fn case(setup: &FlightSetup, like: Option<&LoadedCase>) -> Written<Case> {
     if !(same_animal && old.is_some_and(|old| same(&old.air, air))) {
         case.air = air::write(air)?;
         animal::join(&mut case, animal, air);
+        // Parts are written as meshes, whose volumes are not those of round bodies.
+        let drag = case.air.blade.body_drag.as_mut();
+        if let Some(drag) = drag.filter(|d| d.centre_m.is_none() && !same_animal) {
+            drag.centre_m = Some(animal.body_centre().to_array());
+        }
     }
     let same_time = old.is_some_and(|old| old.time == *time);
     if !(same_animal && same_time) {
