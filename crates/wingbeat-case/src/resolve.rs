@@ -87,7 +87,10 @@ fn dynamics(case: &mut Case) {
         true => Formulation::Quaternion,
         false => Formulation::Momentum,
     });
-    let bends = case.wing.values().any(|w| w.structure.is_some());
+    let bends = case
+        .wing
+        .values()
+        .any(|w| w.structure.as_ref().is_some_and(|s| !s.rigid));
     case.dynamics.integrator.decide(match case.air.model {
         AirModel::None if !bends => IntegratorCase::OrderEight,
         AirModel::VortexLattice if has_free => IntegratorCase::Bdf,

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use wingbeat_case::LoadedCase;
+use wingbeat_case::{LoadedCase, case_of};
 
 use crate::idle::ANIMAL;
 use crate::slips::refusal;
@@ -69,4 +69,40 @@ fn refuses_a_hinge_far_off_with_what_may_carry_it() {
         &["wing.right.hinge_m=[-9e-3, 0.1e-3, 0]"],
     );
     assert!(said.contains("a slim [body.part.boom]"), "{said}");
+}
+
+/// A rigid wing beside an elastic one: said by one key, kept by what is written of the setup, refused where it is
+/// nothing.
+#[test]
+fn behaves_one_wing_of_a_pair_may_be_rigid() {
+    let load = |preset: &str, set: &[&str]| {
+        let set: Vec<String> = set.iter().map(|s| (*s).to_owned()).collect();
+        LoadedCase::find(preset, &set)
+    };
+    let rigid = ["wing.left.structure.rigid=true", "air.mirror=false"];
+    let case = load("hawkmoth-elastic", &rigid).unwrap();
+    let bends = |setup: &wingbeat_flight::FlightSetup| -> Vec<(String, bool)> {
+        let wings = setup.animal.wings.iter();
+        wings
+            .map(|w| (w.name.clone(), w.structure.is_some()))
+            .collect()
+    };
+    let wanted = [("left".to_owned(), false), ("right".to_owned(), true)];
+    assert_eq!(bends(&case.setup), wanted);
+    let [left, right] = &case.setup.animal.wings[..] else {
+        panic!("two wings")
+    };
+    assert!((left.mass.mass / right.mass.mass - 1.0).abs() < 1e-14);
+    assert_eq!(bends(&case_of(&case.setup, None).unwrap().setup), wanted);
+    for (preset, key, says) in [
+        ("hawkmoth-blade", rigid[0], "true has no effect"),
+        (
+            "hawkmoth-elastic",
+            "wing.left.structure={ rigid = true, damping_s = 1e-4 }",
+            "made of nothing that bends",
+        ),
+    ] {
+        let said = load(preset, &[key]).unwrap_err().to_string();
+        assert!(said.contains(says), "{said}");
+    }
 }

@@ -55,7 +55,7 @@ pub(crate) fn refused(case: &Case, setup: &FlightSetup, error: &FlightError) -> 
 /// The key of a wing, or that of the wing of which it is the mirror image.
 fn of_wing(case: &Case, wing: &str, key: &str) -> String {
     let has = |w: &WingCase| match key {
-        "structure" => w.structure.is_some(),
+        "structure" => w.structure.as_ref().is_some_and(|s| !s.rigid),
         _ => w.deformation.is_some(),
     };
     let own = case.wing.get(wing).filter(|w| has(w)).map(|_| wing);

@@ -107,6 +107,10 @@ fn build(
     };
     let (from, made, _) = source.of(|w| w.structure.is_some());
     match &made.structure {
+        Some(case) if case.rigid => {
+            check_rigid(&source, case)?;
+            Ok(wing)
+        }
         Some(case) => {
             check_mass_of_structure(&source, case, wing.mass.mass)?;
             structure::make(wing, &format!("wing.{from}.structure"), case)
@@ -133,10 +137,41 @@ fn motion_of(case: &Case, source: &Source<'_>, side: Side) -> Built<WingMotion> 
     motion::law(case, source.name, source.own, side, base.as_ref())
 }
 
+/// A wing is said to be rigid beside a counterpart that is not, and nothing else of it.
+fn check_rigid(source: &Source<'_>, case: &StructureCase) -> Built<()> {
+    let key = format!("wing.{}.structure", source.name);
+    let plain = StructureCase {
+        rigid: true,
+        ..StructureCase::default()
+    };
+    if *case != plain {
+        return Err(Fault::new(
+            key,
+            "a wing that is rigid is made of nothing that bends",
+            "rigid = true alone",
+            "remove the other keys of the structure, or rigid",
+        ));
+    }
+    let other = source.counterpart.and_then(|(_, w)| w.structure.as_ref());
+    match other.is_some_and(|s| !s.rigid) {
+        true => Ok(()),
+        false => Err(Fault::new(
+            format!("{key}.rigid"),
+            "true has no effect: its counterpart on the other side is not elastic",
+            "true beside an elastic counterpart",
+            "remove [wing.NAME.structure]: wings without one are rigid",
+        )),
+    }
+}
+
 /// A structure has the `mass` of the wing \[kg\] spread evenly, or its own.
 fn check_mass_of_structure(source: &Source<'_>, made: &StructureCase, mass: f64) -> Built<()> {
-    let (name, wing, _) = source.of(has_mass);
-    if structure::own_mass(made).is_none() && mass <= 0.0 {
+    let (name, wing, taken) = source.of(has_mass);
+    let has_own = structure::own_mass(made).is_some();
+    if has_own && taken && source.own.structure.is_some() {
+        return Ok(()); // the mass is the counterpart's alone
+    }
+    if !has_own && mass <= 0.0 {
         let key = match wing.areal_density_kg_m2 {
             Some(_) => "areal_density_kg_m2",
             None => "mass_kg",
@@ -325,7 +360,9 @@ fn mass(source: &Source<'_>) -> Built<MassInput> {
     let (_, made, _) = source.of(|w| w.structure.is_some());
     let own = made.structure.as_ref().and_then(structure::own_mass);
     if let Some(key) = own {
-        return match has_mass(wing) {
+        // The mass of a counterpart is not taken where the structure has one.
+        let is_given = has_mass(wing) && !(mirrored && source.own.structure.is_some());
+        return match is_given {
             false => Ok(MassInput::Total(0.0)),
             true => Err(Fault::new(
                 format!("wing.{}.structure.{key}", source.name),

@@ -8,6 +8,11 @@ use smart_default::SmartDefault;
 #[derive(Clone, Debug, PartialEq, SmartDefault, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct StructureCase {
+    /// Whether this wing is rigid though its counterpart on the other side is elastic; nothing else then stands here.
+    ///
+    /// Change it to true for the wing of a pair that does not bend.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub rigid: bool,
     /// A beam along the span with rigid sections across it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub beam: Option<BeamCase>,

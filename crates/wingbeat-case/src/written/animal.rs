@@ -6,7 +6,9 @@ use wingbeat_model::{Animal, BodyPart, Wing};
 
 use super::motion;
 use super::refusal::{Written, no_keys, same};
-use crate::raw::{AnimalCase, BodyCase, Case, PartCase, PlanformCase, WingCase, WingInertia};
+use crate::raw::{
+    AnimalCase, BodyCase, Case, PartCase, PlanformCase, StructureCase, WingCase, WingInertia,
+};
 use crate::sides::mirror_name;
 
 /// The animal by its meshes and masses. Segments and the body they are parts of stay what they are in the case.
@@ -116,7 +118,18 @@ fn wing_case(wing: &Wing, all: &[Wing]) -> WingCase {
     let nodes = mesh.nodes.chunks(mesh.cols + 1);
     let row = |row: &[wingbeat_math::DVec3]| row.iter().map(|x| x.to_array()).collect();
     let counterpart = mirror_name(name);
-    let alone = counterpart.is_some_and(|counterpart| all.iter().all(|w| w.name != counterpart));
+    let other = (counterpart.as_ref()).and_then(|other| all.iter().find(|w| w.name == *other));
+    let alone = counterpart.is_some() && other.is_none();
+    let structure = match structure {
+        Some(structure) => Some(super::structure::case(structure)),
+        // It would be taken from the other one.
+        None => other
+            .filter(|w| w.structure.is_some())
+            .map(|_| StructureCase {
+                rigid: true,
+                ..StructureCase::default()
+            }),
+    };
     WingCase {
         side: Some(*side),
         mirror: alone.then_some(false),
@@ -130,7 +143,7 @@ fn wing_case(wing: &Wing, all: &[Wing]) -> WingCase {
         inertia_about_centre_kg_m2,
         motion: Some(motion::own(motion)),
         deformation: deformation.as_ref().map(motion::deformation),
-        structure: structure.as_ref().map(super::structure::case),
+        structure,
         joined: None,
     }
 }

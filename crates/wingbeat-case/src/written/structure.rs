@@ -27,6 +27,7 @@ pub(super) fn case(structure: &WingStructure) -> StructureCase {
         ),
     };
     StructureCase {
+        rigid: false,
         beam,
         shell,
         vein,
