@@ -18,7 +18,7 @@ class SavedState:
     """
 
     settings: dict[str, Any]
-    """Of the environments, with the text of the case that is flown."""
+    """Of the environments, with the text of the case that is flown; of several flights all of them."""
     counts: NDArray[Any]
     """Seed, episodes since, control steps, integration steps, whether the episode is over; shape (environments, 5)."""
     numbers: NDArray[Any]
@@ -36,7 +36,17 @@ class SavedState:
         for name, own in settings.items():
             saved = self.settings.get(name)
             if saved != own:
-                told = "another flight" if name == "flight" else f"{name} = {saved!r:.60}, here it is {own!r:.60}"
+                told = _other(saved, own) if name == "flight" else f"{name} = {saved!r:.60}, here it is {own!r:.60}"
                 raise CaseError(
                     f"state: it was saved with {told}", key="state", remedy="environments with the same settings and flight"
                 )
+
+
+def _other(saved: Any, own: Any) -> str:
+    """What is said of a flight, or several, that are not those flown here."""
+    if isinstance(saved, str) and isinstance(own, str):
+        return "another flight"
+    saved, own = ((x,) if isinstance(x, str) else tuple(x) for x in (saved, own))
+    if len(saved) != len(own):
+        return f"another number of flights, {len(saved)}: here there are {len(own)}"
+    return f"another flight[{next(k for k, text in enumerate(own) if text != saved[k])}]"
