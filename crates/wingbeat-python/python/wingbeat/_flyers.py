@@ -36,7 +36,7 @@ class Flyers:
             raise CaseError("flight: a sequence without any", key="flight", remedy="one Flight at least")
         for name, flight in zip(self.names, flights, strict=True):
             if not isinstance(flight, Flight):
-                remedy = "Flight.preset(NAME) or Flight.from_case(FILE), or a list or tuple of such flights"
+                remedy = "Flight.preset(NAME) or Flight.from_case(FILE); several as a list or tuple, in VectorEnvironment"
                 raise CaseError(f"{name} = {flight!r:.60}: no Flight", key="flight", remedy=remedy)
         if not self._is_one:
             self.names = [f"{name} ({flight.name:.60})" for name, flight in zip(self.names, flights, strict=True)]

@@ -22,9 +22,9 @@ class SavedState:
     counts: NDArray[Any]
     """Seed, episodes since, control steps, integration steps, whether the episode is over; shape (environments, 5)."""
     numbers: NDArray[Any]
-    """Of the episodes, shape (environments, any)."""
+    """Of the episodes, shape (environments, any); of several flights rows that are shorter end in zeros."""
     regulators: NDArray[Any]
-    """Of the regulators, shape (environments, any)."""
+    """Of the regulators, likewise."""
     generator: tuple[int | None, dict[str, Any] | None, bool]
     """Seed and state of gymnasium's generator, None where it is not drawn yet; whether a seed was given."""
 

@@ -59,6 +59,11 @@ The gust is a single pulse that is even in space, no turbulence: it rises and fa
 wingbeats. Its peak is drawn evenly from 0.2 to 0.5 R / T, its direction from all horizontal ones, its beginning from 2 T to 20 T
 after the start. Starts and noise of the sensors follow from the seed of ``reset`` and the number of the episode since.
 
+**Several flights**: a :class:`VectorEnvironment` takes a list or tuple of them as ``flight``, and environment k flies
+``flight[k % len(flight)]``: animals, airs and strokes that are drawn, say. Each has its own trimmed flight, R, T, target and
+regulator; ``wing_lengths_m`` and ``periods_s`` are R and T of each environment. Keywords are the same for all: steps are parts of
+each flyer's own wingbeat, so that one control step is as many wingbeats of all, not as many seconds; noise has its SI units.
+
 ``save()`` gives what environments remember, which can be pickled, and ``restore(state)`` goes on from there with the same
 bits: to try several actions from one state, or to go on another day.
 """
@@ -119,7 +124,7 @@ class Environment(Uncopied, gymnasium.Env[Any, Any]):
     keyword                    default     allowed           what
     ========================== =========== ================= ============================================================
     ``task``                   ``"hover"`` ``TASKS``         what is to be done
-    ``flight``                 None        in blade elements the flyer; None: the preset ``fruit-fly-blade``
+    ``flight``                 None        in blade elements the flyer, one; None: the preset ``fruit-fly-blade``
     ``steps_per_beat``         40          20 to 2000        integration steps of a wingbeat
     ``controls_per_beat``      1           1 and more        control steps of a wingbeat, a divisor of ``steps_per_beat``
     ``beats``                  100         1 to 1e6          wingbeats of an episode
@@ -214,6 +219,9 @@ class Environment(Uncopied, gymnasium.Env[Any, Any]):
 
 class VectorEnvironment(Uncopied, gymnasium.vector.VectorEnv[Any, Any, Any]):
     """Many flyers, stepped by one call on all threads. Keywords as those of :class:`Environment`.
+
+    ``flight`` may be a list or tuple of flights here, of which environment k flies number ``k % len(flight)``; each is trimmed
+    once. States that are saved are of these flights in this order.
 
     Observations, rewards and ends are arrays that the next step writes again: copy what is kept (``copy=True`` does it).
     ``autoreset_mode`` is ``NextStep``, ``SameStep`` (``info["final_obs"]``) or ``Disabled`` (``reset(options={"reset_mask": ...})``), as
