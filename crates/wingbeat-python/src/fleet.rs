@@ -214,7 +214,7 @@ fn padded<'a>(rows: impl Iterator<Item = &'a [f64]> + Clone) -> (Vec<f64>, usize
 
 /// Of a state that other environments have saved.
 fn foreign(py: Python<'_>) -> PyErr {
-    let remedy = "the state of environments with the same settings and the same flight";
+    let remedy = "the state of environments with the same settings and the same flights";
     refused(py, "state", "it is that of other environments", remedy)
 }
 
