@@ -142,6 +142,19 @@ def test_agrees_what_goes_on_from_a_state_with_what_was_saved(name):
         assert same(followed(other, range(3, 12)), once)
 
 
+def test_agrees_what_goes_on_where_one_regulator_remembers_more():
+    """That of a fly whose abdomen is on a spring has the joint's states besides."""
+    spring = Flight.preset("fruit-fly-abdomen-spring").set("air.model", "blade_element")
+    envs = VectorEnvironment(COUNT, flight=[FLY, spring])
+    envs.reset(seed=SEED)
+    followed(envs, range(2))
+    state = envs.save()
+    assert not state.regulators[::2, -1].any() and state.regulators[1::2, -1].all()
+    once = followed(envs, range(2, 6))
+    envs.restore(state)
+    assert same(followed(envs, range(2, 6)), once)
+
+
 def test_refuses_states_of_other_flights():
     state = VectorEnvironment(3, flight=FLIGHTS).save()
     others = {
