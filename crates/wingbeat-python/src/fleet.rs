@@ -7,11 +7,12 @@ use pyo3::PyTraverseError;
 use pyo3::gc::PyVisit;
 use pyo3::prelude::*;
 use rayon::prelude::*;
-use wingbeat::analysis::control::{CONTROLS, Regulator, Weights};
-use wingbeat::analysis::episode::{Course, Episode, Kept, OBSERVED, Task};
-use wingbeat::analysis::{AnalysisError, Trim};
+use wingbeat::analysis::AnalysisError;
+use wingbeat::analysis::control::{CONTROLS, Regulator};
+use wingbeat::analysis::episode::{Episode, Kept, OBSERVED, SharedModel, Task};
 
 use crate::arrays::array;
+use crate::course::{Course, Shared};
 use crate::errors::{broken, named, raised, refused};
 use crate::own::Parts;
 use crate::threads::detached;
@@ -19,6 +20,8 @@ use crate::threads::detached;
 /// An episode that is stepped over and over.
 struct Cell {
     episode: Episode,
+    /// What it shares with the others of its flight.
+    shared: Arc<Shared>,
     /// The last step ended it.
     is_done: bool,
     /// Gains and memory of the regulator; none where it does not fit.
@@ -42,105 +45,41 @@ impl Autoreset {
     ];
 }
 
-/// A vector of episodes of one task.
+/// A vector of episodes of one task. Several flights take turns: that of episode k is number k modulo their
+/// count.
 #[pyclass(frozen, module = "wingbeat._core")]
 pub struct Fleet {
-    course: Arc<Course>,
     cells: Mutex<Vec<Cell>>,
+    /// How many flights there are.
+    flights: usize,
     autoreset: Autoreset,
-    /// At the start of an episode.
-    regulator: Option<Regulator>,
-    /// Parts of the flyer that are written in Python.
-    parts: Parts,
+    /// Parts of the flyers that are written in Python, flight by flight.
+    parts: Vec<Parts>,
 }
 
-/// Settings of a fleet: a dictionary of Python.
-#[derive(FromPyObject)]
-#[pyo3(from_item_all)]
-pub struct Settings {
-    /// Name of the task.
-    task: String,
-    /// Integration steps from one control to the next.
-    interval: usize,
-    /// Wingbeats of an episode.
-    beats: usize,
-    /// Limit of relative amplitudes \[1\].
-    amplitude_limit: f64,
-    /// Limit of angles [rad].
-    angle_limit_rad: f64,
-    /// Control steps from sensing to observing.
-    delay: usize,
-    /// Standard deviation of places that are sensed [m].
-    position_noise_m: f64,
-    /// Of velocities [m/s].
-    velocity_noise_m_per_s: f64,
-    /// Of the tilt [rad].
-    tilt_noise_rad: f64,
-    /// Of angular velocities [rad/s].
-    rate_noise_rad_per_s: f64,
-    /// Name of the autoreset mode.
-    autoreset_mode: String,
-}
-
-impl Settings {
-    /// What they make of episodes about `trim`.
-    fn course(&self, task: Task, trim: Trim) -> Result<Course, AnalysisError> {
-        let mut course = Course::new(task, trim)?;
-        (course.interval, course.beats, course.delay) = (self.interval, self.beats, self.delay);
-        let (limits, noise) = (&mut course.limits, &mut course.sensors.noise);
-        (limits.amplitude, limits.angle) = (self.amplitude_limit, self.angle_limit_rad);
-        (noise.position, noise.velocity) = (self.position_noise_m, self.velocity_noise_m_per_s);
-        (noise.tilt, noise.rate) = (self.tilt_noise_rad, self.rate_noise_rad_per_s);
-        Ok(course)
-    }
-}
-
-impl Fleet {
-    /// Episodes about the trimmed flight `trim`, of these seeds.
-    pub fn of(
-        py: Python<'_>,
-        trim: Trim,
-        settings: Settings,
-        seeds: Vec<u64>,
-        parts: Parts,
-    ) -> PyResult<Self> {
-        let autoreset = named(
-            py,
-            "autoreset_mode",
-            &settings.autoreset_mode,
-            &Autoreset::ALL,
-        )?;
-        let task = named(py, "task", &settings.task, &Task::ALL)?;
-        let built = detached(py, move || {
-            let course = settings.course(task, trim)?;
-            let is_per_beat = course.interval == course.trim.beat.steps() && course.delay == 0;
-            let regulator =
-                is_per_beat.then(|| Regulator::new(&course.trim, &Weights::default(), 0).ok());
-            let (course, regulator) = (Arc::new(course), regulator.flatten());
-            let group = group(seeds.len());
-            let grouped = seeds.par_chunks(group).map(|seeds| {
-                let model = course.model()?;
-                let cell = |seed: &u64| {
-                    Ok(Cell {
-                        episode: Episode::new(Arc::clone(&course), &model, *seed)?,
-                        is_done: false,
-                        regulator: regulator.clone(),
-                    })
-                };
-                seeds.iter().map(cell).collect::<Result<Vec<Cell>, _>>()
-            });
-            let cells: Result<Vec<Vec<Cell>>, AnalysisError> = grouped.collect();
-            let cells = cells.map(|groups| groups.into_iter().flatten().collect());
-            Ok(Self {
-                cells: Mutex::new(cells?),
-                course,
-                autoreset,
-                regulator,
-                parts,
+/// Episodes of `courses`, which take turns, of these seeds. Neighbours of one flight share a model.
+fn cells(courses: &[Arc<Shared>], seeds: &[u64]) -> Result<Vec<Cell>, AnalysisError> {
+    let (group, count) = (group(seeds.len()), courses.len());
+    let grouped = seeds.par_chunks(group).enumerate().map(|(chunk, seeds)| {
+        let mut models: Vec<Option<SharedModel>> = vec![None; count.min(seeds.len())];
+        let cell = |(k, seed): (usize, &u64)| {
+            let shared = &courses[(chunk * group + k) % count];
+            let slot = &mut models[k % count];
+            let model = match slot {
+                Some(model) => model,
+                None => slot.insert(shared.course.model()?),
+            };
+            Ok(Cell {
+                episode: Episode::new(Arc::clone(&shared.course), model, *seed)?,
+                regulator: shared.regulator.clone(),
+                shared: Arc::clone(shared),
+                is_done: false,
             })
-        })?;
-        built.map_err(|e: AnalysisError| raised(py, &e.into()))
-    }
+        };
+        seeds.iter().enumerate().map(cell).collect()
+    });
+    let cells: Result<Vec<Vec<Cell>>, AnalysisError> = grouped.collect();
+    Ok(cells?.into_iter().flatten().collect())
 }
 
 /// How many episodes take turns with one model: neighbours, which fly in one thread.
@@ -153,14 +92,15 @@ fn group(count: usize) -> usize {
 }
 
 impl Cell {
-    fn reset(
-        &mut self,
-        seed: Option<u64>,
-        regulator: &Option<Regulator>,
-    ) -> Result<(), AnalysisError> {
-        self.regulator.clone_from(regulator);
+    fn reset(&mut self, seed: Option<u64>) -> Result<(), AnalysisError> {
+        self.regulator.clone_from(&self.shared.regulator);
         self.is_done = false;
         self.episode.reset(seed)
+    }
+
+    /// What the regulator remembers; nothing where there is none.
+    fn memory(&self) -> Vec<f64> {
+        self.regulator.iter().flat_map(Regulator::memory).collect()
     }
 
     fn observe(&self, out: &mut [f32]) {
@@ -209,39 +149,39 @@ impl<'a> Rows<'a> {
         })
     }
 
-    /// Steps all, over threads in groups of at most `most`; by itself if that is all.
+    /// Steps all, over threads in groups of at most `most`; by itself if that is all. Those of one of so many
+    /// `flights` come one after the other, so that its model stays in the caches.
     fn step(
         mut self,
         most: usize,
+        flights: usize,
         autoreset: Autoreset,
-        regulator: &Option<Regulator>,
     ) -> Result<(), AnalysisError> {
         let count = self.cells.len();
         if count <= most {
-            return (0..count).try_for_each(|k| self.step_one(k, autoreset, regulator));
+            let mut of_one = |first: usize| {
+                let mut all = (first..count).step_by(flights);
+                all.try_for_each(|k| self.step_one(k, autoreset))
+            };
+            return (0..flights.min(count)).try_for_each(&mut of_one);
         }
         let groups = count.div_ceil(most);
         let first = self.split_off(most * groups.div_ceil(2));
         let first = first.expect("more than that");
         let (one, other) = rayon::join(
-            || first.step(most, autoreset, regulator),
-            || self.step(most, autoreset, regulator),
+            || first.step(most, flights, autoreset),
+            || self.step(most, flights, autoreset),
         );
         one.and(other)
     }
 
     /// Steps number `k`.
-    fn step_one(
-        &mut self,
-        k: usize,
-        autoreset: Autoreset,
-        regulator: &Option<Regulator>,
-    ) -> Result<(), AnalysisError> {
+    fn step_one(&mut self, k: usize, autoreset: Autoreset) -> Result<(), AnalysisError> {
         let (cell, own) = (&mut self.cells[k], OBSERVED * k..OBSERVED * (k + 1));
         let observed = &mut self.observed[own.clone()];
         let (reward, lost, over) = match cell.is_done && autoreset == Autoreset::NextStep {
             true => {
-                cell.reset(None, regulator)?;
+                cell.reset(None)?;
                 (0.0, false, false)
             }
             false => {
@@ -257,23 +197,54 @@ impl<'a> Rows<'a> {
         cell.observe(observed);
         if cell.is_done && autoreset == Autoreset::SameStep {
             self.last[own].copy_from_slice(observed);
-            cell.reset(None, regulator)?;
+            cell.reset(None)?;
             cell.observe(observed);
         }
         Ok(())
     }
 }
 
+/// Rows one after the other, zeros behind those that are shorter than the longest; the length of a row.
+fn padded<'a>(rows: impl Iterator<Item = &'a [f64]> + Clone) -> (Vec<f64>, usize) {
+    let width = rows.clone().map(<[f64]>::len).max().unwrap_or(0);
+    let zeros = |row: &[f64]| std::iter::repeat_n(0.0, width - row.len());
+    let all = rows.flat_map(|row| row.iter().copied().chain(zeros(row)));
+    (all.collect(), width)
+}
+
 /// Of a state that other environments have saved.
 fn foreign(py: Python<'_>) -> PyErr {
-    let remedy = "the state of environments with the same settings and the same flight";
+    let remedy = "the state of environments with the same settings and the same flights";
     refused(py, "state", "it is that of other environments", remedy)
 }
 
 #[pymethods]
 impl Fleet {
     fn __traverse__(&self, visit: PyVisit<'_>) -> Result<(), PyTraverseError> {
-        self.parts.traverse(&visit)
+        self.parts.iter().try_for_each(|own| own.traverse(&visit))
+    }
+
+    /// Episodes of `courses`, which take turns, one for each seed.
+    #[new]
+    fn new(
+        py: Python<'_>,
+        courses: Vec<PyRef<'_, Course>>,
+        autoreset_mode: &str,
+        seeds: Vec<u64>,
+    ) -> PyResult<Self> {
+        let autoreset = named(py, "autoreset_mode", autoreset_mode, &Autoreset::ALL)?;
+        let shared: Vec<_> = courses.iter().map(|c| Arc::clone(&c.shared)).collect();
+        let parts = courses.iter().map(|c| c.parts.copy(py)).collect();
+        if shared.is_empty() || seeds.is_empty() {
+            return Err(broken());
+        }
+        let built = detached(py, || cells(&shared, &seeds))?;
+        Ok(Self {
+            cells: Mutex::new(built.map_err(|e| raised(py, &e.into()))?),
+            flights: shared.len(),
+            autoreset,
+            parts,
+        })
     }
 
     /// Names of the tasks.
@@ -313,7 +284,7 @@ impl Fleet {
             let rows = rows.zip(&seeds).zip(&mask);
             Some(rows.try_for_each(|(((cell, out), seed), chosen)| {
                 if *chosen {
-                    cell.reset(*seed, &self.regulator)?;
+                    cell.reset(*seed)?;
                 }
                 cell.observe(out);
                 Ok::<(), AnalysisError>(())
@@ -357,7 +328,7 @@ impl Fleet {
                 truncated: &mut *truncated,
             };
             let fit = rows.fit();
-            fit.then(|| rows.step(most, self.autoreset, &self.regulator))
+            fit.then(|| rows.step(most, self.flights, self.autoreset))
         })?;
         stepped
             .ok_or_else(broken)?
@@ -365,23 +336,24 @@ impl Fleet {
         Ok(terminated.iter().chain(truncated.iter()).any(|x| *x))
     }
 
-    /// What the linear-quadratic regulator would do now, into `actions`; it remembers, so once per step. False
-    /// where it does not fit: controls within a wingbeat, a delay.
-    fn regulate(&self, mut actions: PyReadwriteArray2<'_, f32>) -> PyResult<bool> {
-        let limits = &self.course.limits;
-        let sizes = limits.sizes();
+    /// What the linear-quadratic regulator would do now, into `actions`; it remembers, so once per step. Zeros
+    /// where it does not fit.
+    fn regulate(&self, mut actions: PyReadwriteArray2<'_, f32>) -> PyResult<()> {
         let mut cells = self.cells.lock().unwrap_or_else(PoisonError::into_inner);
         let rows = actions.as_slice_mut()?.as_chunks_mut::<CONTROLS>().0;
         for (cell, row) in cells.iter_mut().zip(rows) {
             let Some(regulator) = &mut cell.regulator else {
-                return Ok(false);
+                row.fill(0.0);
+                continue;
             };
+            let limits = &cell.shared.course.limits;
+            let sizes = limits.sizes();
             let d = cell.episode.seen_on_the_way();
             let u = limits.applied(regulator.controls(&d));
             regulator.remember(&d, u, limits.reached(&u));
             *row = std::array::from_fn(|i| (u[i] / sizes[i]) as f32);
         }
-        Ok(true)
+        Ok(())
     }
 
     /// Seconds that `count` control steps take within Rust: what Python adds to it is seen beside it.
@@ -404,7 +376,7 @@ impl Fleet {
                     terminated: &mut terminated,
                     truncated: &mut truncated,
                 };
-                rows.step(group(n), Autoreset::NextStep, &self.regulator)?;
+                rows.step(group(n), self.flights, Autoreset::NextStep)?;
             }
             Ok(begun.elapsed().as_secs_f64())
         })?;
@@ -412,21 +384,21 @@ impl Fleet {
     }
 
     /// Everything that the environments remember: counts, shape (environments, 5), numbers, and those of the
-    /// regulators, (environments, any).
+    /// regulators, (environments, any): rows of flyers that remember less end in zeros.
     fn save<'py>(&self, py: Python<'py>) -> PyResult<[Bound<'py, PyAny>; 3]> {
-        let (mut counts, mut numbers, mut regulators) = (vec![], vec![], vec![]);
         let cells = self.cells.lock().unwrap_or_else(PoisonError::into_inner);
-        for cell in &*cells {
-            let kept = cell.episode.keep();
-            counts.extend(kept.counts);
-            counts.push(u64::from(cell.is_done));
-            numbers.extend(kept.numbers);
-            regulators.extend(cell.regulator.iter().flat_map(Regulator::memory));
-        }
+        let kept: Vec<Kept> = cells.iter().map(|cell| cell.episode.keep()).collect();
+        let counts = kept.iter().zip(&*cells);
+        let counts = counts.flat_map(|(kept, cell)| {
+            let is_done = u64::from(cell.is_done);
+            kept.counts.into_iter().chain([is_done])
+        });
+        let (numbers, of_numbers) = padded(kept.iter().map(|kept| &kept.numbers[..]));
+        let memories: Vec<Vec<f64>> = cells.iter().map(Cell::memory).collect();
+        let (regulators, of_regulators) = padded(memories.iter().map(|memory| &memory[..]));
         let n = cells.len();
-        let [of_numbers, of_regulators] = [numbers.len(), regulators.len()].map(|all| all / n);
         Ok([
-            array(py, counts, &[n, 5])?,
+            array(py, counts.collect(), &[n, 5])?,
             array(py, numbers, &[n, of_numbers])?,
             array(py, regulators, &[n, of_regulators])?,
         ])
@@ -444,24 +416,28 @@ impl Fleet {
         let mut cells = self.cells.lock().unwrap_or_else(PoisonError::into_inner);
         let widths = [counts.shape()[1], numbers.shape()[1], regulators.shape()[1]];
         let heights = [counts.shape()[0], numbers.shape()[0], regulators.shape()[0]];
-        if widths[0] != 5 || heights != [cells.len(); 3] {
+        let lengths = |cell: &Cell| [cell.episode.keep().numbers.len(), cell.memory().len()];
+        let lengths: Vec<[usize; 2]> = cells.iter().map(lengths).collect();
+        let [most, most_of_regulators] =
+            [0, 1].map(|i| lengths.iter().map(|own| own[i]).max().unwrap_or(0));
+        if widths != [5, most, most_of_regulators] || heights != [cells.len(); 3] {
             return Err(foreign(py));
         }
         let (counts, numbers) = (counts.as_slice()?.as_chunks::<5>().0, numbers.as_slice()?);
         let (regulators, observed) = (regulators.as_slice()?, observed.as_slice_mut()?);
-        let row = |all: &[f64], k: usize, n: usize| all[n * k..n * (k + 1)].to_vec();
+        let row = |all: &[f64], first: usize, length: usize| all[first..first + length].to_vec();
         for (k, cell) in cells.iter_mut().enumerate() {
             let [seed, number, looks, steps, is_done] = counts[k];
             let kept = Kept {
                 counts: [seed, number, looks, steps],
-                numbers: row(numbers, k, widths[1]),
+                numbers: row(numbers, most * k, lengths[k][0]),
             };
             let gone_on = cell.episode.go_on(&kept);
             gone_on.map_err(|e| raised(py, &e.into()))?;
             cell.is_done = is_done != 0;
-            cell.regulator.clone_from(&self.regulator);
+            cell.regulator.clone_from(&cell.shared.regulator);
             if let Some(regulator) = &mut cell.regulator {
-                let memory = row(regulators, k, widths[2]);
+                let memory = row(regulators, most_of_regulators * k, lengths[k][1]);
                 regulator.restore(&memory).map_err(|_| foreign(py))?;
             }
             cell.observe(&mut observed[OBSERVED * k..OBSERVED * (k + 1)]);

@@ -16,6 +16,7 @@
 //! | `stepping` | flights step by step |
 //! | `run` | flights that were flown |
 //! | `frame` | surfaces and wakes of one instant |
+//! | `course` | what episodes about one flight share |
 //! | `fleet` | many episodes at once, for who learns |
 //! | `solution` | what trims in any air find |
 //! | `mechanics` | trim, stability, controls, power |
@@ -25,6 +26,7 @@
 
 mod arrays;
 mod command;
+mod course;
 mod errors;
 mod fleet;
 mod flight;
@@ -44,6 +46,8 @@ mod worker;
 mod _core {
     #[pymodule_export]
     use crate::command::{main, presets, schema, version};
+    #[pymodule_export]
+    use crate::course::Course;
     #[pymodule_export]
     use crate::fleet::Fleet;
     #[pymodule_export]

@@ -12,8 +12,8 @@ use wingbeat::case::{LoadedCase, trimmed_case};
 use wingbeat::math::DVec3;
 
 use crate::arrays::array;
+use crate::course::{Course, Settings};
 use crate::errors::{raised, refused};
-use crate::fleet::{Fleet, Settings};
 use crate::own::Parts;
 use crate::solution::TrimSolution;
 use crate::worker::analyse;
@@ -251,9 +251,9 @@ impl Trim {
         Ok(powers(&p))
     }
 
-    /// Episodes about it, one for each seed.
-    fn fleet(&self, py: Python<'_>, settings: Settings, seeds: Vec<u64>) -> PyResult<Fleet> {
-        Fleet::of(py, self.trim.clone(), settings, seeds, self.parts.copy(py))
+    /// What episodes about it share.
+    fn course(&self, py: Python<'_>, settings: Settings) -> PyResult<Course> {
+        Course::of(py, self.trim.clone(), settings, self.parts.copy(py))
     }
 
     /// Names of the state of the averaged model, and of the controls.

@@ -18,6 +18,7 @@ from gymnasium.utils.env_checker import check_env
 from gymnasium.vector import AutoresetMode
 
 import wingbeat
+import wingbeat._fleet
 import wingbeat.gym
 from wingbeat.gym import TASKS, Environment, VectorEnvironment
 
@@ -192,7 +193,7 @@ def test_refuses_settings(settings):
 def test_refuses_names_that_the_core_does_not_know():
     for task, mode, key in (("dance", "disabled", "task"), ("hover", "sometimes", "autoreset_mode")):
         with pytest.raises(wingbeat.CaseError, match="disabled|hover") as caught:
-            wingbeat.gym._Fleet(1, task, mode)
+            wingbeat._fleet.Fleet(1, task, mode)
         assert caught.value.key == key
 
 

@@ -18,13 +18,13 @@ class SavedState:
     """
 
     settings: dict[str, Any]
-    """Of the environments, with the text of the case that is flown."""
+    """Of the environments, with the text of the case that is flown; of several flights all of them."""
     counts: NDArray[Any]
     """Seed, episodes since, control steps, integration steps, whether the episode is over; shape (environments, 5)."""
     numbers: NDArray[Any]
-    """Of the episodes, shape (environments, any)."""
+    """Of the episodes, shape (environments, any); of several flights rows that are shorter end in zeros."""
     regulators: NDArray[Any]
-    """Of the regulators, shape (environments, any)."""
+    """Of the regulators, likewise."""
     generator: tuple[int | None, dict[str, Any] | None, bool]
     """Seed and state of gymnasium's generator, None where it is not drawn yet; whether a seed was given."""
 
@@ -36,7 +36,17 @@ class SavedState:
         for name, own in settings.items():
             saved = self.settings.get(name)
             if saved != own:
-                told = "another flight" if name == "flight" else f"{name} = {saved!r:.60}, here it is {own!r:.60}"
+                told = _other(saved, own) if name == "flight" else f"{name} = {saved!r:.60}, here it is {own!r:.60}"
                 raise CaseError(
                     f"state: it was saved with {told}", key="state", remedy="environments with the same settings and flight"
                 )
+
+
+def _other(saved: Any, own: Any) -> str:
+    """What is said of a flight, or several, that are not those flown here."""
+    if isinstance(saved, str) and isinstance(own, str):
+        return "another flight"
+    saved, own = ((x,) if isinstance(x, str) else tuple(x) for x in (saved, own))
+    if len(saved) != len(own):
+        return f"another number of flights, {len(saved)}: here there are {len(own)}"
+    return f"another flight[{next(k for k, text in enumerate(own) if text != saved[k])}]"

@@ -59,55 +59,39 @@ The gust is a single pulse that is even in space, no turbulence: it rises and fa
 wingbeats. Its peak is drawn evenly from 0.2 to 0.5 R / T, its direction from all horizontal ones, its beginning from 2 T to 20 T
 after the start. Starts and noise of the sensors follow from the seed of ``reset`` and the number of the episode since.
 
+**Several flights**: a :class:`VectorEnvironment` takes a list or tuple of them as ``flight``, and environment k flies
+``flight[k % len(flight)]``: animals, airs and strokes that are drawn, say. Each has its own trimmed flight, R, T, target and
+regulator; ``wing_lengths_m`` and ``periods_s`` are R and T of each environment. Keywords are the same for all: steps are parts of
+each flyer's own wingbeat, so that one control step is as many wingbeats of all, not as many seconds; noise has its SI units.
+
 ``save()`` gives what environments remember, which can be pickled, and ``restore(state)`` goes on from there with the same
 bits: to try several actions from one state, or to go on another day.
 """
 
 from __future__ import annotations
 
-import inspect
 import operator
-import threading
-from collections.abc import Iterator, Mapping, Sequence
-from contextlib import contextmanager
-from copy import deepcopy as copy_of
+from collections.abc import Mapping, Sequence
 from difflib import get_close_matches
-from typing import TYPE_CHECKING, Any, NoReturn, Self
+from typing import TYPE_CHECKING, Any
 
 import gymnasium
 import numpy as np
 from gymnasium.vector import AutoresetMode
 from gymnasium.vector.utils import batch_space
 
-from wingbeat import _core
+from wingbeat._fleet import CONTROLS as _CONTROLS
+from wingbeat._fleet import TASKS, Fleet, Uncopied
 from wingbeat._flight import Flight
+from wingbeat._flyers import check_one
 from wingbeat._numbers import reals, whole
 from wingbeat._saved import SavedState
-from wingbeat.errors import AnalysisError, CaseError
+from wingbeat.errors import CaseError
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
 __all__ = ["TASKS", "Environment", "SavedState", "VectorEnvironment"]
-
-TASKS = tuple(_core.Fleet.TASKS)
-_OBSERVED, _CONTROLS = _core.Fleet.OBSERVED, _core.Fleet.CONTROLS
-
-
-_Gymnasium = gymnasium.Env[Any, Any] | gymnasium.vector.VectorEnv[Any, Any, Any]
-
-
-def _bits(state: dict[str, Any]) -> np.random.BitGenerator:
-    """The generator of this state, of the kind that it names."""
-    bits: np.random.BitGenerator = getattr(np.random, state["bit_generator"])()
-    bits.state = copy_of(state)
-    return bits
-
-
-def _size(key: str, number: float, most: float) -> float:
-    if isinstance(number, bool) or not isinstance(number, int | float | np.number) or not 0.0 <= number <= most:
-        raise CaseError(f"{key} = {number!r:.60}: out of range", key=key, remedy=f"a number from 0 to {most}")
-    return float(number)
 
 
 def _seed(number: Any) -> int:
@@ -119,33 +103,6 @@ def _seed(number: Any) -> int:
     if plain < 0:
         raise CaseError(f"seed = {number!r:.60}: out of range", key="seed", remedy="a whole number from 0 on")
     return plain
-
-
-def _folded(seed: int) -> int:
-    """The seed of the core, 64 bits: itself, or what larger ones are hashed to."""
-    return seed if seed < 2**64 else int(np.random.SeedSequence(seed).generate_state(1, np.uint64)[0])
-
-
-def _check_plain(flight: Flight) -> None:
-    """Refuses what episodes about the trimmed flight would drop."""
-    if flight._core.is_steered:
-        raise CaseError(
-            "flight: it has a controller, and actions are the only commands here",
-            key="control.controller",
-            remedy='a flight without one: set("control.controller", "none"), or leave out with_controller',
-        )
-    if flight._core.is_tethered:
-        raise CaseError(
-            "flight: it is tethered, and episodes are free flights",
-            key="flight.mode",
-            remedy='set("flight.mode", "free")',
-        )
-    if flight._core.held_beats > 0.0:
-        raise CaseError(
-            "flight: its body is held at first, and episodes begin in free flight",
-            key="flight.held_beats",
-            remedy='set("flight.held_beats", None)',
-        )
 
 
 def _check_options(options: dict[str, Any] | None, *known: str) -> None:
@@ -160,166 +117,14 @@ def _check_options(options: dict[str, Any] | None, *known: str) -> None:
             raise CaseError(f"options: {name!r} is not known", key="options", remedy=remedy)
 
 
-class _Uncopied:
-    """Flyers live in the compiled core: they are neither copied nor pickled. Keywords that are not known are refused with the
-    nearest one.
-    """
-
-    def __new__(cls, *_arguments: Any, **settings: Any) -> Self:
-        parameters = inspect.signature(cls.__init__).parameters
-        is_open = any(p.kind is p.VAR_KEYWORD for p in parameters.values())
-        known = [name for name, p in parameters.items() if p.kind is p.KEYWORD_ONLY]
-        for name in settings:
-            if name not in parameters and not is_open:
-                near = get_close_matches(name, known, 1)
-                remedy = f"did you mean {near[0]!r}?" if near else f"it has {', '.join(known)}"
-                raise TypeError(f"wingbeat.gym.{cls.__name__}() has no keyword {name!r}: {remedy}")
-        return super().__new__(cls)
-
-    def __reduce__(self) -> NoReturn:
-        raise CaseError(
-            f"wingbeat.gym.{type(self).__name__} cannot be copied or pickled: its flyers cannot",
-            key="environment",
-            remedy="keep its settings and save(), from which restore() goes on; or seed and actions since reset(seed=...)",
-        )
-
-
-class _Fleet(_Uncopied):
-    """Environments in the core, and their arrays."""
-
-    def __init__(
-        self,
-        count: int,
-        task: str,
-        autoreset: str,
-        *,
-        flight: Flight | None = None,
-        steps_per_beat: int = 40,
-        controls_per_beat: int = 1,
-        beats: int = 100,
-        amplitude_limit: float = 0.2,
-        angle_limit_rad: float = 0.2,
-        delay: int = 0,
-        position_noise_m: float = 0.0,
-        velocity_noise_m_per_s: float = 0.0,
-        tilt_noise_rad: float = 0.0,
-        rate_noise_rad_per_s: float = 0.0,
-    ) -> None:
-        steps = whole("steps_per_beat", steps_per_beat, 20, 2000)
-        controls = whole("controls_per_beat", controls_per_beat, 1, steps)
-        if steps % controls:
-            raise CaseError(
-                f"controls_per_beat = {controls}: {steps} steps are no whole number for each",
-                key="controls_per_beat",
-                remedy="a divisor of steps_per_beat",
-            )
-        settings = {
-            "task": task,
-            "interval": steps // controls,
-            "beats": whole("beats", beats, 1, 1_000_000),
-            "amplitude_limit": _size("amplitude_limit", amplitude_limit, 0.5),
-            "angle_limit_rad": _size("angle_limit_rad", angle_limit_rad, 0.5),
-            "delay": whole("delay", delay, 0, 10_000),
-            "position_noise_m": _size("position_noise_m", position_noise_m, 1e3),
-            "velocity_noise_m_per_s": _size("velocity_noise_m_per_s", velocity_noise_m_per_s, 1e3),
-            "tilt_noise_rad": _size("tilt_noise_rad", tilt_noise_rad, 3.0),
-            "rate_noise_rad_per_s": _size("rate_noise_rad_per_s", rate_noise_rad_per_s, 1e5),
-            "autoreset_mode": autoreset,
-        }
-        flight = Flight.preset("fruit-fly-blade") if flight is None else flight
-        if not isinstance(flight, Flight):
-            remedy = "Flight.preset(NAME) or Flight.from_case(FILE)"
-            raise CaseError(f"flight = {flight!r:.60}: no Flight", key="flight", remedy=remedy)
-        if not isinstance(task, str):
-            raise CaseError(f"task = {task!r:.60}: no name", key="task", remedy=", ".join(TASKS))
-        _check_plain(flight)
-        trim = flight.trim(steps=steps)
-        trim._check()
-        self.is_seeded = False
-        self._lock = threading.Lock()
-        self.count = whole("num_envs", count, 1, 1_000_000)
-        self.period_s = trim.period_s
-        told = {"num_envs": self.count, "steps_per_beat": steps, "controls_per_beat": controls, "flight": flight.case_text}
-        self._settings = settings | told
-        seeds = np.random.default_rng().integers(2**63, size=self.count)  # until reset() gives others
-        self.core = trim._core.fleet(settings, [int(s) for s in seeds])
-        self.observed = np.zeros((self.count, _OBSERVED), np.float32)
-        self.last = np.zeros((self.count, _OBSERVED), np.float32)
-        self.rewards = np.zeros(self.count)
-        self.terminated = np.zeros(self.count, np.bool_)
-        self.truncated = np.zeros(self.count, np.bool_)
-        self.observation_space = gymnasium.spaces.Box(-np.inf, np.inf, (_OBSERVED,), np.float32)
-        self.action_space = gymnasium.spaces.Box(-1.0, 1.0, (_CONTROLS,), np.float32)
-
-    def first(self, seed: int | None, of: _Gymnasium) -> int | None:
-        """The seed to begin with: before any was given that which gymnasium draws for its own generator."""
-        is_drawn = seed is None and not self.is_seeded
-        drawn = of.np_random_seed if is_drawn else seed
-        return None if drawn is None or drawn < 0 else drawn  # negative: a generator of the user's
-
-    @contextmanager
-    def alone(self) -> Iterator[_core.Fleet]:
-        """The environments, which one thread has at a time."""
-        if not self._lock.acquire(blocking=False):
-            raise CaseError(
-                "another thread steps these environments, or they are asked within their own step",
-                key="environment",
-                remedy="an environment for each thread, or a threading.Lock about its calls",
-            )
-        try:
-            yield self.core
-        finally:
-            self._lock.release()
-
-    def reset(self, seeds: Sequence[int | None], mask: Sequence[bool]) -> None:
-        with self.alone() as core:
-            core.reset([None if s is None else _folded(s) for s in seeds], list(mask), self.observed)
-            self.is_seeded = True
-
-    def save(self, of: _Gymnasium) -> SavedState:
-        generator = of._np_random
-        drawn = None if generator is None else copy_of(dict(generator.bit_generator.state))
-        with self.alone() as core:
-            return SavedState(dict(self._settings), *core.save(), (of._np_random_seed, drawn, self.is_seeded))
-
-    def restore(self, state: Any, of: _Gymnasium) -> None:
-        if not isinstance(state, SavedState):
-            raise CaseError(f"state = {state!r:.60}: none", key="state", remedy="what save() gave")
-        state.check(self._settings)
-        with self.alone() as core:
-            counts, numbers, regulators = map(np.ascontiguousarray, (state.counts, state.numbers, state.regulators))
-            core.restore(counts, numbers, regulators, self.observed)
-            of._np_random_seed, drawn, self.is_seeded = state.generator
-            of._np_random = None if drawn is None else np.random.Generator(_bits(drawn))
-
-    def step(self, actions: Any) -> bool:
-        """Whether any episode has ended."""
-        plain = reals("actions", actions, np.float32)
-        if plain.shape != (self.count, _CONTROLS):
-            remedy = f"shape ({self.count}, {_CONTROLS})"
-            raise CaseError(f"actions: an array of shape {plain.shape}", key="actions", remedy=remedy)
-        with self.alone() as core:
-            return core.step(plain, self.observed, self.last, self.rewards, self.terminated, self.truncated)
-
-    def regulated(self) -> NDArray[np.float32]:
-        actions = np.zeros((self.count, _CONTROLS), np.float32)
-        with self.alone() as core:
-            is_possible = core.regulate(actions)
-        if not is_possible:
-            raise AnalysisError(
-                "the regulator looks once per wingbeat, at once", remedy="controls_per_beat = 1 and delay = 0"
-            )
-        return actions
-
-
-class Environment(_Uncopied, gymnasium.Env[Any, Any]):
+class Environment(Uncopied, gymnasium.Env[Any, Any]):
     """One flyer.
 
     ========================== =========== ================= ============================================================
     keyword                    default     allowed           what
     ========================== =========== ================= ============================================================
     ``task``                   ``"hover"`` ``TASKS``         what is to be done
-    ``flight``                 None        in blade elements the flyer; None: the preset ``fruit-fly-blade``
+    ``flight``                 None        in blade elements the flyer, one; None: the preset ``fruit-fly-blade``
     ``steps_per_beat``         40          20 to 2000        integration steps of a wingbeat
     ``controls_per_beat``      1           1 and more        control steps of a wingbeat, a divisor of ``steps_per_beat``
     ``beats``                  100         1 to 1e6          wingbeats of an episode
@@ -356,7 +161,8 @@ class Environment(_Uncopied, gymnasium.Env[Any, Any]):
     ) -> None:
         if render_mode is not None:
             raise CaseError("render_mode: there is none", key="render_mode", remedy="leave it out")
-        self._fleet = _Fleet(
+        check_one(flight)
+        self._fleet = Fleet(
             1,
             task,
             "disabled",
@@ -411,8 +217,11 @@ class Environment(_Uncopied, gymnasium.Env[Any, Any]):
         return actions
 
 
-class VectorEnvironment(_Uncopied, gymnasium.vector.VectorEnv[Any, Any, Any]):
+class VectorEnvironment(Uncopied, gymnasium.vector.VectorEnv[Any, Any, Any]):
     """Many flyers, stepped by one call on all threads. Keywords as those of :class:`Environment`.
+
+    ``flight`` may be a list or tuple of flights here, of which environment k flies number ``k % len(flight)``; each is trimmed
+    once. States that are saved are of these flights in this order.
 
     Observations, rewards and ends are arrays that the next step writes again: copy what is kept (``copy=True`` does it).
     ``autoreset_mode`` is ``NextStep``, ``SameStep`` (``info["final_obs"]``) or ``Disabled`` (``reset(options={"reset_mask": ...})``), as
@@ -426,7 +235,7 @@ class VectorEnvironment(_Uncopied, gymnasium.vector.VectorEnv[Any, Any, Any]):
         *,
         autoreset_mode: AutoresetMode | str = AutoresetMode.NEXT_STEP,
         copy: bool = True,
-        flight: Flight | None = None,
+        flight: Flight | list[Flight] | tuple[Flight, ...] | None = None,
         steps_per_beat: int = 40,
         controls_per_beat: int = 1,
         beats: int = 100,
@@ -446,7 +255,7 @@ class VectorEnvironment(_Uncopied, gymnasium.vector.VectorEnv[Any, Any, Any]):
             raise CaseError(f"autoreset_mode = {autoreset_mode!r:.60}", key="autoreset_mode", remedy=names) from None
         if render_mode is not None:
             raise CaseError("render_mode: there is none", key="render_mode", remedy="leave it out")
-        self._fleet = _Fleet(
+        self._fleet = Fleet(
             num_envs,
             task,
             mode.name.lower(),
@@ -528,6 +337,16 @@ class VectorEnvironment(_Uncopied, gymnasium.vector.VectorEnv[Any, Any, Any]):
     def regulated(self) -> NDArray[np.float32]:
         """What the linear-quadratic regulator would do now, shape (num_envs, 4): a baseline. It remembers: once per step."""
         return self._fleet.regulated()
+
+    @property
+    def wing_lengths_m(self) -> NDArray[np.float64]:
+        """R of each environment, shape (num_envs,) [m]."""
+        return self._fleet.scales[:, 0].copy()
+
+    @property
+    def periods_s(self) -> NDArray[np.float64]:
+        """T of each environment, shape (num_envs,) [s]."""
+        return self._fleet.scales[:, 1].copy()
 
     def distances_m(self) -> NDArray[np.float64]:
         """Distances of the mass centres from their targets, without noise, shape (num_envs,) [m]."""
