@@ -140,9 +140,9 @@ hide("scene", LAST < 0);
 if (!hasStrokes) byId("colour").querySelector("[value=stroke]").remove();
 if (matchMedia("(max-width: 820px)").matches) byId("display").open = false;
 
-// Beside another flight, both keep step. The one that the reader acted on last leads: it tells the page around what
-// it shows, and the other shows that, too. Acts are numbered, so that what was told before an act is left aside by the
-// flight that was acted on, however late it comes.
+// Beside another flight, both keep step. The one that the reader acted on last leads: it tells the page around
+// what it shows, and the other shows that, too. Acts are numbered, so that what was told before an act is left
+// aside by the flight that was acted on, however late it comes.
 const beside = { act: 0, leads: true, touched: false, known: "" };
 const armNow = () => (renderer ? camera.position.clone().sub(orbit.target).divideScalar(REACH).toArray() : null);
 const shownNow = () => [frameNow(), ...(armNow() || []).map((x) => x.toFixed(4))].join();
@@ -173,7 +173,8 @@ function hear({ shown, act }) {
 window.addEventListener("message", ({ data }) => {
   if (LAST < 0) return;
   if (data.shown) hear(data);
-  if (data.apart) Object.assign(beside, { act: 0, leads: false, touched: false, known: shownNow() }); // they begin to keep step anew
+  // They begin to keep step anew: with what plays, or with the next act.
+  if (data.apart) Object.assign(beside, { act: 0, leads: state.playing, touched: false, known: shownNow() });
 });
 if (link.get("narrow")) document.documentElement.classList.add("narrow");
 
