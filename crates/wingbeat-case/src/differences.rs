@@ -20,8 +20,9 @@ pub struct Difference {
     pub second: Option<String>,
 }
 
-/// All keys in which two cases differ, in alphabetical order: those of the resolved cases, defaults filled in. A case
-/// has no key that another one of its own leaves without effect, as a published set beside coefficients of one's own.
+/// All keys in which two cases differ, in alphabetical order: those of the resolved cases, defaults filled in.
+/// A case has no key that another one of its own leaves without effect, as a published set beside coefficients
+/// of one's own.
 pub fn differences(first: &LoadedCase, second: &LoadedCase) -> Vec<Difference> {
     let [a, b] = [first, second].map(keys);
     let all: BTreeMap<&String, ()> = a.keys().chain(b.keys()).map(|k| (k, ())).collect();

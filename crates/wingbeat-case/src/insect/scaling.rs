@@ -46,8 +46,8 @@ fn border(mass: f64, [a, b]: [&Species; 2]) -> f64 {
     (0.5 * (x + y) + 0.5 * (of_mass(a) - of_mass(b)) / (x - y)).exp()
 }
 
-/// The shortest and the longest wing of an insect of a mass \[m\]: those in proportion, and what lies between them.
-/// They end where the proportion to a species ends, or where another species becomes the nearest.
+/// The shortest and the longest wing of an insect of a mass \[m\]: those in proportion, and what lies between
+/// them. They end where the proportion to a species ends, or where another species becomes the nearest.
 fn allowed_wings(mass: f64) -> [f64; 2] {
     const BESIDE: f64 = 1e-9;
     let ends = SPECIES
@@ -212,8 +212,8 @@ impl Insect {
 mod tests {
     use super::*;
 
-    /// Of any mass there is one range of wings, whichever species the wing is near to; its ends as the refusal says
-    /// them are allowed, and beyond are only wings out of proportion to their nearest species.
+    /// Of any mass there is one range of wings, whichever species the wing is near to; its ends as the refusal
+    /// says them are allowed, and beyond are only wings out of proportion to their nearest species.
     #[test]
     fn exact_the_range_of_wings_that_a_refusal_says_is_what_is_allowed() {
         let size = |mass, wing| Size {

@@ -93,8 +93,8 @@ fn exact_the_page_shows_all_points_in_a_browser() {
     assert!(browser.complaints.is_empty(), "{:?}", browser.complaints);
 }
 
-/// Long names and long numbers, in a window as narrow as a phone too: what is written stands within its canvas and
-/// apart from the rest, and names that differ are written differently.
+/// Long names and long numbers, in a window as narrow as a phone too: what is written stands within its canvas
+/// and apart from the rest, and names that differ are written differently.
 #[test]
 fn exact_names_and_numbers_are_readable_on_the_page() {
     let scratch = Scratch::new("campaign-names");
