@@ -6,6 +6,7 @@ use serde::Serialize;
 use toml::{Table, Value};
 
 use crate::LoadedCase;
+use crate::keys::effective;
 use crate::source::in_one_line;
 
 /// A key that two cases do not have alike.
@@ -19,7 +20,9 @@ pub struct Difference {
     pub second: Option<String>,
 }
 
-/// All keys in which two cases differ, defaults filled in, in alphabetical order.
+/// All keys in which two cases differ, in alphabetical order: those of the resolved cases, defaults filled in.
+/// A case has no key that another one of its own leaves without effect, as a published set beside coefficients
+/// of one's own.
 pub fn differences(first: &LoadedCase, second: &LoadedCase) -> Vec<Difference> {
     let [a, b] = [first, second].map(keys);
     let all: BTreeMap<&String, ()> = a.keys().chain(b.keys()).map(|k| (k, ())).collect();
@@ -37,7 +40,7 @@ pub fn differences(first: &LoadedCase, second: &LoadedCase) -> Vec<Difference> {
 fn keys(case: &LoadedCase) -> BTreeMap<String, Value> {
     let mut keys = BTreeMap::new();
     let table = Table::try_from(&case.raw).unwrap_or_default(); // what was read can be written
-    gather("", table, &mut keys);
+    gather("", effective(&table, &table), &mut keys);
     keys
 }
 

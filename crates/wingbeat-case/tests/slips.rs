@@ -22,6 +22,11 @@ fn refuses_slips_by_name() {
         ("bird-cruise", &[twist][..], "per cent by 100"),
         ("hawkmoth-elastic", &[&table], "per cent by 100"),
         (
+            "fruit-fly-blade", // has body.length_m
+            &["body.part.thorax.profile={table=[[0,0.9],[0.2,0.6],[1,0]]}"],
+            "body.part.thorax: thorax.profile, row 1",
+        ),
+        (
             "hawkmoth-elastic",
             &["dynamics.wings=massless"],
             "is elastic",

@@ -89,6 +89,33 @@ fn behaves_every_analysis_has_words_and_json_and_a_file_for_them() {
     }
 }
 
+/// Wingbeats that change are not steady; those that scatter are not known to be.
+#[test]
+fn agrees_compare_with_show_on_whether_beats_are_steady() {
+    let scratch = Scratch::new("reports-steady");
+    let dir = &scratch.0;
+    let fly = |out: &str, mode: &str| {
+        let args = ["run", "fruit-fly-blade", "--quiet", "--out", out];
+        let sets = ["--set", "time.beats=7", "--set", mode];
+        flown(dir, &[&args[..], &sets].concat());
+        let shown = object(&said(dir, &["show", out, "--json"]));
+        let means = &shown["summary"]["means"];
+        ["is_steady", "is_known"].map(|key| means[key].as_bool().unwrap())
+    };
+    // Free it falls out of its hover; held its beats are all alike.
+    assert_eq!(fly("free", "flight.mode=free"), [false, true]);
+    assert_eq!(fly("held", "flight.mode=tethered"), [true, true]);
+    let compared = said(dir, &["compare", "free", "held"]);
+    assert!(
+        compared.contains("the beats of the first flight are not steady"),
+        "{compared}"
+    );
+    assert!(
+        !compared.contains("known") && !compared.contains("second flight are"),
+        "{compared}"
+    );
+}
+
 #[test]
 fn behaves_the_verification_suite_has_json() {
     let scratch = Scratch::new("reports-verify");

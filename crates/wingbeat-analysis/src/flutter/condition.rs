@@ -54,7 +54,7 @@ const KEPT: usize = 3;
 const SAMPLES: [f64; 2] = [80.0, 6.0];
 
 /// The elastic wings of `setup` in its stream at `speed` [m/s], one after the other. Of wings that are deformed as mirror
-/// images of each other only the first is listed: they are disturbed as mirror images, too, and answer so.
+/// images of each other only the first is taken: they are disturbed as mirror images, too, and answer so.
 ///
 /// # Errors
 /// No elastic wing; wings or a root that move; no stream, no wake; a steady state that is not reached; a

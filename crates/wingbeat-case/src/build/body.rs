@@ -54,6 +54,10 @@ fn shapes(case: &BodyCase) -> Built<Vec<(String, Revolution)>> {
             "scale mesh files with file_unit_m and leave body.length_m out",
         ));
     }
+    for ((name, shape), part) in shapes.iter().zip(case.part.values()) {
+        let at = |e| fault_at(&format!("body.part.{name}"), part, &e);
+        shape.mesh(name).map_err(at)?;
+    }
     let plain: Vec<Revolution> = shapes.iter().map(|(_, s)| s.clone()).collect();
     let fitted = fit_body_length(&plain, length).map_err(|e| fault_at("body", case, &e))?;
     Ok(shapes.into_iter().map(|(n, _)| n).zip(fitted).collect())

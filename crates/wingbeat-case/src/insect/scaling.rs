@@ -10,7 +10,7 @@
 
 use super::number::number;
 use crate::error::IoError;
-use crate::species::Species;
+use crate::species::{SPECIES, Species};
 
 /// Deakin's constant in SI units \[Hz m2 / sqrt(kg)\]: 317 for grams and square centimetres.
 const DEAKIN: f64 = 317.0 * 31.622_776_601_683_793 * 1e-4;
@@ -29,17 +29,53 @@ pub struct Size {
 /// Wing length over that of a species scaled to the same mass, at least and at most.
 const PROPORTION: [f64; 2] = [0.4, 2.5];
 
+/// What five digits of a number round away at most \[1\].
+const ROUNDED: f64 = 5e-5;
+
+/// Whether a wing \[m\] is in proportion to a mass \[kg\], by the species nearest to both.
+fn is_in_proportion(mass: f64, wing: f64) -> bool {
+    let s = Species::nearest(Some(mass), Some(wing));
+    let part = wing / (s.wing_length * (mass / s.mass).cbrt());
+    (PROPORTION[0]..=PROPORTION[1]).contains(&part)
+}
+
+/// The wing \[m\] that two species are equally near to, at a mass \[kg\]; see [`Species::nearest`].
+fn border(mass: f64, [a, b]: [&Species; 2]) -> f64 {
+    let of_mass = |s: &Species| ((mass / s.mass).ln() / 3.0).powi(2);
+    let [x, y] = [a, b].map(|s| s.wing_length.ln());
+    (0.5 * (x + y) + 0.5 * (of_mass(a) - of_mass(b)) / (x - y)).exp()
+}
+
+/// The shortest and the longest wing of an insect of a mass \[m\]: those in proportion, and what lies between
+/// them. They end where the proportion to a species ends, or where another species becomes the nearest.
+fn allowed_wings(mass: f64) -> [f64; 2] {
+    const BESIDE: f64 = 1e-9;
+    let ends = SPECIES
+        .iter()
+        .flat_map(|s| PROPORTION.map(|part| part * s.wing_length * (mass / s.mass).cbrt()));
+    let pairs = SPECIES
+        .iter()
+        .flat_map(|a| SPECIES.iter().map(move |b| [a, b]));
+    let pairs = pairs.filter(|[a, b]| a.wing_length != b.wing_length);
+    let all = ends.chain(pairs.map(|pair| border(mass, pair)));
+    let all = all.flat_map(|wing| [wing * (1.0 - BESIDE), wing * (1.0 + BESIDE)]);
+    let hull = |[least, most]: [f64; 2], wing: f64| [least.min(wing), most.max(wing)];
+    all.filter(|wing| is_in_proportion(mass, *wing))
+        .fold([f64::INFINITY, f64::NEG_INFINITY], hull)
+}
+
 impl Size {
     /// Refuses wings that no hovering insect of this mass has.
-    fn check_proportion(&self, s: &Species) -> Result<(), IoError> {
+    fn check_proportion(&self) -> Result<(), IoError> {
         let (Some(mass), Some(wing)) = (self.mass, self.wing_length) else {
             return Ok(());
         };
-        let scaled = s.wing_length * (mass / s.mass).cbrt();
-        let [least, most] = PROPORTION.map(|part| part * scaled);
+        let [least, most] = allowed_wings(mass);
         if (least..=most).contains(&wing) {
             return Ok(());
         }
+        // Ends that are rounded are still allowed.
+        let [least, most] = [least * (1.0 + ROUNDED), most * (1.0 - ROUNDED)];
         let [mass, wing, least, most] =
             [1e6 * mass, 1e3 * wing, 1e3 * least, 1e3 * most].map(number);
         Err(IoError::Insect {
@@ -135,8 +171,8 @@ impl Insect {
                 remedy: "give the mass or the wing length beside it, or both".to_owned(),
             });
         }
+        size.check_proportion()?;
         let s = Species::nearest(size.mass, size.wing_length);
-        size.check_proportion(s)?;
         let isometry =
             |exponent: &str| format!("estimated: isometry from the {} ({exponent})", s.name);
         let [m0, r0] = [s.mass, s.wing_length];
@@ -169,5 +205,45 @@ impl Insect {
             wing_length,
             frequency,
         })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Of any mass there is one range of wings, whichever species the wing is near to; its ends as the refusal
+    /// says them are allowed, and beyond are only wings out of proportion to their nearest species.
+    #[test]
+    fn exact_the_range_of_wings_that_a_refusal_says_is_what_is_allowed() {
+        let size = |mass, wing| Size {
+            mass: Some(mass),
+            wing_length: Some(wing),
+            frequency: None,
+        };
+        for k in 0..50 {
+            let mass = 2e-8 * (50e-3 / 2e-8_f64).powf(f64::from(k) / 49.0); // 20 ug to 50 g
+            let said = size(mass, 1.0).check_proportion().unwrap_err().to_string();
+            let (_, range) = said.split_once("a wing from ").unwrap();
+            let (range, _) = range.split_once(" mm").unwrap();
+            let (least, most) = range.split_once(" to ").unwrap();
+            let [least, most] = [least, most].map(|x| 1e-3 * x.parse::<f64>().unwrap());
+            for part in 0..=100 {
+                let wing = least * (most / least).powf(f64::from(part) / 100.0);
+                let found = size(mass, wing).check_proportion();
+                assert!(found.is_ok(), "{mass} {wing}: {found:?}");
+            }
+            for wing in [0.999 * least, 1.001 * most] {
+                let said_there = size(mass, wing).check_proportion().unwrap_err();
+                let said_there = said_there.to_string();
+                assert!(said_there.contains(range), "{said_there}: {range}");
+                assert!(!is_in_proportion(mass, wing), "{mass} {wing}");
+            }
+            for far in 1..=200 {
+                let beyond = 1.02_f64.powi(far);
+                let beyond = [least / beyond, most * beyond];
+                assert!(beyond.iter().all(|wing| !is_in_proportion(mass, *wing)));
+            }
+        }
     }
 }

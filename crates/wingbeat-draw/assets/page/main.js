@@ -140,23 +140,41 @@ hide("scene", LAST < 0);
 if (!hasStrokes) byId("colour").querySelector("[value=stroke]").remove();
 if (matchMedia("(max-width: 820px)").matches) byId("display").open = false;
 
-// Beside another flight, both keep step: what is shown here is told to the page around, and what is
-// shown there is shown here, too.
-let told = false;
+// Beside another flight, both keep step. The one that the reader acted on last leads: it tells the page around
+// what it shows, and the other shows that, too. Acts are numbered, so that what was told before an act is left
+// aside by the flight that was acted on, however late it comes.
+const beside = { act: 0, leads: true, touched: false, known: "" };
+const armNow = () => (renderer ? camera.position.clone().sub(orbit.target).divideScalar(REACH).toArray() : null);
+const shownNow = () => [frameNow(), ...(armNow() || []).map((x) => x.toFixed(4))].join();
+for (const kind of ["pointerdown", "wheel", "keydown", "input"]) window.addEventListener(kind, () => { beside.touched = true; }, { capture: true, passive: true });
+// Leads from now on if the reader has chosen another time or view than the one that was told.
+function claim() {
+  if (!beside.touched || shownNow() === beside.known || (beside.leads && beside.act > 0)) return;
+  beside.act = Math.floor(beside.act) + 1;
+  beside.leads = true;
+}
 function tell(k) {
   if (window.parent === window) return;
-  const arm = renderer ? camera.position.clone().sub(orbit.target).divideScalar(REACH).toArray() : null;
-  if (!told) window.parent.postMessage({ shown: { x: flight.frames[k].x, arm } }, "*");
-  told = false;
+  claim();
+  if (beside.leads) window.parent.postMessage({ shown: { x: flight.frames[k].x, arm: armNow() }, act: beside.act }, "*");
 }
-window.addEventListener("message", ({ data }) => {
-  if (!data.shown || LAST < 0) return;
-  const k = frameAt(data.shown.x), { arm } = data.shown;
-  told = true;
+function hear({ shown, act }) {
+  claim();
+  if (act < beside.act || (act === beside.act && beside.leads)) return;
+  beside.act = act;
+  beside.leads = false;
   state.playing = false;
   byId("play").dataset.playing = false;
-  if (renderer && arm) { camera.position.copy(orbit.target).add(new THREE.Vector3(...arm).multiplyScalar(REACH)); camera.lookAt(orbit.target); }
-  seek(k);
+  if (renderer && shown.arm) { camera.position.copy(orbit.target).add(new THREE.Vector3(...shown.arm).multiplyScalar(REACH)); camera.lookAt(orbit.target); }
+  seek(frameAt(shown.x));
+  beside.touched = false;
+  beside.known = shownNow();
+}
+window.addEventListener("message", ({ data }) => {
+  if (LAST < 0) return;
+  if (data.shown) hear(data);
+  // They begin to keep step anew: with what plays, or with the next act.
+  if (data.apart) Object.assign(beside, { act: 0, leads: state.playing, touched: false, known: shownNow() });
 });
 if (link.get("narrow")) document.documentElement.classList.add("narrow");
 

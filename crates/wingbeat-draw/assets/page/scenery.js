@@ -100,7 +100,7 @@ function legend() {
     else list.push(["shed in the upstroke", [theme.up]], ["in the downstroke", [theme.down]]);
     if (state.colour !== "age" && flight.frames.some((f) => f.particles)) list.push(["vortex particles", [theme.plain]]);
   }
-  if (state.pressure && PANELS && flight.most.pressure > 0) list.push([`pressure jump −${digits(flight.most.pressure)} to ${digits(flight.most.pressure)} Pa`, [theme.low, theme.zero, theme.high]]);
+  if (state.pressure && PANELS && flight.most.pressure > 0) list.push([`pressure jump −${digits(flight.most.pressure)} to ${digits(flight.most.pressure)} Pa${flight.frames.some((f) => f.pressure > flight.most.pressure) ? ", full colour beyond" : ""}`, [theme.low, theme.zero, theme.high]]);
   if (flight.solids.some((s) => s.stand_in)) list.push(["no shape given: ellipsoid of mass and inertia", [theme.standIn]]);
   return list;
 }

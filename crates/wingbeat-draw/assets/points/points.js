@@ -70,18 +70,48 @@ function ticks([low, high], most) {
   return list;
 }
 
+// Names within a width, cut in the middle, such that names that differ still do.
+function shortened(pen, names, room) {
+  const fits = (words) => pen.measureText(words).width <= room, differ = new Set(names).size;
+  const cut = (name, share) => {
+    const signs = [...name];
+    if (fits(name)) return name;
+    for (let n = signs.length - 1; n > 2; n--) {
+      const head = Math.max(1, Math.round(share * n)), words = signs.slice(0, head).join("") + "…" + signs.slice(signs.length - n + head).join("");
+      if (fits(words)) return words;
+    }
+    return "…";
+  };
+  for (const share of [0.5, 0.7, 0.3, 0.9, 0.1, 1]) {
+    const list = names.map((name) => cut(name, share));
+    if (new Set(list).size === differ) return list;
+  }
+  const all = [...new Set(names)]; // counted, where nothing else tells them apart
+  return names.map((name) => cut(`${all.indexOf(name) + 1}: ${name}`, 0.7));
+}
+
 let spots = [];
 function drawMap() {
   const { pen, width, height } = canvas("map"), [x, y, c] = [columns[shown.across], columns[shown.up], columns[shown.colour]];
-  const left = 74, right = 14, top = 10, bottom = 40, w = width - left - right, h = height - top - bottom;
+  const right = 14, top = 10, bottom = 40, h = height - top - bottom, aside = 26; // aside: the title of the axis and gaps
+  const marks = (column, most) => column.words ? column.names.map((name, k) => [k, name]) : ticks(column.range, most).map((v) => [v, text(v)]);
+  const share = (column, v) => (v - column.range[0]) / (column.range[1] - column.range[0]);
+  const ups = marks(y, Math.max(2, h / 50)), wanted = aside + Math.max(0, ...ups.map(([, name]) => pen.measureText(name).width));
+  const left = Math.max(74, Math.min(width / 3, wanted)), w = width - left - right;
   const inset = Math.min(34, 0.12 * h), px = (t) => left + inset + t * (w - 2 * inset), py = (t) => top + inset + (1 - t) * (h - 2 * inset);
   pen.strokeStyle = style("--grid"); pen.fillStyle = style("--muted");
   pen.textAlign = "center";
-  const marks = (column, most) => column.words ? column.names.map((name, k) => [k, name]) : ticks(column.range, most).map((v) => [v, text(v)]);
-  const share = (column, v) => (v - column.range[0]) / (column.range[1] - column.range[0]);
-  for (const [v, name] of marks(x, Math.max(2, w / 90))) { const at = px(share(x, v)); pen.beginPath(); pen.moveTo(at, top); pen.lineTo(at, top + h); pen.stroke(); pen.fillText(name, at, top + h + 14); }
+  const overs = marks(x, Math.max(2, w / 90)), overNames = overs.map(([, name]) => name);
+  const each = (w - 2 * inset) / Math.max(1, overs.length - 1), beside = inset + right; // the last name is moved in where it is wider
+  const overWords = x.words ? shortened(pen, overNames, Math.min(each - 8, (each + beside - 8) / 1.5)) : overNames;
+  overs.forEach(([v], k) => {
+    const at = px(share(x, v)), half = pen.measureText(overWords[k]).width / 2;
+    pen.beginPath(); pen.moveTo(at, top); pen.lineTo(at, top + h); pen.stroke();
+    pen.fillText(overWords[k], Math.max(half, Math.min(width - half, at)), top + h + 14);
+  });
   pen.textAlign = "right";
-  for (const [v, name] of marks(y, Math.max(2, h / 50))) { const at = py(share(y, v)); pen.beginPath(); pen.moveTo(left, at); pen.lineTo(left + w, at); pen.stroke(); pen.fillText(name, left - 6, at + 4); }
+  const upWords = shortened(pen, ups.map(([, name]) => name), left - aside);
+  ups.forEach(([v], k) => { const at = py(share(y, v)); pen.beginPath(); pen.moveTo(left, at); pen.lineTo(left + w, at); pen.stroke(); pen.fillText(upWords[k], left - 6, at + 4); });
   pen.textAlign = "center"; pen.fillStyle = style("--text");
   pen.fillText(x.label, left + w / 2, height - 6);
   pen.save(); pen.translate(12, top + h / 2); pen.rotate(-Math.PI / 2); pen.fillText(y.label, 0, 0); pen.restore();
@@ -121,7 +151,9 @@ let axes = [];
 function drawLines() {
   const { pen, width, height } = canvas("lines"), colour = columns[shown.colour];
   // Where axes stand close, their words are turned.
-  const turned = (width - 120) / Math.max(1, columns.length - 1) < 72, [top, bottom, side] = turned ? [116, 62, 18] : [34, 18, 60], h = height - top - bottom;
+  const apart = (width - 120) / Math.max(1, columns.length - 1), turned = apart < 72, ends = columns.map((c) => [atEnd(c, 0), atEnd(c, 1)]);
+  const longest = (end) => Math.max(0, ...ends.map((words) => pen.measureText(words[end]).width));
+  const [top, bottom, side] = turned ? [116, Math.max(40, Math.min(104, longest(0) + 10)), 18] : [34, 18, 60], h = height - top - bottom;
   const x = (k) => columns.length < 2 ? width / 2 : side + k * (width - 2 * side) / (columns.length - 1);
   axes = columns.map((c, k) => ({ k, x: x(k), top, h }));
   const draw = (row, paint, width) => {
@@ -135,23 +167,24 @@ function drawLines() {
   for (let k = 0; k < list.length; k += stride) draw(list[k], dye(colour.share(list[k])), 1.2);
   pen.globalAlpha = 1;
   if (shown.point) draw(shown.point, style("--text"), 2);
-  const room = turned ? top - 8 : (width - 120) / Math.max(1, columns.length - 1) - 8;
-  const fit = (words) => { let t = words; while (t.length > 4 && pen.measureText(t).width > room) t = t.slice(0, -2) + "…"; return t.replace(/…+/, "…"); };
+  const names = shortened(pen, columns.map((c) => c.name), turned ? top - 8 : apart - 8);
+  const fit = (pair) => (turned ? [shortened(pen, pair, bottom - 8)[0], shortened(pen, pair, top - 8)[1]] : shortened(pen, pair, apart - 8));
   const upright = (words, at, y, align) => { pen.save(); pen.translate(at, y); pen.rotate(-Math.PI / 2); pen.textAlign = align; pen.fillText(words, 0, 0); pen.restore(); };
   columns.forEach((c, k) => {
+    const [low, high] = fit(ends[k]);
     pen.strokeStyle = style("--muted"); pen.lineWidth = 1; pen.beginPath(); pen.moveTo(x(k), top); pen.lineTo(x(k), top + h); pen.stroke();
     const limits = shown.limits[k];
     if (limits) { pen.fillStyle = style("--accent"); pen.fillRect(x(k) - 3, top + h * (1 - limits[1]), 6, Math.max(2, h * (limits[1] - limits[0]))); }
     const ink = style(c.kind === "key" ? "--accent" : "--text");
     if (turned) {
-      pen.fillStyle = ink; upright(fit(c.name), x(k) - 3, top - 5, "left");
-      pen.fillStyle = style("--muted"); upright(atEnd(c, 1), x(k) + 11, top - 5, "left"); upright(atEnd(c, 0), x(k) + 4, top + h + 5, "right");
+      pen.fillStyle = ink; upright(names[k], x(k) - 3, top - 5, "left");
+      pen.fillStyle = style("--muted"); upright(high, x(k) + 11, top - 5, "left"); upright(low, x(k) + 4, top + h + 5, "right");
       return;
     }
     pen.textAlign = k === 0 ? "left" : k === columns.length - 1 ? "right" : "center";
     const at = k === 0 ? 4 : k === columns.length - 1 ? width - 4 : x(k);
-    pen.fillStyle = ink; pen.fillText(fit(c.name), at, 13);
-    pen.fillStyle = style("--muted"); pen.fillText(atEnd(c, 1), at, 27); pen.fillText(atEnd(c, 0), at, height - 5);
+    pen.fillStyle = ink; pen.fillText(names[k], at, 13);
+    pen.fillStyle = style("--muted"); pen.fillText(high, at, 27); pen.fillText(low, at, height - 5);
   });
 }
 

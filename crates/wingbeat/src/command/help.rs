@@ -97,13 +97,31 @@ pub(crate) fn completions(shell: Shell) {
     terminal::output(format_args!("{}", String::from_utf8_lossy(&script)));
 }
 
-/// `wingbeat man DIR`: a page for the program and one for each command.
+/// The program as its manual has it: without `help`, which has no page.
+fn documented() -> Command {
+    fn without_help(command: Command) -> Command {
+        command
+            .disable_help_subcommand(true)
+            .mut_subcommands(without_help)
+    }
+    let mut program = without_help(Cli::command().name(PROGRAM));
+    program.build();
+    program
+}
+
+/// A command and what stands under it, at any depth.
+fn with_inner(command: &Command) -> Vec<&Command> {
+    let inner = command.get_subcommands().filter(|c| !c.is_hide_set());
+    std::iter::once(command)
+        .chain(inner.flat_map(with_inner))
+        .collect()
+}
+
+/// `wingbeat man DIR`: a page for the program and one for each command, those of `campaign` too.
 pub(crate) fn man(args: &ManArgs) -> Result<(), Failure> {
     make_folder(&args.dir)?;
-    let mut program = Cli::command().name(PROGRAM);
-    program.build();
-    let commands = program.get_subcommands().filter(|c| c.get_name() != "help");
-    let pages = std::iter::once(&program).chain(commands);
+    let program = documented();
+    let pages = with_inner(&program).into_iter();
     let claim = |command: &Command| {
         let name = command.get_display_name().unwrap_or(PROGRAM).to_owned();
         let file = NewFile::claim(
@@ -126,6 +144,37 @@ pub(crate) fn man(args: &ManArgs) -> Result<(), Failure> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// Every page that a page names is there.
+    #[test]
+    fn exact_manual_pages_name_each_other() {
+        let program = documented();
+        let name = |c: &Command| c.get_display_name().unwrap_or(PROGRAM).to_owned();
+        let all = with_inner(&program);
+        let names: Vec<String> = all.iter().map(|c| name(c)).collect();
+        assert!(
+            names.contains(&"wingbeat-campaign-run".to_owned()),
+            "{names:?}"
+        );
+        for command in all {
+            let mut page = vec![];
+            clap_mangen::Man::new(command.clone())
+                .render(&mut page)
+                .unwrap();
+            let page = String::from_utf8(page).unwrap().replace('\\', "");
+            let named = page.split_whitespace().filter_map(|w| {
+                let (word, _) = w.split_once("(1)")?;
+                word.starts_with("wingbeat-").then_some(word)
+            });
+            for word in named {
+                assert!(
+                    names.iter().any(|n| n == word),
+                    "{} names {word}",
+                    name(command)
+                );
+            }
+        }
+    }
 
     #[test]
     fn behaves_every_command_stands_in_one_group() {

@@ -186,11 +186,15 @@ fn tell_means(report: &mut Report, [first, second]: [&Summary; 2]) {
         };
         line!(report, "{:<20}{x:>26}{y:>26}{d:>26}{beyond}", row.what);
     }
-    let changing = [("first", a), ("second", b)].into_iter();
-    for (which, _) in changing.filter(|(_, means)| !means.is_steady) {
+    for (which, means) in [("first", a), ("second", b)] {
+        let are = match (means.is_steady, means.is_known) {
+            (true, _) => continue,
+            (false, true) => "are not steady",
+            (false, false) => "are not known to be steady",
+        };
         line!(
             report,
-            "the beats of the {which} flight are not known to be steady: its mean is of these beats alone"
+            "the beats of the {which} flight {are}: its mean is of these beats alone"
         );
     }
 }

@@ -210,6 +210,18 @@ fn behaves_legends_say_what_is_drawn() {
     browser.value("document.getElementById('on-pressure').click()");
     let words = browser.value(legend).as_str().unwrap().to_owned();
     assert!(words.contains("pressure jump −"), "{words}");
+    // The ramp ends at what nineteen in twenty frames do not exceed, and says so where some do.
+    let beyond =
+        browser.value("Math.max(...flight.frames.map((f) => f.pressure)) > flight.most.pressure");
+    assert_eq!(
+        json!(words.contains("Pa, full colour beyond")),
+        beyond,
+        "{words}"
+    );
+    let inside = "flight.frames.forEach((f) => { f.pressure = Math.min(f.pressure, flight.most.pressure); }), drawLegend()";
+    browser.value(inside);
+    let words = browser.value(legend).as_str().unwrap().to_owned();
+    assert!(!words.contains("beyond"), "{words}");
     // The colours of the wing are those of the legend.
     let colours = "wings[0].mesh.geometry.attributes.color.array.every((c) => c === 1)";
     browser.wait(&format!("!{colours}"));

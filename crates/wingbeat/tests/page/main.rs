@@ -160,6 +160,21 @@ fn behaves_any_description_is_shown() {
     let seen = browser.value("['verdict', 'outcome'].map((id) => { const e = document.getElementById(id), box = e.getBoundingClientRect(); return box.left >= 0 && box.right <= innerWidth && e.scrollWidth <= e.clientWidth + 1 ? e.textContent : ''; })");
     let level = browser.value("flight.summary.split(':')[0]");
     assert_eq!(seen, json!([level, "flown to its end"]));
+    // On a narrow screen the title is broken after hyphens, and within words only where one is wider than the screen.
+    let lines = browser.value(
+        "['fruit-fly-hover', 'robofly-table-symmetrical', 'w'.repeat(60)].map((name) => {
+      const title = document.getElementById('name'), range = document.createRange();
+      document.body.style.width = '320px';
+      title.textContent = name;
+      const lines = name.split(/(?<=-)/).map((word, k, all) => {
+        const from = all.slice(0, k).join('').length;
+        range.setStart(title.firstChild, from); range.setEnd(title.firstChild, from + word.length);
+        return new Set([...range.getClientRects()].map((r) => r.top)).size;
+      });
+      return [Math.max(...lines), title.getBoundingClientRect().right <= 320];
+    })",
+    );
+    assert_eq!(lines, json!([[1, true], [1, true], [3, true]]));
     content(&mut browser);
 }
 
