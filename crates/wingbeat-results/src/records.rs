@@ -20,16 +20,21 @@ pub struct Records {
     record: Record,
     /// Counted again where an older result lacks it.
     air_impulse: Option<Integral<DVec3>>,
+    /// What the two after it are counted by.
+    mechanism: Mechanism,
     /// Counted again where an older result lacks it.
-    passive: Option<(Mechanism, PassiveWork)>,
+    passive: Option<PassiveWork>,
+    /// Likewise.
+    positive: Option<Integral<f64>>,
     /// Where an older result of a lattice does not tell the inviscid force from the whole one.
     takes_whole_for_inviscid: bool,
 }
 
 impl Records {
     /// Opens the history of a flight. Numbers that results of older versions lack are not numbers (NaN), but
-    /// the impulse of the air and the work of springs, dampers and stops, which are counted from the rows, and
-    /// the impulse of the inviscid force, which is taken for that of the whole.
+    /// the impulse of the air, the work of springs, dampers and stops and the positive work of what drives the
+    /// joints, which are counted from the rows, and the impulse of the inviscid force, which is taken for that of
+    /// the whole.
     ///
     /// # Errors
     /// A file that cannot be read or is not a history; a column that is missing or belongs to
@@ -68,8 +73,9 @@ impl Records {
         if lacks_inviscid {
             record.inviscid_impulse = DVec3::ZERO; // as without a lattice
         }
-        let lacks_passive = record.passive_work.is_nan();
-        let system = lacks_passive.then(|| system_of(setup)).transpose();
+        let (lacks_passive, lacks_positive) =
+            (record.passive_work.is_nan(), record.positive_work.is_nan());
+        let system = system_of(setup);
         let system = system.map_err(|e| damaged(format!("the joints do not fit together: {e}")))?;
         let is_lattice = matches!(setup.air, AirModel::VortexLattice(_));
         Ok(Self {
@@ -78,7 +84,9 @@ impl Records {
             places,
             record,
             air_impulse: counts.then(Integral::default),
-            passive: system.map(|s| (Mechanism::of(&s), PassiveWork::default())),
+            mechanism: Mechanism::of(&system),
+            passive: lacks_passive.then(PassiveWork::default),
+            positive: lacks_positive.then(Integral::default),
             takes_whole_for_inviscid: lacks_inviscid && is_lattice,
         })
     }
@@ -99,8 +107,14 @@ impl Records {
         if let Some(impulse) = &mut self.air_impulse {
             self.record.air_impulse = impulse.count(self.record.time, self.record.air_force());
         }
-        if let Some((mechanism, work)) = &mut self.passive {
+        let mechanism = &self.mechanism;
+        if let Some(work) = &mut self.passive {
             (self.record).put_passive(mechanism, |time, now| work.count(time, now));
+        }
+        if let Some(work) = &mut self.positive {
+            let powers = self.record.driving_powers(mechanism);
+            let positive = powers.map(|p| p.max(0.0)).sum();
+            self.record.positive_work = work.count(self.record.time, positive);
         }
         if self.takes_whole_for_inviscid {
             self.record.inviscid_impulse = self.record.air_impulse;

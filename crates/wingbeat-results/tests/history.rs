@@ -292,6 +292,7 @@ fn behaves_histories_of_older_versions_are_read() {
         // Counted again from the forces by the rule they were counted with.
         assert_eq!(a.air_impulse, b.air_impulse);
         assert_eq!(a.inviscid_impulse, b.inviscid_impulse);
+        assert_eq!(a.positive_work, b.positive_work);
         assert!(b.accelerations.iter().all(|x| x.linear.is_nan()));
     }
     let mut summary = Summary::read(&case, &path, &Outcome::Finished).unwrap();
