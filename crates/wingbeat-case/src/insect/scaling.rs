@@ -46,22 +46,38 @@ fn border(mass: f64, [a, b]: [&Species; 2]) -> f64 {
     (0.5 * (x + y) + 0.5 * (of_mass(a) - of_mass(b)) / (x - y)).exp()
 }
 
-/// The shortest and the longest wing of an insect of a mass \[m\]: those in proportion, and what lies between
-/// them. They end where the proportion to a species ends, or where another species becomes the nearest.
+/// The shortest and the longest wing of an insect of a mass \[m\]: those in proportion around the wing of the
+/// species nearest in mass, scaled to it. They end where the proportion to a species ends, or where another
+/// species becomes the nearest; wings in proportion to much smaller or larger species beyond are not among them.
 fn allowed_wings(mass: f64) -> [f64; 2] {
     const BESIDE: f64 = 1e-9;
+    let scaled = |s: &Species| s.wing_length * (mass / s.mass).cbrt();
+    let middle = scaled(Species::nearest(Some(mass), None));
     let ends = SPECIES
         .iter()
-        .flat_map(|s| PROPORTION.map(|part| part * s.wing_length * (mass / s.mass).cbrt()));
+        .flat_map(|s| PROPORTION.map(|part| part * scaled(s)));
     let pairs = SPECIES
         .iter()
         .flat_map(|a| SPECIES.iter().map(move |b| [a, b]));
     let pairs = pairs.filter(|[a, b]| a.wing_length != b.wing_length);
     let all = ends.chain(pairs.map(|pair| border(mass, pair)));
     let all = all.flat_map(|wing| [wing * (1.0 - BESIDE), wing * (1.0 + BESIDE)]);
-    let hull = |[least, most]: [f64; 2], wing: f64| [least.min(wing), most.max(wing)];
-    all.filter(|wing| is_in_proportion(mass, *wing))
-        .fold([f64::INFINITY, f64::NEG_INFINITY], hull)
+    let (taken, refused): (Vec<f64>, Vec<f64>) =
+        all.partition(|wing| is_in_proportion(mass, *wing));
+    let [below, above] = refused
+        .iter()
+        .fold([0.0, f64::INFINITY], |[low, high], &wing| {
+            match wing < middle {
+                true => [f64::max(low, wing), high],
+                false => [low, f64::min(high, wing)],
+            }
+        });
+    let inner = taken
+        .into_iter()
+        .filter(|wing| (below..above).contains(wing));
+    inner.fold([middle, middle], |[least, most], wing| {
+        [least.min(wing), most.max(wing)]
+    })
 }
 
 impl Size {
@@ -212,8 +228,8 @@ impl Insect {
 mod tests {
     use super::*;
 
-    /// Of any mass there is one range of wings, whichever species the wing is near to; its ends as the refusal
-    /// says them are allowed, and beyond are only wings out of proportion to their nearest species.
+    /// Of any mass there is one range of wings, whichever species the wing is near to: all in it are in
+    /// proportion, its ends as the refusal says them are allowed, and just beyond wings are out of proportion.
     #[test]
     fn exact_the_range_of_wings_that_a_refusal_says_is_what_is_allowed() {
         let size = |mass, wing| Size {
@@ -239,10 +255,9 @@ mod tests {
                 assert!(said_there.contains(range), "{said_there}: {range}");
                 assert!(!is_in_proportion(mass, wing), "{mass} {wing}");
             }
-            for far in 1..=200 {
-                let beyond = 1.02_f64.powi(far);
-                let beyond = [least / beyond, most * beyond];
-                assert!(beyond.iter().all(|wing| !is_in_proportion(mass, *wing)));
+            for part in 0..=100 {
+                let wing = least * (most / least).powf(f64::from(part) / 100.0);
+                assert!(is_in_proportion(mass, wing), "{mass} {wing}");
             }
         }
     }
