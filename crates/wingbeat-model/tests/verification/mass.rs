@@ -69,6 +69,16 @@ fn slanted(profile: Profile, panels: [usize; 2]) -> Revolution {
     }
 }
 
+fn profiles() -> [Profile; 4] {
+    let table = vec![(0.0, 0.0), (0.25, 0.9), (0.5, 1.0), (1.0, 0.0)];
+    [
+        Profile::Ellipsoid,
+        Profile::Superellipse { exponent: 3.0 },
+        Profile::Superellipse { exponent: 1.5 },
+        Profile::Table(table),
+    ]
+}
+
 #[test]
 fn exact_mass_of_a_round_ellipsoid_whatever_its_panels() {
     let (a, b, rho) = (1.0, 0.4, 3.0); // semi-axes
@@ -91,14 +101,7 @@ fn exact_mass_of_a_round_ellipsoid_whatever_its_panels() {
 /// A tilted ellipsoid reaches sqrt((a u)^2 + (b v)^2) to either side; other shapes what their panels come to.
 #[test]
 fn exact_lengths_and_centres_of_bodies_whatever_their_panels() {
-    let table = vec![(0.0, 0.0), (0.25, 0.9), (0.5, 1.0), (1.0, 0.0)];
-    let profiles = [
-        Profile::Ellipsoid,
-        Profile::Superellipse { exponent: 3.0 },
-        Profile::Superellipse { exponent: 1.5 },
-        Profile::Table(table),
-    ];
-    for profile in profiles {
+    for profile in profiles() {
         let ends = slanted(profile.clone(), [6, 8])
             .ends_along_b1("part")
             .unwrap();
@@ -142,14 +145,7 @@ fn exact_lengths_and_centres_of_bodies_whatever_their_panels() {
 
 #[test]
 fn order_solids_within_panels_converge_to_the_round_ones_at_second_order() {
-    let table = vec![(0.0, 0.0), (0.25, 0.9), (0.5, 1.0), (1.0, 0.0)];
-    let profiles = [
-        Profile::Ellipsoid,
-        Profile::Superellipse { exponent: 3.0 },
-        Profile::Superellipse { exponent: 1.5 },
-        Profile::Table(table),
-    ];
-    for profile in profiles {
+    for profile in profiles() {
         let gaps = |n: usize| {
             let shape = slanted(profile.clone(), [n, 2 * n]);
             let panels = integrate::solid(&shape.mesh("part").unwrap(), 1.0);
