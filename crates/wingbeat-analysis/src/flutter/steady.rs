@@ -83,8 +83,8 @@ impl ElasticRig {
         self.elastic.wings().len()
     }
 
-    /// Flies to the steady state: much damping, long steps, then those of the setup. Told is how each elastic wing
-    /// is deformed.
+    /// Flies to the steady state: much damping, long steps, then those of the setup. Returns with it how each elastic
+    /// wing is deformed.
     ///
     /// # Errors
     /// A steady state that is not reached, what the flight reports.
