@@ -5,7 +5,8 @@
 //! velocities added in the leading modes of each deformed wing (`disturbance`). The difference of the two is the
 //! response of the system linearised about the deformed state, wakes and all; [`realise`] finds its
 //! eigenvalues, in the response of each wing. Wings that are mirror images of each other, deformation and all, are
-//! disturbed as such: their symmetrical vibrations are found. Growth that changes its sign between speeds is an onset or an end of flutter ([`crossings`]),
+//! disturbed as such, or against each other. Growth that changes its sign between speeds is an onset or an end of
+//! flutter ([`crossings`]),
 //! if it differs from zero by more than is not known of it (`uncertainty`). The disturbance of half the size
 //! tells how far the response is linear; where it is not, the disturbance is made smaller (`response`).
 //!

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import copy
+import sys
 
 import numpy as np
 import pytest
@@ -53,6 +54,26 @@ def test_behaves_commands_are_tried_on_copies(blade):
     assert height[0.2] < height[0.0] < height[-0.2]  # n3 points down
     command = Adjustment()
     np.testing.assert_array_equal(followed(real, beat).arrays["body_z_m"], followed(untouched, beat).arrays["body_z_m"])
+
+
+def test_agrees_a_copy_with_a_program_that_controls(blade, tmp_path):
+    """It counts its looks in the memory that it is given back: the copy's program goes on with that."""
+    program = tmp_path / "counts.py"
+    program.write_text(
+        "import json, sys\n"
+        "for line in sys.stdin:\n"
+        "    looks = (json.loads(line).get('memory') or [0])[0] + 1\n"
+        "    wings = [{'stroke_amplitude': 0.01 * looks}] * 2\n"
+        "    print(json.dumps({'wings': wings, 'memory': [looks]}), flush=True)\n"
+    )
+    keys = {"time.beats": 4, "control.controller": "external", "control.external.command": [sys.executable, str(program)]}
+    flight = blade.set(keys)
+    first, made = flight.start(), 2 * round(flight.period_s / flight.step_s) + 3
+    first.step(made)
+    once, again, whole = followed(first.copy(), 50), followed(first, 50), followed(flight.start(), made + 50)
+    for column, numbers in whole.arrays.items():
+        np.testing.assert_array_equal(once.arrays[column], numbers, err_msg=column)
+        np.testing.assert_array_equal(again.arrays[column], numbers, err_msg=column)
 
 
 def test_refuses_copies_of_flights_whose_parts_remember(blade):

@@ -50,7 +50,7 @@ pub struct Beat {
     pub thrust_newton: f64,
     /// Power of all actuators and of prescribed deformation [W].
     pub power_watt: f64,
-    /// The positive part of it, joint by joint [W]; not a number where an older result does not tell.
+    /// The positive part of it, joint by joint [W]: what actuators give that get nothing back.
     pub positive_power_watt: f64,
 }
 

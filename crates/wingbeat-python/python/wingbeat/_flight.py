@@ -370,7 +370,7 @@ class Stepper:
     def copy(self) -> Stepper:
         """A second flight that goes on from here, with what was flown so far: to try commands, and to come back. Both give the
         same bits. A controller or air written in Python is called by both; those that remember (with ``reset`` or ``accept``)
-        are refused, and flights with another program beside them.
+        are refused, and so is the air of another program. A program that controls is started once more, with its memory.
         """
         return Stepper(self._core.copy())
 

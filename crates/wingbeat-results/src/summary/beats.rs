@@ -22,7 +22,7 @@ pub struct BeatMeans {
     /// Mean power that hinge actuators and prescribed deformation give \[W\].
     pub power_watt: f64,
     /// The positive part of it, joint by joint: what actuators give that get nothing back when wings are slowed
-    /// down \[W\]; none where an older result does not tell.
+    /// down \[W\]; none in a summary of an older version.
     #[serde(default)]
     pub positive_power_watt: Option<f64>,
     /// Mean inviscid air force against gravity, with the suction that pressures lack, without friction \[N\]; none
@@ -49,8 +49,7 @@ impl BeatMeans {
             lift_over_weight: over_weight(setup, lift_newton),
             thrust_newton: force.x,
             power_watt: (to.driving_work() - from.driving_work()) / period,
-            positive_power_watt: Some((to.positive_work - from.positive_work) / period)
-                .filter(|p| p.is_finite()),
+            positive_power_watt: Some((to.positive_work - from.positive_work) / period),
             inviscid_lift_newton: of_lattice(from.inviscid_impulse - to.inviscid_impulse),
             lift_by_impulse_newton: of_lattice(to.vortex_impulse - from.vortex_impulse),
         }

@@ -71,7 +71,8 @@ fn agrees_wings_against_each_other_with_wings_together_where_they_know_nothing_o
     assert!(in_strips < 1e-6, "{in_strips:e}"); // rounding, which identification amplifies
     let both = goland(&["air.mirror=false"]);
     let in_lattice = apart(&both.setup, 180.0);
-    assert!((0.01..0.3).contains(&in_lattice), "{in_lattice}");
+    // 2.57 and 2.30 1/s: the induced flow of the other side.
+    assert!((0.05..0.2).contains(&in_lattice), "{in_lattice}");
     for (setup, says) in [
         (goland(&[]).setup, "air.mirror = false"),
         (
