@@ -137,7 +137,7 @@ impl Source {
 type Entry<T> = (&'static str, &'static str, &'static str, fn(&T) -> f64);
 
 /// Means of wingbeats: name, unit, meaning.
-const BEATS: [Entry<BeatMeans>; 7] = [
+const BEATS: [Entry<BeatMeans>; 9] = [
     ("lift_newton", "N", "mean air force against gravity", |b| {
         b.lift_newton
     }),
@@ -164,6 +164,18 @@ const BEATS: [Entry<BeatMeans>; 7] = [
         "W",
         "mean of its positive part, joint by joint: what actuators give that get nothing back",
         |b| b.positive_power_watt.unwrap_or(f64::NAN),
+    ),
+    (
+        "lift_coefficient",
+        "1",
+        "mean air force against gravity over the mean dynamic pressure on the wings",
+        |b| b.lift_coefficient.unwrap_or(f64::NAN),
+    ),
+    (
+        "thrust_coefficient",
+        "1",
+        "the same of the air force along n1",
+        |b| b.thrust_coefficient.unwrap_or(f64::NAN),
     ),
     (
         "inviscid_lift_newton",

@@ -15,6 +15,7 @@ use crate::air::{Air, AirScratch, Instant};
 use crate::applied::{AppliedLoad, PointSpring};
 use crate::carried::{CarriedAir, CarriedScratch, CarriedState};
 use crate::core::Core;
+use crate::dynamic_pressure::DynamicPressure;
 use crate::elastic::{ElasticScratch, ElasticState, ElasticWings};
 use crate::error::FlightError;
 use crate::interface::Shape;
@@ -40,6 +41,8 @@ pub struct Equations {
     pub core: Core,
     /// The air around them.
     pub air: Arc<dyn Air>,
+    /// What it could do to the wings, for the coefficients of a record.
+    pub pressure: Arc<DynamicPressure>,
     /// The wings that loads bend.
     pub elastic: Arc<ElasticWings>,
     /// The wings on free joints, which carry air along.

@@ -105,6 +105,7 @@ impl FreeFlight {
             mechanism: Mechanism::of(form.system()),
             core: Core::Free(Box::new(form.clone())),
             air,
+            pressure: Arc::default(), // no records are made of it
             elastic: Arc::default(),
             carried: CarriedAir::default(),
             applied: setup.loads.clone(),

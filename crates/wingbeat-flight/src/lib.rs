@@ -29,6 +29,7 @@ mod carried;
 pub mod control;
 mod controller;
 mod core;
+mod dynamic_pressure;
 mod edge_ahead;
 pub mod elastic;
 mod equations;

@@ -68,6 +68,10 @@ pub struct Record {
     /// Work of actuators and of prescribed deformation where it is positive, joint by joint, since the start \[J\]:
     /// what they give if nothing that they take up comes back. Counted step by step with the trapezoidal rule.
     pub positive_work: f64,
+    /// Impulse that the wings would have had from the air at a coefficient of one, since the start [N s]: the integral
+    /// over time, by the trapezoidal rule, of `1/2 rho int U^2 dA` over all wings, U the velocity of the feathering axes
+    /// through the undisturbed air. Zero in a vacuum and where the model of the air tells no density.
+    pub dynamic_impulse: f64,
     /// Work done so far by the air on the bodies [J], on their deformation too.
     pub air_work: f64,
     /// Work done so far by what deforms the wings against the air [J].

@@ -49,6 +49,8 @@ pub struct Ledger {
     pub vortex_impulse: DVec3,
     /// Positive work of what drives the joints up to the last record.
     pub positive_work: Integral<f64>,
+    /// Impulse of the dynamic pressure past the wings up to the last record.
+    pub dynamic_impulse: Integral<f64>,
 }
 
 impl Ledger {
@@ -190,6 +192,8 @@ impl Sources<'_> {
         r.vortex_impulse = loads.impulse;
         let air_force = s.air.iter().map(|w| w.force).sum();
         r.air_impulse = ledger.air_impulse.count(time, air_force);
+        let dynamic = self.equations.pressure.force(time, &s.motions);
+        r.dynamic_impulse = ledger.dynamic_impulse.count(time, dynamic);
         r.inviscid_impulse = ledger.inviscid_impulse.count(time, loads.inviscid_force);
         r.impulse_account = loads.account;
         r.impulse_residual = loads.impulse - ledger.vortex_impulse + r.inviscid_impulse;

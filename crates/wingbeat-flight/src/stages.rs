@@ -11,6 +11,7 @@ use crate::air::{Air, wing_pairs};
 use crate::bodies::{self, WingLaw};
 use crate::carried::CarriedAir;
 use crate::core::Core;
+use crate::dynamic_pressure::DynamicPressure;
 use crate::elastic::ElasticWings;
 use crate::equations::Equations;
 use crate::error::FlightError;
@@ -51,6 +52,7 @@ pub fn stages(setup: &FlightSetup, law: &WingLaw<'_>) -> Result<Vec<Stage>, Flig
         false => elastic,
     });
     check_integrator(setup, &elastic)?;
+    let pressure = Arc::new(DynamicPressure::of(setup));
     let mechanism = Mechanism::of(&system);
     let carried = carried(setup, (&system, is_light), &elastic);
     let moves_by_air = on_joints || is_light;
@@ -66,6 +68,7 @@ pub fn stages(setup: &FlightSetup, law: &WingLaw<'_>) -> Result<Vec<Stage>, Flig
             equations: Equations {
                 core,
                 air: air.clone(),
+                pressure: pressure.clone(),
                 elastic: elastic.clone(),
                 carried: carried.clone(),
                 mechanism: mechanism.clone(),

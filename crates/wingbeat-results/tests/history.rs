@@ -118,6 +118,7 @@ fn numbers(record: &Record) -> usize {
         passive_power: _,
         passive_work: _,
         positive_work: _,
+        dynamic_impulse: _,
     } = record;
     let lists = coordinates.len() + rates.len() + multipliers.len() + deformation_power.len();
     // Tip (3), twist, four sections (3), elastic energy and its power, that of the air, passes of each; what
@@ -129,7 +130,7 @@ fn numbers(record: &Record) -> usize {
     let passive = 2 * joints.len().min(1); // power and work of springs, dampers and stops
     let reactions = 7 * (hinges.len() + loops.len()) + 2 * joints.len() + passive;
     let loads = 6 * (air.len() + applied.len() + 1);
-    let (scalars, own_vectors) = (19, 15);
+    let (scalars, own_vectors) = (20, 15);
     lists
         + elastic
         + vectors

@@ -52,6 +52,10 @@ pub struct Beat {
     pub power_watt: f64,
     /// The positive part of it, joint by joint [W]: what actuators give that get nothing back.
     pub positive_power_watt: f64,
+    /// Lift over the mean dynamic pressure on the wings [1]; not a number in a vacuum.
+    pub lift_coefficient: f64,
+    /// The same of the force along n1 [1].
+    pub thrust_coefficient: f64,
 }
 
 impl From<&BeatMeans> for Beat {
@@ -62,6 +66,8 @@ impl From<&BeatMeans> for Beat {
             thrust_newton: means.thrust_newton,
             power_watt: means.power_watt,
             positive_power_watt: means.positive_power_watt.unwrap_or(f64::NAN),
+            lift_coefficient: means.lift_coefficient.unwrap_or(f64::NAN),
+            thrust_coefficient: means.thrust_coefficient.unwrap_or(f64::NAN),
         }
     }
 }

@@ -240,3 +240,60 @@ fn exact_positive_power_of_wings_in_a_vacuum() {
         beat.power_watt
     );
 }
+
+/// Rectangular wings, from r0 to R from the root, that swing by A sin(w t) in air at rest and feather besides:
+/// the mean of 1/2 rho int U^2 dA is rho c A^2 w^2 (R^3 - r0^3) / 6 for the two together.
+#[test]
+fn exact_coefficients_of_flapping_rectangles() {
+    let flown = |air: &str| {
+        let keys = [
+            "flight={mode=\"tethered\"}",
+            "motion={frequency_hz=200,start=\"impulsive\"}",
+            "wing.right.motion={phi={fourier={sine_deg=[60]}},theta={constant_deg=0},psi={fourier={cosine_deg=[40]}}}",
+            "wing.right.planform={rectangle={chord_m=1e-3,span_m=2e-3,root_offset_m=4e-4,axis_fraction=0.25}}",
+            "wing.right.mesh={chordwise=2,spanwise=10}",
+            "time={beats=2,steps_per_beat=40}",
+            air,
+        ];
+        let run = Flight::preset_with("fruit-fly-blade", &keys).and_then(|f| f.fly());
+        run.expect("a flight")
+    };
+    for air in [
+        "air.model=\"blade_element\"",
+        "air.model=\"vortex_lattice\"",
+    ] {
+        let run = flown(air);
+        let rho = run.setup.air.density().expect("a density");
+        let rate = 60f64.to_radians() * 2.0 * std::f64::consts::PI * 200.0;
+        let (chord, [root, tip], width) = (1e-3, [4e-4, 2.4e-3], 2e-4f64);
+        // Ten strips, each with the speed of its middle, leave out c (R - r0) dr^2 / 12 of the second moment.
+        let moment = chord
+            * ((f64::powi(tip, 3) - f64::powi(root, 3)) / 3.0
+                - (tip - root) * width.powi(2) / 12.0);
+        let still = 0.5 * rho * rate.powi(2) * moment;
+        let [first, last] = [40, 80].map(|k| &run.records[k]);
+        let mean = (last.dynamic_impulse - first.dynamic_impulse) * 200.0;
+        assert!(
+            (mean / still - 1.0).abs() < 1e-12,
+            "{air}: {mean:e} N, {still:e} N"
+        );
+        let beat = run.beats()[1];
+        let lift = -(last.air_impulse - first.air_impulse).z * 200.0;
+        assert!((beat.lift_coefficient * still / lift - 1.0).abs() < 1e-12);
+    }
+}
+
+/// Wings in a stream have half its density times its square times their area, whatever their incidence.
+#[test]
+fn exact_dynamic_pressure_of_a_stream() {
+    let keys = [
+        "time.steps=4",
+        "wing.right.motion={psi={constant_deg=20},phi={constant_deg=10}}",
+    ];
+    let run = Flight::preset_with("rectangular-wing", &keys).and_then(|f| f.fly());
+    let run = run.expect("a flight");
+    let last = run.records.last().expect("rows");
+    let exact = 0.5 * 1.225 * 10f64.powi(2) * 0.08 * last.time;
+    let error = last.dynamic_impulse / exact - 1.0;
+    assert!(error.abs() < 1e-13, "{error:e}");
+}

@@ -53,7 +53,16 @@ impl AirModel {
         }
     }
 
-    /// The same, to be changed.
+    /// Density of the air [kg/m3]; none where the model does not tell it.
+    pub fn density(&self) -> Option<f64> {
+        match self {
+            Self::BladeElement(options) => Some(options.blade.density),
+            Self::VortexLattice(options) => Some(options.lattice.density),
+            Self::None | Self::Derivatives(_) | Self::External(_) | Self::Own(_) => None,
+        }
+    }
+
+    /// Its stream, to be changed.
     pub fn stream_mut(&mut self) -> Option<&mut DVec3> {
         match self {
             Self::BladeElement(options) => Some(&mut options.blade.free_stream),

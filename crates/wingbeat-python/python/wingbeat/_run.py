@@ -45,7 +45,9 @@ class Beats(Mapping[str, "NDArray[Any]"]):
     """Means over every whole wingbeat, those of summary and figures: an array for each quantity.
 
     ``beat`` (numbers from 1), ``lift_newton``, ``lift_over_weight`` (NaN without gravity), ``thrust_newton``,
-    ``power_watt``, ``positive_power_watt`` (its positive part, joint by joint), ``inviscid_lift_newton``, ``lift_by_impulse_newton`` (both NaN without a lattice).
+    ``power_watt``, ``positive_power_watt`` (its positive part, joint by joint), ``lift_coefficient``,
+    ``thrust_coefficient`` (forces over the mean dynamic pressure on the wings; NaN in a vacuum),
+    ``inviscid_lift_newton``, ``lift_by_impulse_newton`` (both NaN without a lattice).
     """
 
     def __init__(self, beats: list[dict[str, Any]], means: dict[str, Any] | None) -> None:

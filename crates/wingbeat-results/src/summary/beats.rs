@@ -25,6 +25,14 @@ pub struct BeatMeans {
     /// down \[W\]; none in a summary of an older version.
     #[serde(default)]
     pub positive_power_watt: Option<f64>,
+    /// Mean lift over the mean dynamic pressure on the wings, `1/2 rho int U^2 dA`, U the velocity of the feathering
+    /// axes through the undisturbed air \[1\]; none without wings that move through air of a known density, and in a
+    /// summary of an older version.
+    #[serde(default)]
+    pub lift_coefficient: Option<f64>,
+    /// The same of the force along n1 \[1\].
+    #[serde(default)]
+    pub thrust_coefficient: Option<f64>,
     /// Mean inviscid air force against gravity, with the suction that pressures lack, without friction \[N\]; none
     /// without a lattice.
     #[serde(default)]
@@ -41,6 +49,8 @@ impl BeatMeans {
         let mean = |impulse: DVec3| impulse / period;
         let force = mean(to.air_impulse - from.air_impulse);
         let lift_newton = -force.dot(down(setup));
+        let dynamic = (to.dynamic_impulse - from.dynamic_impulse) / period;
+        let coefficient = |force: f64| (dynamic > 0.0).then(|| force / dynamic);
         let has_lattice = matches!(setup.air, AirModel::VortexLattice(_));
         let of_lattice = |impulse: DVec3| has_lattice.then(|| mean(impulse).dot(down(setup)));
         Self {
@@ -50,6 +60,8 @@ impl BeatMeans {
             thrust_newton: force.x,
             power_watt: (to.driving_work() - from.driving_work()) / period,
             positive_power_watt: Some((to.positive_work - from.positive_work) / period),
+            lift_coefficient: coefficient(lift_newton),
+            thrust_coefficient: coefficient(force.x),
             inviscid_lift_newton: of_lattice(from.inviscid_impulse - to.inviscid_impulse),
             lift_by_impulse_newton: of_lattice(to.vortex_impulse - from.vortex_impulse),
         }
@@ -124,6 +136,7 @@ mod tests {
                 time: k as f64,
                 hinge_work: 3.0 * k as f64,
                 positive_work: 5.0 * k as f64,
+                dynamic_impulse: 2.0 * k as f64,
                 vortex_impulse: DVec3::new(0.0, 0.0, 3.0 * k as f64),
                 inviscid_impulse: DVec3::new(0.0, 0.0, -4.0 * k as f64),
                 air: vec![Wrench {
@@ -150,6 +163,8 @@ mod tests {
             assert!((beat.thrust_newton - 1.0).abs() < 1e-14);
             assert_eq!(beat.power_watt, 3.0);
             assert_eq!(beat.positive_power_watt, Some(5.0));
+            assert_eq!(beat.lift_coefficient, Some(beat.lift_newton / 2.0));
+            assert_eq!(beat.thrust_coefficient, Some(beat.thrust_newton / 2.0));
             assert_eq!(beat.lift_by_impulse_newton, Some(3.0));
             assert_eq!(beat.inviscid_lift_newton, Some(4.0));
         }

@@ -58,9 +58,14 @@ impl Summary {
         row("lift [N]", |m| m.lift_newton);
         row("forward force [N]", |m| m.thrust_newton);
         row("power [W]", |m| m.power_watt);
-        if let (Some(x), Some(y)) = (a.positive_power_watt, b.positive_power_watt) {
-            rows.push(MeanDifference::between("positive power [W]", x, y));
-        }
+        let mut where_known = |what, of: fn(&ManyBeats) -> Option<Estimate>| {
+            if let (Some(x), Some(y)) = (of(a), of(b)) {
+                rows.push(MeanDifference::between(what, x, y));
+            }
+        };
+        where_known("positive power [W]", |m| m.positive_power_watt);
+        where_known("lift coefficient [1]", |m| m.lift_coefficient);
+        where_known("thrust coefficient [1]", |m| m.thrust_coefficient);
         rows
     }
 }

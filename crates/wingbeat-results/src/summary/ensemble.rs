@@ -32,6 +32,10 @@ pub struct EnsembleBeat {
     pub power_watt: Estimate,
     /// The positive part of it, joint by joint \[W\].
     pub positive_power_watt: Option<Estimate>,
+    /// Lift over the dynamic pressure on the wings, see [`BeatMeans::lift_coefficient`] \[1\].
+    pub lift_coefficient: Option<Estimate>,
+    /// The same of the force along n1 \[1\].
+    pub thrust_coefficient: Option<Estimate>,
     /// Standard deviation of the lift over the members, over the mean of its magnitudes: how far the members have
     /// parted \[1\].
     pub spread: f64,
@@ -150,6 +154,8 @@ fn mean_of(members: &[Vec<BeatMeans>], beat: usize) -> BeatMeans {
         thrust_newton: mean(|b| b.thrust_newton),
         power_watt: mean(|b| b.power_watt),
         positive_power_watt: where_known(|b| b.positive_power_watt),
+        lift_coefficient: where_known(|b| b.lift_coefficient),
+        thrust_coefficient: where_known(|b| b.thrust_coefficient),
         inviscid_lift_newton: where_known(|b| b.inviscid_lift_newton),
         lift_by_impulse_newton: where_known(|b| b.lift_by_impulse_newton),
     }
@@ -190,15 +196,15 @@ fn variance(beats: &[BeatMeans]) -> f64 {
 /// Beats `from` up to `to`, that excluded, as one.
 fn over(members: &[Vec<BeatMeans>], [from, to]: [usize; 2], are: Members) -> EnsembleBeat {
     let mean = |x: &[f64]| x.iter().sum::<f64>() / x.len() as f64;
-    let of_members = |f: fn(&BeatMeans) -> f64| -> Vec<f64> {
+    let of_members = |f: &dyn Fn(&BeatMeans) -> f64| -> Vec<f64> {
         let member = |m: &Vec<BeatMeans>| mean(&m[from..to].iter().map(f).collect::<Vec<_>>());
         members.iter().map(member).collect()
     };
-    let of_beats = |f: fn(&BeatMeans) -> f64| -> Vec<f64> {
+    let of_beats = |f: &dyn Fn(&BeatMeans) -> f64| -> Vec<f64> {
         let beat = |k| mean(&members.iter().map(|m| f(&m[k])).collect::<Vec<_>>());
         (from..to).map(beat).collect()
     };
-    let estimate = |f: fn(&BeatMeans) -> f64| match are {
+    let estimate = |f: &dyn Fn(&BeatMeans) -> f64| match are {
         Members::Independent => Estimate::of_independent(&of_members(f)),
         Members::OneFlight => Estimate::of(&of_beats(f)),
         Members::Deterministic => Estimate {
@@ -206,19 +212,22 @@ fn over(members: &[Vec<BeatMeans>], [from, to]: [usize; 2], are: Members) -> Ens
             standard_error: None,
         },
     };
-    let lift = of_members(|b| b.lift_newton);
+    let lift = of_members(&|b| b.lift_newton);
     let size = lift.iter().map(|x| x.abs()).sum::<f64>() / lift.len() as f64;
     let deviation = (moments(&lift).1 / (lift.len() - 1) as f64).sqrt();
-    let every = |has: fn(&BeatMeans) -> bool| members.iter().flatten().all(has);
-    let weighed = every(|b| b.lift_over_weight.is_some());
-    let told = every(|b| b.positive_power_watt.is_some());
+    let where_known = |f: fn(&BeatMeans) -> Option<f64>| {
+        let known = members.iter().flatten().all(|b| f(b).is_some());
+        known.then(|| estimate(&|b| f(b).unwrap_or(f64::NAN)))
+    };
     EnsembleBeat {
         beat: members[0][from].beat,
-        lift_newton: estimate(|b| b.lift_newton),
-        lift_over_weight: weighed.then(|| estimate(|b| b.lift_over_weight.unwrap_or(0.0))),
-        thrust_newton: estimate(|b| b.thrust_newton),
-        power_watt: estimate(|b| b.power_watt),
-        positive_power_watt: told.then(|| estimate(|b| b.positive_power_watt.unwrap_or(0.0))),
+        lift_newton: estimate(&|b| b.lift_newton),
+        lift_over_weight: where_known(|b| b.lift_over_weight),
+        thrust_newton: estimate(&|b| b.thrust_newton),
+        power_watt: estimate(&|b| b.power_watt),
+        positive_power_watt: where_known(|b| b.positive_power_watt),
+        lift_coefficient: where_known(|b| b.lift_coefficient),
+        thrust_coefficient: where_known(|b| b.thrust_coefficient),
         spread: if size > 0.0 { deviation / size } else { 0.0 },
     }
 }
@@ -235,6 +244,8 @@ mod tests {
             thrust_newton: 0.0,
             power_watt: 1.0,
             positive_power_watt: Some(2.0),
+            lift_coefficient: Some(*x),
+            thrust_coefficient: Some(0.0),
             inviscid_lift_newton: Some(*x),
             lift_by_impulse_newton: Some(*x),
         };

@@ -30,6 +30,12 @@ pub struct ManyBeats {
     /// The positive part of it, joint by joint \[W\].
     #[serde(default)]
     pub positive_power_watt: Option<Estimate>,
+    /// Lift over the dynamic pressure on the wings, see [`BeatMeans::lift_coefficient`] \[1\].
+    #[serde(default)]
+    pub lift_coefficient: Option<Estimate>,
+    /// The same of the force along n1 \[1\].
+    #[serde(default)]
+    pub thrust_coefficient: Option<Estimate>,
     /// Inviscid air force against gravity, with the suction that pressures lack, without friction \[N\]; none without a
     /// lattice.
     #[serde(default)]
@@ -82,6 +88,8 @@ impl ManyBeats {
             thrust_newton,
             power_watt: of(|b| b.power_watt),
             positive_power_watt: where_known(|b| b.positive_power_watt),
+            lift_coefficient: where_known(|b| b.lift_coefficient),
+            thrust_coefficient: where_known(|b| b.thrust_coefficient),
             inviscid_lift_newton: where_known(|b| b.inviscid_lift_newton),
             lift_by_impulse_newton: where_known(|b| b.lift_by_impulse_newton),
             change_of_lift: changes[0].change,
@@ -150,6 +158,8 @@ mod tests {
             thrust_newton: thrust(k),
             power_watt: 3.0,
             positive_power_watt: Some(4.0),
+            lift_coefficient: Some(lift(k)),
+            thrust_coefficient: Some(thrust(k)),
             inviscid_lift_newton: Some(lift(k)),
             lift_by_impulse_newton: Some(lift(k)),
         };

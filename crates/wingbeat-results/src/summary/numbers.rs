@@ -95,9 +95,14 @@ impl Summary {
             rows.push((of("lift [N]"), a.lift_newton, b.lift_newton));
             rows.push((of("forward force [N]"), a.thrust_newton, b.thrust_newton));
             rows.push((of("power [W]"), a.power_watt, b.power_watt));
-            if let (Some(x), Some(y)) = (a.positive_power_watt, b.positive_power_watt) {
-                rows.push((of("positive power [W]"), x, y));
-            }
+            let mut where_known = |what, value: fn(&BeatMeans) -> Option<f64>| {
+                if let (Some(x), Some(y)) = (value(a), value(b)) {
+                    rows.push((of(what), x, y));
+                }
+            };
+            where_known("positive power [W]", |m| m.positive_power_watt);
+            where_known("lift coefficient [1]", |m| m.lift_coefficient);
+            where_known("thrust coefficient [1]", |m| m.thrust_coefficient);
         }
         let moved = without_rounding([self.displacement_m, other.displacement_m], 0.0);
         let turned = without_rounding([self.turn_deg, other.turn_deg], 1.0);

@@ -91,7 +91,8 @@ impl Summary {
         if let Some(means) = &self.means {
             mean_rows(means, out);
         }
-        if let Some(text) = self.specific_power() {
+        let said = [self.specific_power(), self.coefficients()];
+        for text in said.into_iter().flatten() {
             out.push_str(&wrapped("       ", &text));
         }
     }
@@ -113,6 +114,20 @@ impl Summary {
                 "Power of {of} over the mass: {all}; of actuators that get nothing back when they brake (its positive part, joint by joint): {positive}."
             )
         })
+    }
+
+    /// Mean coefficients, of the mean or of the last beat; none where no wing moves through air of a known density.
+    fn coefficients(&self) -> Option<String> {
+        let last = self.beats.last()?;
+        let [lift, thrust] = match &self.means {
+            Some(m) => [m.lift_coefficient?, m.thrust_coefficient?].map(|c| c.mean),
+            None => [last.lift_coefficient?, last.thrust_coefficient?],
+        };
+        Some(format!(
+            "Lift and force forward over the mean of 1/2 rho U^2 on the wings, U the speed of the feathering axes through the undisturbed air: coefficients {} and {}.",
+            fixed(lift, 3),
+            fixed(thrust, 3)
+        ))
     }
 
     fn balances(&self, out: &mut String) {

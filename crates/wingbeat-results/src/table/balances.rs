@@ -143,6 +143,13 @@ pub(super) const WAKE: &[Quantity] = &[
     .along(Inertial, Frame::Inertial)
     .new_here(),
     scalar(
+        "dynamic_impulse",
+        Unit::NewtonSecond,
+        "impulse of the dynamic pressure on all wings so far: 1/2 rho times the squared velocity of the feathering axis through the undisturbed air, over area and time; nothing where the density of the air is not known",
+        |r, _, _| Real(&mut r.dynamic_impulse),
+    )
+    .new_here(),
+    scalar(
         "inviscid_impulse_{c}",
         Unit::NewtonSecond,
         "impulse of the air's inviscid force on all bodies so far: with the suction that pressures lack, without friction",

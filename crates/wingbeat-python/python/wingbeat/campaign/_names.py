@@ -13,6 +13,8 @@ BEATS = (
     "thrust_newton",
     "power_watt",
     "positive_power_watt",
+    "lift_coefficient",
+    "thrust_coefficient",
     "inviscid_lift_newton",
     "lift_by_impulse_newton",
 )
