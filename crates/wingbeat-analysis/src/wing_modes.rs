@@ -201,7 +201,7 @@ fn of_wing(flight: &Simulation, k: usize, count: usize) -> Result<WingModes, Ana
         wing: wing.wing(),
         deflection: nodes.iter().zip(rest).map(|(a, b)| *a - b).collect(),
         nodes,
-        mass: structure.masses().iter().map(|m| m.mass).sum(),
+        mass: structure.mass_properties(structure.rest()).mass,
         vacuum,
         alike: alike.collect(),
         air,

@@ -83,7 +83,7 @@ impl Wing {
         }
         let body = structure.body(&self.blank())?.structure;
         Ok(Self {
-            mass: body.mass_properties(body.rest()),
+            mass: body.mass_properties(body.rest()) + body.remainder(),
             structure: Some(structure),
             ..self
         })

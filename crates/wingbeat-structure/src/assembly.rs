@@ -2,7 +2,7 @@
 
 use wingbeat_math::{DMat3, DVec3};
 
-use crate::block::Block;
+use crate::block::{Block, scaled};
 use crate::configuration::{Configuration, NODE};
 use crate::element::ElementForces;
 use crate::error::StructureError;
@@ -141,6 +141,15 @@ impl Assembly {
             if row != HELD && col != HELD {
                 self.matrix.add(row, col, block[i][j]);
             }
+        }
+    }
+
+    /// Adds the block of a mass midway between two nodes: half of its force is on either, and half of the increment of
+    /// either is its own.
+    pub fn add_between(&mut self, structure: &Structure, nodes: [usize; 2], block: &Block) {
+        let quarter = scaled(block, 0.25);
+        for pair in nodes.map(|a| nodes.map(|b| [a, b])).into_iter().flatten() {
+            self.add(structure, pair, &quarter);
         }
     }
 

@@ -49,5 +49,10 @@ pub(crate) fn sum(a: &Block, b: &Block) -> Block {
     std::array::from_fn(|i| std::array::from_fn(|j| a[i][j] + b[i][j]))
 }
 
+/// Every number times `factor`.
+pub(crate) fn scaled(a: &Block, factor: f64) -> Block {
+    a.map(|row| row.map(|x| factor * x))
+}
+
 /// Zero.
 pub(crate) const ZERO: Block = [[0.0; NODE]; NODE];

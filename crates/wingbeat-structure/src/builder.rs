@@ -86,6 +86,11 @@ impl StructureBuilder {
             rest_energy: 0.0,
             rest: self.rest,
             masses,
+            between: self
+                .elements
+                .iter()
+                .flat_map(|e| e.masses_between())
+                .collect(),
             elements: self.elements,
             damping: self.damping,
             unknown,

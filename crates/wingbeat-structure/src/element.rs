@@ -1,6 +1,6 @@
 //! What joins nodes elastically.
 
-use wingbeat_math::MassProperties;
+use wingbeat_math::{DVec3, MassProperties};
 
 use crate::configuration::Configuration;
 
@@ -21,6 +21,22 @@ impl ElementForces {
         self.force.resize(numbers, 0.0);
         self.tangent.clear();
         self.tangent.resize(numbers * numbers, 0.0);
+    }
+}
+
+/// A point mass midway between two nodes: it moves as the mean of both.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MassBetween {
+    /// The nodes.
+    pub nodes: [usize; 2],
+    /// Mass \[kg\].
+    pub mass: f64,
+}
+
+impl MassBetween {
+    /// About its own place.
+    pub(crate) fn point(&self) -> MassProperties {
+        MassProperties::point(self.mass, DVec3::ZERO)
     }
 }
 
@@ -84,4 +100,15 @@ pub trait Element: std::fmt::Debug + Send + Sync {
     /// Adds the element's mass, lumped at its nodes, to the mass properties of all nodes, each about its node in node
     /// components at rest.
     fn add_mass(&self, rest: &Configuration, masses: &mut [MassProperties]);
+
+    /// Its masses midway between nodes of its own, which those lumps lack.
+    fn masses_between(&self) -> Vec<MassBetween> {
+        vec![]
+    }
+
+    /// What all these masses lack of the element's first moment and inertia, about the origin of W in W components; they
+    /// hold all of its mass. It stays where it is at rest and belongs to the frame.
+    fn remainder(&self) -> MassProperties {
+        MassProperties::ZERO
+    }
 }

@@ -64,6 +64,25 @@ impl Motion<'_> {
             omega_dot,
         }
     }
+
+    /// Motion of the point midway between two nodes.
+    pub fn middle(&self, [a, b]: [usize; 2]) -> NodeMotion {
+        NodeMotion::between(&self.node(a), &self.node(b))
+    }
+}
+
+impl NodeMotion {
+    /// Midway between two nodes: a point, which does not turn.
+    pub fn between(a: &Self, b: &Self) -> Self {
+        Self {
+            u: a.u.midpoint(b.u),
+            r: DMat3::IDENTITY,
+            v: a.v.midpoint(b.v),
+            omega: DVec3::ZERO,
+            v_dot: a.v_dot.midpoint(b.v_dot),
+            omega_dot: DVec3::ZERO,
+        }
+    }
 }
 
 /// Derivatives of the inertial force (W components) and moment (node components) of a node.

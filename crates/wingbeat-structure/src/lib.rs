@@ -41,7 +41,7 @@ pub use dynamics::{
     GeneralizedAlpha, LoadTangent, Passes, Solver, State, Step, Trial, Weights, carried_by_frame,
     resultant,
 };
-pub use element::{Element, ElementForces};
+pub use element::{Element, ElementForces, MassBetween};
 pub use error::StructureError;
 pub use follower::{Follower, Share};
 pub use frame::FrameMotion;

@@ -158,6 +158,14 @@ fn weighed(structure: &Structure, shape: &[f64], turns: bool) -> Vec<f64> {
             }
         }
     }
+    for m in &structure.between {
+        for d in 0..3 {
+            let own = m.nodes.map(|n| structure.unknown[NODE * n + d]);
+            let free = || own.iter().filter(|&&u| u != HELD);
+            let velocity = free().map(|&u| shape[u]).sum::<f64>() / 2.0;
+            free().for_each(|&u| out[u] += 0.5 * m.mass * velocity);
+        }
+    }
     out
 }
 
@@ -187,6 +195,10 @@ fn matrices(
     for (node, m) in structure.masses.iter().enumerate() {
         let block = mass_matrix(m, DMat3::from_quat(at.rotation[node]));
         assembly.add(structure, [node, node], &block);
+    }
+    for m in &structure.between {
+        let point = m.point();
+        assembly.add_between(structure, m.nodes, &mass_matrix(&point, DMat3::IDENTITY));
     }
     if let Some(added) = added {
         let width = NODE * structure.nodes();

@@ -200,6 +200,13 @@ pub(crate) fn steady_tangent(
         let t = inertia::tangents(m, frame, &inertia::NodeMotion::still(at, n));
         assembly.add(structure, [n, n], &t.position);
     }
+    for m in &structure.between {
+        let [a, b] = m.nodes.map(|n| inertia::NodeMotion::still(at, n));
+        let node = inertia::NodeMotion::between(&a, &b);
+        let point = m.point();
+        let t = inertia::tangents(&point, frame, &node);
+        assembly.add_between(structure, m.nodes, &t.position);
+    }
 }
 
 /// One correction; returns its size before it was limited.

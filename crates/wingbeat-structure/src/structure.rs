@@ -3,7 +3,7 @@
 use wingbeat_math::{DMat3, DVec3, MassProperties};
 
 use crate::configuration::{Configuration, NODE};
-use crate::element::Element;
+use crate::element::{Element, MassBetween};
 
 /// Number of a held unknown in the order of the free ones.
 pub(crate) const HELD: usize = usize::MAX;
@@ -24,6 +24,7 @@ pub struct Damping {
 pub struct Structure {
     pub(crate) rest: Configuration,
     pub(crate) masses: Vec<MassProperties>,
+    pub(crate) between: Vec<MassBetween>,
     pub(crate) elements: Vec<Box<dyn Element>>,
     pub(crate) damping: Damping,
     /// Unknown of each of the six numbers of each node, or [`HELD`].
@@ -64,6 +65,11 @@ impl Structure {
         &self.masses
     }
 
+    /// Masses midway between two nodes, which those of the nodes lack.
+    pub fn masses_between(&self) -> &[MassBetween] {
+        &self.between
+    }
+
     /// Its elements.
     pub fn elements(&self) -> &[Box<dyn Element>] {
         &self.elements
@@ -85,7 +91,19 @@ impl Structure {
         let moved =
             |(m, (r, x)): (&MassProperties, (&_, &DVec3))| m.moved(DMat3::from_quat(*r), *x);
         let all = self.masses.iter().zip(nodes).map(moved);
+        let point = |m: &MassBetween| {
+            let [a, b] = m.nodes.map(|n| at.position[n]);
+            MassProperties::point(m.mass, a.midpoint(b))
+        };
+        let all = all.chain(self.between.iter().map(point));
         all.fold(MassProperties::ZERO, |a, b| a + b)
+    }
+
+    /// What all these masses lack of first moment and inertia of the elements as built, about the origin of W in
+    /// W components; no mass.
+    pub fn remainder(&self) -> MassProperties {
+        let elements = self.elements.iter().map(|e| e.remainder());
+        elements.fold(MassProperties::ZERO, |a, b| a + b)
     }
 
     /// Node and direction of an unknown.

@@ -12,7 +12,7 @@ use faer::{Mat, c64};
 use wingbeat_flight::elastic::{ElasticState, ElasticWing, ElasticWings};
 use wingbeat_flight::{AirMemory, FlightError, MotionMode, Past, Record, Simulation};
 use wingbeat_math::{DQuat, DVec3, MassProperties, rotation_vector};
-use wingbeat_structure::{FrameMotion, Mode, NODE, modes};
+use wingbeat_structure::{FrameMotion, MassBetween, Mode, NODE, modes};
 
 use super::differences::{departures, map_between};
 use super::free_beat::{level, scales, seen, steps_per_beat};
@@ -144,6 +144,7 @@ struct DisturbedFlights<'a> {
 /// Modes of a wing.
 struct WingBasis {
     masses: Vec<MassProperties>,
+    between: Vec<MassBetween>,
     modes: Vec<Mode>,
     /// Amplitude of each mode that moves some node by the size of the wing.
     sizes: Vec<f64>,
@@ -267,6 +268,7 @@ impl WingBasis {
         };
         Ok(Self {
             masses: structure.masses().to_vec(),
+            between: structure.masses_between().to_vec(),
             sizes: modes.iter().map(size).collect(),
             modes,
         })
@@ -282,7 +284,17 @@ impl WingBasis {
             let h = m.first_moment.cross(r.inverse() * v) + m.inertia * w;
             [p.to_array(), h.to_array()].concat()
         });
-        let momentum: Vec<f64> = momentum.collect();
+        let mut momentum: Vec<f64> = momentum.collect();
+        for m in &self.between {
+            let [a, b] = m.nodes.map(|n| DVec3::from_slice(&x[NODE * n..]));
+            let half = 0.5 * m.mass * a.midpoint(b);
+            for n in m.nodes {
+                let own = &mut momentum[NODE * n..];
+                own.iter_mut()
+                    .zip(half.to_array())
+                    .for_each(|(p, h)| *p += h);
+            }
+        }
         let modes = self.modes.iter().zip(&self.sizes);
         modes.map(move |(mode, size)| {
             let both = mode.shape.iter().zip(&momentum);

@@ -21,7 +21,7 @@ impl ElasticWings {
             let now = w.structure.mass_properties(&ws.trial.configuration);
             let (mut momentum, mut angular_momentum) = (DVec3::ZERO, DVec3::ZERO);
             for (mass, motion) in w.bodies(&BodyMotion::REST, ws.nodes()) {
-                let of = Parts::of(mass, &motion);
+                let of = Parts::of(&mass, &motion);
                 momentum += of.momentum;
                 angular_momentum += of.angular;
             }
@@ -157,10 +157,10 @@ impl ElasticWings {
         let mut first = mass * b.centre;
         for ((w, ws), strain) in self.wings.iter().zip(&s.wings).zip(self.strain_energy(s)) {
             let m = &motions[w.wing + 1];
-            let rigid = std::iter::once((&w.rigid, *m)).map(|x| (-1.0, x));
+            let rigid = std::iter::once((w.rigid, *m)).map(|x| (-1.0, x));
             let elastic = w.bodies(m, ws.nodes()).map(|x| (1.0, x));
             for (sign, (properties, motion)) in rigid.chain(elastic) {
-                let of = Parts::of(properties, &motion);
+                let of = Parts::of(&properties, &motion);
                 b.kinetic += sign * of.kinetic;
                 b.momentum += sign * of.momentum;
                 angular += sign * of.angular;

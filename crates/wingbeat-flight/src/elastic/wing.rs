@@ -32,7 +32,7 @@ pub struct ElasticWing {
     pub(super) method: GeneralizedAlpha,
     /// Share of the fastest vibrations that it leaves from step to step \[1\].
     pub(super) spectral_radius: f64,
-    /// Mass properties at rest, as the multibody system has them.
+    /// Mass properties of its nodes at rest: as the multibody system has them, but for what these lack.
     pub(super) rigid: MassProperties,
 }
 
@@ -76,7 +76,7 @@ impl ElasticWing {
         Ok(Some(Self {
             wing: index,
             name: wing.name.clone(),
-            rigid: wing.mass,
+            rigid: wing.mass + body.structure.remainder().scaled(-1.0),
             tip: [0, wing.mesh.rows].map(|i| wing.mesh.node(i, wing.mesh.cols)),
             stations: Station::all(&wing.mesh.nodes, [wing.mesh.rows, wing.mesh.cols]),
             is_sheet: matches!(structure.members, Members::Shell(_)),
@@ -188,24 +188,41 @@ impl ElasticWing {
         AddedMass::new(self.wing + 1, matrix)
     }
 
-    /// The nodes as rigid bodies in N, those of the frame `m`, with their masses.
+    /// Its masses as rigid bodies in N, the frame moving like `m`: nodes, then points between them.
     pub(super) fn bodies<'a>(
         &'a self,
         m: &'a BodyMotion,
         nodes: Nodes<'a>,
-    ) -> impl Iterator<Item = (&'a MassProperties, BodyMotion)> + 'a {
-        let masses = self.structure.masses().iter().enumerate();
-        masses.map(move |(n, mass)| {
-            let (u, r) = (nodes.at.position[n], DMat3::from_quat(nodes.at.rotation[n]));
+    ) -> impl Iterator<Item = (MassProperties, BodyMotion)> + 'a {
+        let at = move |u: DVec3, v: DVec3| (m.p + m.r * u, m.v + m.r * (m.w.cross(u) + v));
+        let of_node = move |n: usize| {
             let six = &nodes.velocity[NODE * n..];
-            let (v, spin) = (DVec3::from_slice(six), DVec3::from_slice(&six[3..]));
+            (nodes.at.position[n], DVec3::from_slice(six))
+        };
+        let masses = self.structure.masses().iter().enumerate();
+        let node = move |(n, mass): (usize, &MassProperties)| {
+            let r = DMat3::from_quat(nodes.at.rotation[n]);
+            let spin = DVec3::from_slice(&nodes.velocity[NODE * n + 3..]);
+            let (u, v) = of_node(n);
+            let (p, v) = at(u, v);
             let motion = BodyMotion {
-                p: m.p + m.r * u,
+                p,
                 r: m.r * r,
-                v: m.v + m.r * (m.w.cross(u) + v),
+                v,
                 w: r.transpose() * m.w + spin,
             };
-            (mass, motion)
-        })
+            (*mass, motion)
+        };
+        let between = self.structure.masses_between().iter().map(move |mass| {
+            let [a, b] = mass.nodes.map(of_node);
+            let (p, v) = at(a.0.midpoint(b.0), a.1.midpoint(b.1));
+            let motion = BodyMotion {
+                p,
+                v,
+                ..BodyMotion::REST
+            };
+            (MassProperties::point(mass.mass, DVec3::ZERO), motion)
+        });
+        masses.map(node).chain(between)
     }
 }

@@ -4,7 +4,7 @@ use wingbeat_math::{DMat3, DVec3, tilde};
 
 use super::generalized_alpha::Trial;
 use super::solver::{LoadTangent, Solver, combined};
-use crate::block::{Block, ZERO, block, pair, product, sum};
+use crate::block::{Block, ZERO, block, pair, product, scaled, sum};
 use crate::configuration::NODE;
 use crate::frame::FrameMotion;
 use crate::inertia::{self, NodeMotion};
@@ -70,6 +70,23 @@ impl Solver {
             s.rows.push(sum(&product(&to_root, &local), &moved));
             s.to_root.push(to_root);
             s.by_frame.push(by_frame);
+        }
+        for m in &structure.between {
+            let (node, point) = (motion.middle(m.nodes), m.point());
+            let (to_root, by_frame) = (
+                to_root(&node),
+                inertia::by_frame_acceleration(&point, &node),
+            );
+            rigid = sum(&rigid, &product(&to_root, &by_frame));
+            let tangents = inertia::tangents(&point, frame, &node);
+            let local = combined(&tangents, trial.weights(), DVec3::ZERO, 0.0);
+            let [force, _] = inertia::force(&point, frame, &node);
+            let moved = moved(&node, [force, DVec3::ZERO], DVec3::ZERO);
+            let row = sum(&product(&to_root, &local), &moved);
+            for n in m.nodes {
+                s.rows[n] = sum(&s.rows[n], &scaled(&row, 0.5));
+                s.by_frame[n] = sum(&s.by_frame[n], &scaled(&by_frame, 0.5));
+            }
         }
         rigid
     }

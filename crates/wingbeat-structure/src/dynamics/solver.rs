@@ -133,6 +133,12 @@ impl Solver {
                 let momentum = inertia::momentum(m, &node).map(|p| d.mass * p);
                 add_pair(&mut self.damping, n, momentum);
             }
+            for m in &structure.between {
+                let half = 0.5 * d.mass * m.mass * motion.middle(m.nodes).v;
+                for n in m.nodes {
+                    add_pair(&mut self.damping, n, [half, DVec3::ZERO]);
+                }
+            }
         }
     }
 
@@ -221,6 +227,12 @@ impl Solver {
         for n in 0..structure.nodes() {
             let block = self.node_tangent(structure, trial, frame, n);
             self.assembly.add(structure, [n, n], &block);
+        }
+        for m in &structure.between {
+            let node = trial.motion().middle(m.nodes);
+            let t = inertia::tangents(&m.point(), frame, &node);
+            let block = combined(&t, trial.weights(), DVec3::ZERO, structure.damping.mass);
+            self.assembly.add_between(structure, m.nodes, &block);
         }
         if !loads.is_none() {
             self.add_loads(structure, trial, loads);
@@ -344,6 +356,12 @@ pub(crate) fn inertial(
 ) {
     for (n, m) in structure.masses.iter().enumerate() {
         add_pair(out, n, inertia::force(m, frame, &motion.node(n)));
+    }
+    for m in &structure.between {
+        let [force, _] = inertia::force(&m.point(), frame, &motion.middle(m.nodes));
+        for n in m.nodes {
+            add_pair(out, n, [0.5 * force, DVec3::ZERO]);
+        }
     }
 }
 

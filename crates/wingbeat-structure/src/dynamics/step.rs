@@ -62,6 +62,10 @@ impl Solver {
             let r = DMat3::from_quat(state.configuration.rotation[n]);
             self.assembly.add(structure, [n, n], &mass_matrix(m, r));
         }
+        for m in &structure.between {
+            let block = mass_matrix(&m.point(), DMat3::IDENTITY);
+            self.assembly.add_between(structure, m.nodes, &block);
+        }
         self.assembly.factor(structure)?;
         self.solve_residual(structure);
         for (x, &k) in self.change.iter().zip(&structure.number) {

@@ -3,13 +3,13 @@
 use wingbeat_math::{DMat3, DVec3, MassProperties};
 
 use super::energy::{Gradient, Tangent};
-use super::geometry::{Quad, lumps};
+use super::geometry::{Lumps, Quad, lumps};
 use super::stiffness::stiffness;
 use super::strain::{BENDING, CURVATURE, STRAINS, Stiffness, Term, Vectors, terms};
 use super::{Section, ShellError};
 use crate::block::pair;
 use crate::configuration::{Configuration, NODE};
-use crate::element::{Element, ElementForces};
+use crate::element::{Element, ElementForces, MassBetween};
 
 /// Strains whose rates are damped: those that bend.
 const DAMPED: [[usize; 2]; 1] = [[CURVATURE, BENDING]];
@@ -29,7 +29,7 @@ pub struct Shell {
     stiffness: Box<Stiffness>,
     tension: [f64; STRAINS],
     /// Quarters of the mass about their corners, W components at rest.
-    lumps: [MassProperties; 4],
+    lumps: Lumps,
     area: f64,
 }
 
@@ -236,10 +236,23 @@ impl Element for Shell {
     }
 
     fn add_mass(&self, rest: &Configuration, masses: &mut [MassProperties]) {
-        for (lump, &k) in self.lumps.iter().zip(&self.corner) {
+        for (lump, &k) in self.lumps.corners.iter().zip(&self.corner) {
             let node = self.nodes[k];
             let to_node = DMat3::from_quat(rest.rotation[node].inverse());
             masses[node] = masses[node] + lump.moved(to_node, DVec3::ZERO);
         }
+    }
+
+    fn masses_between(&self) -> Vec<MassBetween> {
+        let middles = self.lumps.middles.iter();
+        let named = middles.map(|(ends, mass)| MassBetween {
+            nodes: ends.map(|k| self.nodes[self.corner[k]]),
+            mass: *mass,
+        });
+        named.collect()
+    }
+
+    fn remainder(&self) -> MassProperties {
+        self.lumps.remainder
     }
 }

@@ -112,17 +112,87 @@ fn roughness(x: [DVec2; 4]) -> [f64; 3] {
     sum
 }
 
-/// Quarters of the quadrilateral as rigid bodies about their corners, W components: mass, first moment and inertia
-/// add to those of the whole without error.
-pub(super) fn lumps(corners: [DVec3; 4], axes: DMat3, section: &Section) -> [MassProperties; 4] {
+/// A side is long if its square is more than this times that of the sides across \[1\]: no ratio of whole numbers, on
+/// which rounding would decide, lies on the border.
+const LONG: f64 = 2.5;
+
+/// Corners at the ends of the sides along the first natural coordinate and along the second.
+const SIDES: [[[usize; 2]; 2]; 2] = [[[0, 1], [3, 2]], [[0, 3], [1, 2]]];
+
+/// The mass of a quadrilateral: quarters at its corners, and a part of them at the middles of long sides.
+#[derive(Clone, Debug)]
+pub(super) struct Lumps {
+    /// Rigid bodies, each about its corner, W components.
+    pub corners: [MassProperties; 4],
+    /// Masses \[kg\] midway between two corners.
+    pub middles: Vec<([usize; 2], f64)>,
+    /// What both lack of the first moment and the inertia of the whole, about the origin of W in W components; no
+    /// mass.
+    pub remainder: MassProperties,
+}
+
+/// Mass of the quadrilateral at its corners and at the middles of long sides.
+///
+/// A quarter that is fixed to its corner as it lies has first moment and inertia of the sheet. But it also moves where
+/// corners turn and the sheet stays, as they do at both ends of a long side: a bulge that mass has and bending along the
+/// other side has not. Where the bulge is soft, because the side is long, it takes waves along the other side out of
+/// their frequencies. So of long sides mass does not turn with their ends: it has the velocity that is linear from one
+/// to the other, by Simpson's rule, two thirds at the middle. Mass that is not alike at both ends goes to the
+/// middle as the smaller one does.
+pub(super) fn lumps(corners: [DVec3; 4], axes: DMat3, section: &Section) -> Lumps {
+    let [a, b] = spans(corners).map(DVec3::length_squared);
+    let long = [a > LONG * b, b > LONG * a];
+    let whole = quarters(corners, axes, section, [false; 2]);
+    let mut lumps = Lumps {
+        corners: quarters(corners, axes, section, long),
+        middles: vec![],
+        remainder: MassProperties::ZERO,
+    };
+    for (sides, _) in SIDES.into_iter().zip(long).filter(|(_, long)| *long) {
+        for ends in sides {
+            let each = ends
+                .map(|i| whole[i].mass)
+                .into_iter()
+                .fold(f64::INFINITY, f64::min)
+                * 2.0
+                / 3.0;
+            for i in ends {
+                lumps.corners[i] = lumps.corners[i].scaled(1.0 - each / whole[i].mass);
+            }
+            lumps.middles.push((ends, 2.0 * each));
+        }
+    }
+    for ((whole, lump), corner) in whole.iter().zip(&lumps.corners).zip(corners) {
+        let lack = *whole + lump.scaled(-1.0);
+        lumps.remainder = lumps.remainder + lack.moved(DMat3::IDENTITY, corner);
+    }
+    for ([a, b], mass) in &lumps.middles {
+        let middle = corners[*a].midpoint(corners[*b]);
+        lumps.remainder = lumps.remainder + MassProperties::point(-mass, middle);
+    }
+    lumps
+}
+
+/// Quarters of the quadrilateral as rigid bodies about their corners, W components, without lever along sides that are
+/// `long`; of others mass, first moment and inertia add to those of the whole without error.
+fn quarters(
+    corners: [DVec3; 4],
+    axes: DMat3,
+    section: &Section,
+    long: [bool; 2],
+) -> [MassProperties; 4] {
     let n = axes.z_axis;
     let plane = DMat3::IDENTITY - outer(n);
     std::array::from_fn(|i| {
         let mut sum = MassProperties::ZERO;
         for [u, v] in CORNER {
             let at = [u, v].map(|g| 0.5 * GAUSS * g);
-            let [xi, eta] = std::array::from_fn(|k| 0.5 * CORNER[i][k] + at[k]);
-            let (x, area) = surface(corners, [xi, eta]);
+            let to: [f64; 2] = std::array::from_fn(|k| 0.5 * CORNER[i][k] + at[k]);
+            let (mut x, area) = surface(corners, to);
+            if long != [false; 2] {
+                let near = std::array::from_fn(|k| if long[k] { CORNER[i][k] } else { to[k] });
+                (x, _) = surface(corners, near);
+            }
             let point = MassProperties::point(0.25 * area * section.area_density, x - corners[i]);
             let turn = plane * (0.25 * area * section.rotary_inertia);
             sum = sum
@@ -134,6 +204,11 @@ pub(super) fn lumps(corners: [DVec3; 4], axes: DMat3, section: &Section) -> [Mas
         }
         sum
     })
+}
+
+/// Half the lines between the middles of opposite sides \[m\]: along the first natural coordinate and the second.
+fn spans(c: [DVec3; 4]) -> [DVec3; 2] {
+    [0, 1].map(|k| (0..4).map(|i| 0.25 * CORNER[i][k] * c[i]).sum())
 }
 
 /// Point of the bilinear surface \[m\] and area per area of natural coordinates \[m2\].
