@@ -74,7 +74,8 @@ fn numbers<'py>(py: Python<'py>, modes: &[WingMode], nodes: usize) -> PyResult<M
 
 /// Name of the wing; speed [m/s]; tip's displacement \[m\] and turn \[rad\]; frequencies in vacuum [Hz]; of each mode frequency [Hz],
 /// growth and its uncertainty [1/s], damping over critical, share; growth of a motion that does not vibrate and its
-/// uncertainty [1/s]; part of the response that no mode explains, that is not linear, disturbance.
+/// uncertainty [1/s]; part of the response that no mode explains, that is not linear, disturbance,
+/// length of the response \[s\]; the joint that is slower than that with its period \[s\].
 pub type ConditionParts = (
     String,
     f64,
@@ -82,7 +83,8 @@ pub type ConditionParts = (
     Vec<f64>,
     Vec<[f64; 5]>,
     Option<[f64; 2]>,
-    [f64; 3],
+    [f64; 4],
+    Option<(String, f64)>,
 );
 
 /// Name of the wing; whether it is certain, whether flutter begins there; speed [m/s], frequency [Hz]; speeds between
@@ -167,6 +169,7 @@ fn parts(wing: String, c: &Condition) -> ConditionParts {
             .map(|(m, u)| [m.frequency / TAU, m.growth, *u, m.damping(), m.share])
             .collect(),
         divergence.map(|(motion, uncertainty)| [motion.growth, uncertainty]),
-        [c.response.residual, c.nonlinearity, c.disturbance],
+        [c.response.residual, c.nonlinearity, c.disturbance, c.length],
+        c.slow_joint.clone(),
     )
 }

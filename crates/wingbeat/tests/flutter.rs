@@ -228,6 +228,8 @@ fn with_modes(speed: f64, modes: &[[f64; 3]]) -> Condition {
         },
         nonlinearity: 0.0,
         disturbance: 1e-5,
+        length: 1.0,
+        slow_joint: None,
     }
 }
 

@@ -8,6 +8,7 @@ use super::settings::FlutterSettings;
 use super::steady::{ElasticRig, SteadyWing};
 use super::uncertainty::{Taken, uncertainties};
 use crate::AnalysisError;
+use crate::plausibility::slowest_on_springs;
 use crate::progress;
 use crate::realisation::{Realisation, Vibration, realise};
 
@@ -32,6 +33,11 @@ pub struct Condition {
     pub nonlinearity: f64,
     /// Disturbance of this response, as [`FlutterSettings::disturbance`] or smaller \[1\].
     pub disturbance: f64,
+    /// Length of this response \[s\].
+    pub length: f64,
+    /// The joint on whose springs what it carries vibrates most slowly, and the period \[s\], if that is longer than
+    /// this response: what moves on it is not found.
+    pub slow_joint: Option<(String, f64)>,
 }
 
 /// Least share in a response of a motion that is reported \[1\].
@@ -72,6 +78,7 @@ pub fn condition(
     let disturbance = Disturbance::new(&rig, (&state, &images), settings)?;
     let step = rig.setup.time.step;
     let sampling = Sampling::new(step, &steady, settings)?;
+    let slow_joint = slowest_on_springs(setup);
     let wings = (0..images.len()).filter(|&k| images[k].is_none());
     let stations: Vec<Stations> = wings.clone().map(|k| Stations::of(&rig, k)).collect();
     let flown = |part: f64| {
@@ -93,6 +100,10 @@ pub fn condition(
             steady: steady[k].clone(),
             nonlinearity: found.nonlinearity,
             disturbance: found.part * settings.disturbance,
+            length: sampling.length(step),
+            slow_joint: slow_joint
+                .clone()
+                .filter(|(_, t)| *t > sampling.length(step)),
             response: identified.response,
         })
     };
@@ -171,6 +182,11 @@ struct Sampling {
 }
 
 impl Sampling {
+    /// Length of the response \[s\] in steps of `step` \[s\].
+    fn length(&self, step: f64) -> f64 {
+        (self.count * self.every) as f64 * step
+    }
+
     /// # Errors
     /// Too few of them.
     fn new(

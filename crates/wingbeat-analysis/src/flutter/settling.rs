@@ -63,7 +63,8 @@ impl Settling {
         let (mut steps, mut least, mut midway) = (0, self.least, f64::INFINITY);
         let mut shapes = VecDeque::new();
         while steps < least || drift(flight.state(), self.speed) > STEADY {
-            if steps >= most {
+            // Not while the air has still to answer: that the wing rests has not been looked at.
+            if steps >= most.max(least) {
                 return Err(self.unsteady(flight.state(), steps, midway));
             }
             if steps == most / 2 {

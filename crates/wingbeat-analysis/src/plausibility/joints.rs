@@ -44,6 +44,25 @@ pub(super) fn doubts(setup: &FlightSetup, frequency: Option<f64>, list: &mut Dou
     }
 }
 
+/// The joint on whose springs what it carries, rigid and in a vacuum, vibrates most slowly, and the period \[s\]; none
+/// without springs.
+pub(crate) fn slowest_on_springs(setup: &FlightSetup) -> Option<(String, f64)> {
+    let of = |joint: &Joint| {
+        let elements = joint.model.elements.iter();
+        let periods = elements.filter_map(|element| match &element.law {
+            ElementLaw::Spring { stiffness, .. } | ElementLaw::Follow { stiffness, .. } => {
+                let inertia = inertia(setup, joint, element.direction)?;
+                Some(2.0 * PI * (inertia / stiffness).sqrt()).filter(|t| t.is_finite())
+            }
+            _ => None,
+        });
+        let longest = periods.fold(0.0, f64::max);
+        (longest > 0.0).then(|| (joint.name.clone(), longest))
+    };
+    let all = setup.joints.iter().filter_map(of);
+    all.max_by(|a, b| a.1.total_cmp(&b.1))
+}
+
 /// What is said of a joint that starts at `q`, beyond its stop.
 fn beyond(joint: &Joint, q: f64, [lower, upper]: [f64; 2]) -> Option<String> {
     let is_inside = (lower - ROUNDING..=upper + ROUNDING).contains(&q);

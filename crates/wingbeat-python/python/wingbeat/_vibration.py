@@ -87,6 +87,11 @@ class FlutterCondition:
     """Part of the response that is not linear; above 0.05 the modes are doubtful."""
     disturbance: float
     """Amplitude of the disturbance over the length of the wing."""
+    response_s: float
+    """Length of the response."""
+    slow_joint: tuple[str, float] | None
+    """The joint on whose springs what it carries vibrates most slowly, and the period in s, where that is longer than the response:
+    what moves on it is not found; lengthen ``periods``."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -119,10 +124,10 @@ def flutter(core: _core.Flight, speeds: list[float], how: tuple[int, float, floa
     """Conditions and onsets at these speeds [m/s]."""
     conditions, onsets = core.flutter(speeds, how, progress)
 
-    def condition(wing: str, speed: float, tip: Any, vacuum: Any, modes: Any, divergence: Any, rest: Any) -> FlutterCondition:
+    def condition(wing: str, speed: float, tip: Any, vacuum: Any, modes: Any, divergence: Any, rest: Any, slow: Any) -> FlutterCondition:
         growing = tuple(GrowingMode(*mode) for mode in modes)
         return FlutterCondition(
-            wing, speed, tuple(tip[0]), tuple(tip[1]), tuple(vacuum), growing, *(divergence or (None, None)), *rest
+            wing, speed, tuple(tip[0]), tuple(tip[1]), tuple(vacuum), growing, *(divergence or (None, None)), *rest, slow
         )
 
     return Flutter(

@@ -164,6 +164,13 @@ fn notes(c: &Condition) -> Vec<String> {
             c.response.residual
         ));
     }
+    if let Some((joint, period)) = &c.slow_joint {
+        notes.push(format!(
+            "  the response of {:.3} s is shorter than a period on joint `{joint}` ({period:.3} s, what it carries rigid and in a vacuum): what moves on it is not found; make --periods {:.0} times as large, with --modes 1 or 2",
+            c.length,
+            (1.5 * period / c.length).ceil()
+        ));
+    }
     notes
 }
 
@@ -191,6 +198,8 @@ fn values(c: &Condition, wing: &str) -> Value {
         "residual": c.response.residual,
         "nonlinearity": c.nonlinearity,
         "disturbance": c.disturbance,
+        "response_s": c.length,
+        "slow_joint": c.slow_joint.as_ref().map(|(joint, period)| json!({ "joint": joint, "period_s": period })),
     })
 }
 
@@ -230,7 +239,7 @@ fn doubtful(speeds: &[f64], found: &[Crossing]) -> Option<String> {
     };
     (!speeds.is_empty()).then(|| {
         format!(
-            "Not to be relied on at {} m/s: see the notes on nonlinearity and residual above{hence}.",
+            "Not to be relied on at {} m/s: see the notes above{hence}.",
             list(speeds)
         )
     })
