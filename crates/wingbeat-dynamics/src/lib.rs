@@ -72,6 +72,7 @@ mod offsets;
 mod placement;
 mod prescribed;
 mod quaternion;
+mod response;
 mod shape;
 mod solution;
 mod system;
