@@ -61,8 +61,8 @@ pub fn linear_momentum(mass: &MassProperties, m: &BodyMotion) -> DVec3 {
     mass.mass * m.v + m.r * m.w.cross(mass.first_moment)
 }
 
-/// Angular momentum of a body about the origin of N [kg m2/s], N components: `p x P + R (s x R^T v + J w)`, P its
-/// linear momentum.
+/// Angular momentum of a body about the origin of N [kg m2/s], N components: `p x P + R (s x R^T v + J w)`, P
+/// its linear momentum.
 pub fn angular_momentum(mass: &MassProperties, m: &BodyMotion) -> DVec3 {
     let spin = mass.first_moment.cross(m.r.transpose() * m.v) + mass.inertia * m.w;
     m.p.cross(linear_momentum(mass, m)) + m.r * spin

@@ -108,9 +108,9 @@ impl MassProperties {
     /// Checks that some distribution of positive mass has these moments.
     ///
     /// # Errors
-    /// [`MassError`] names the first condition that fails. Round-off of 1e-9 of the largest entry of the inertia
-    /// about the origin is forgiven (meshes of flat plates meet the triangle inequality with
-    /// equality); for numbers that were rounded see [`Self::within_rounding`].
+    /// [`MassError`] names the first condition that fails. Round-off of 1e-9 of the largest entry of the
+    /// inertia about the origin is forgiven (meshes of flat plates meet the triangle inequality with equality);
+    /// for numbers that were rounded see [`Self::within_rounding`].
     pub fn validate(&self) -> Result<(), MassError> {
         if !(self.mass.is_finite() && self.mass >= 0.0) {
             return Err(MassError::Mass(self.mass));

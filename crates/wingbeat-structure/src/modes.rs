@@ -43,9 +43,9 @@ impl Mode {
 
 /// Modes about an equilibrium in a frame that moves steadily, of rising frequency: stiffness of the deformed
 /// state with centrifugal stiffening and softening; Coriolis forces, which couple modes of a turning body, are
-/// left out. Modes faster than the slowest by `1 / sqrt(n epsilon)`, n unknowns, some 1e6, are rounding and left
-/// out, as motions without mass are. `added` is mass that moves along, by rows of 6 N x 6 N numbers, N nodes, force in W and moment in
-/// node components by acceleration (added mass of the air), to be symmetric.
+/// left out. Modes faster than the slowest by `1 / sqrt(n epsilon)`, n unknowns, some 1e6, are rounding and
+/// left out, as motions without mass are. `added` is mass that moves along, by rows of 6 N x 6 N numbers, N
+/// nodes, force in W and moment in node components by acceleration (added mass of the air), to be symmetric.
 ///
 /// The matrices of this eigenproblem are dense: up to some 600 unknowns are solved within seconds.
 ///
@@ -94,8 +94,8 @@ const CONVERGED: f64 = 1e-8;
 /// Angular frequency \[rad/s\] of the slowest vibration about rest, by inverse iteration with the banded
 /// stiffness and Rayleigh's quotient; 0 where a push grows. With `turns` nodes have all their inertia; without,
 /// as for sheets, that of their turns counts in the quotient alone: motions in which nodes turn and nothing
-/// moves are of the elements and of no sheet. None of a body so large that this takes long, and where the iteration
-/// does not converge: the slowest vibrations are too close to each other.
+/// moves are of the elements and of no sheet. None of a body so large that this takes long, and where the
+/// iteration does not converge: the slowest vibrations are too close to each other.
 ///
 /// # Errors
 /// [`StructureError::Singular`], [`StructureError::Modes`]: a body that is not held, stiffnesses that differ by more than rounding.

@@ -59,8 +59,8 @@ fn parameters(rho: f64) -> [f64; 3] {
 }
 
 /// Weights of f0 to f3 in (y_k - y_0) / h of the first three steps of the method of order two of the
-/// parameter `rho`: one of Euler's backward method, one in which the rate at the middle of the step before is that
-/// at its end, and one as all later ones.
+/// parameter `rho`: one of Euler's backward method, one in which the rate at the middle of the step before is
+/// that at its end, and one as all later ones.
 pub fn order_two_start(rho: f64) -> [[f64; 4]; 3] {
     let [m, a, g] = parameters(rho);
     let (now, before) = (g * a / m, 1.0 - g * a / m);
@@ -113,8 +113,8 @@ impl Bdf {
         }
     }
 
-    /// That of order two that leaves the share `max(rho, |1 - 3 rho| / (3 - rho))` \[1\] of the fastest vibrations
-    /// from step to step.
+    /// That of order two that leaves the share `max(rho, |1 - 3 rho| / (3 - rho))` \[1\] of the fastest
+    /// vibrations from step to step.
     pub fn order_two(self, rho: f64) -> Self {
         let [m, a, g] = parameters(rho);
         let weights = Weights {

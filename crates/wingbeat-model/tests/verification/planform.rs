@@ -57,7 +57,8 @@ fn exact_a_four_by_four_square_has_its_nodes_at_integers() {
 
 #[test]
 fn exact_wing_length_is_along_the_span_and_reach_to_the_farthest_corner() {
-    // A square of 4 m whose axis lies at a quarter of the chord: the corner behind at the tip is 3 m and 4 m away.
+    // A square of 4 m whose axis lies at a quarter of the chord: the corner behind at the tip is 3 m and 4 m
+    // away.
     let wings = vec![wing(&square(0.25)), wing(&square(0.25)).mirrored("left")];
     let animal = Animal {
         name: "square".into(),
