@@ -56,8 +56,8 @@ fn exact_no_allocation_in_steps_in_blade_elements() {
     }
 }
 
-/// Wings that feather passively at their hinges carry air along. What accelerated passes of multistep methods keep
-/// for the next steps is theirs to allocate.
+/// Wings that feather passively at their hinges carry air along. By Runge-Kutta, for room of multistep methods
+/// grows with the most passes that a step has needed, which rises all along here.
 #[test]
 fn exact_no_allocation_in_steps_of_wings_on_passive_hinges() {
     let spring = ElementLaw::Spring {
