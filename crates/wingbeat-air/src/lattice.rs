@@ -144,15 +144,11 @@ impl Lattice {
                 continue;
             }
             let node = heights().position(|h| -side * h == depth).unwrap_or(0);
-            let s = self
-                .topology
-                .first_node
-                .partition_point(|&first| first <= node)
-                - 1;
+            let (surface, node) = self.topology.locate_node(node);
             return Err(AirError::ThroughPlane {
                 step,
-                surface: self.surfaces[s].name.clone(),
-                node: node - self.topology.first_node[s],
+                surface,
+                node,
                 depth,
             });
         }

@@ -158,7 +158,7 @@ impl Beat {
         self.gravity
     }
 
-    /// Wing length R, hinge to the farthest node [m].
+    /// Wing length R of the longest wing, hinge to tip along the span [m].
     pub fn wing_length(&self) -> f64 {
         self.wing_length
     }

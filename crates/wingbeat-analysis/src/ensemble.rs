@@ -28,8 +28,7 @@ fn redrawn(setup: &FlightSetup, k: usize) -> Option<Feedback> {
 /// where half is computed; noise of the senses is another. None where the air has no stream.
 pub fn member(setup: &FlightSetup, k: usize, count: usize) -> Option<FlightSetup> {
     let mut member = setup.clone();
-    let reports = member.animal.wing_reports();
-    let length = reports.iter().map(|r| r.length).fold(0.0, f64::max);
+    let length = member.animal.wing_length();
     let flapping = member.time.period.map_or(0.0, |p| length / p);
     let is_mirrored = member.air.is_mirrored();
     if let Some(feedback) = (k > 0).then(|| redrawn(setup, k)).flatten() {

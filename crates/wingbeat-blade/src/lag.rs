@@ -178,7 +178,7 @@ impl Lags {
         }
     }
 
-    /// The strip after it has moved as in `trial` at `time` \[s\], its chord being 2 `half`.
+    /// The strip moved on by `duration` \[s\] to where it moves as in `trial`, its chord being 2 `half` \[m\].
     fn accept_strip(&self, strip: &mut StripMemory, trial: &StripTrial, duration: f64, half: f64) {
         let way = strip.way_to(trial.speed, duration, half);
         let [wake, gust] = strip.changes(trial);

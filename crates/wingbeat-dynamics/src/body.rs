@@ -51,9 +51,19 @@ impl Wrench {
 }
 
 /// Kinetic energy of a body \[J\]: `m v.v / 2 + v . R (w x s) + w . J w / 2` (seed eq. 13, 23).
-pub fn kinetic_energy(body: &Body, m: &BodyMotion) -> f64 {
-    let (s, j) = (body.mass.first_moment, body.mass.inertia);
-    0.5 * body.mass.mass * m.v.length_squared()
-        + m.v.dot(m.r * m.w.cross(s))
-        + 0.5 * m.w.dot(j * m.w)
+pub fn kinetic_energy(mass: &MassProperties, m: &BodyMotion) -> f64 {
+    let (s, j) = (mass.first_moment, mass.inertia);
+    0.5 * mass.mass * m.v.length_squared() + m.v.dot(m.r * m.w.cross(s)) + 0.5 * m.w.dot(j * m.w)
+}
+
+/// Linear momentum of a body [kg m/s], N components: `m v + R (w x s)`.
+pub fn linear_momentum(mass: &MassProperties, m: &BodyMotion) -> DVec3 {
+    mass.mass * m.v + m.r * m.w.cross(mass.first_moment)
+}
+
+/// Angular momentum of a body about the origin of N [kg m2/s], N components: `p x P + R (s x R^T v + J w)`, P
+/// its linear momentum.
+pub fn angular_momentum(mass: &MassProperties, m: &BodyMotion) -> DVec3 {
+    let spin = mass.first_moment.cross(m.r.transpose() * m.v) + mass.inertia * m.w;
+    m.p.cross(linear_momentum(mass, m)) + m.r * spin
 }

@@ -2,9 +2,8 @@
 
 use wingbeat_math::DVec3;
 
-use crate::body::inertia_wrench;
-use crate::body::kinetic_energy;
-use crate::{Body, BodyAcceleration, BodyMotion, Budget, System, Wrench};
+use crate::body::{angular_momentum, inertia_wrench, kinetic_energy, linear_momentum};
+use crate::{BodyAcceleration, BodyMotion, Budget, System, Wrench};
 
 /// Mass centre of the system \[m\], N components.
 pub fn mass_centre(system: &System, motions: &[BodyMotion]) -> DVec3 {
@@ -19,12 +18,12 @@ pub fn budget(system: &System, motions: &[BodyMotion]) -> Budget {
     let (mut kinetic, mut moment) = (0.0, DVec3::ZERO);
     let mut momentum = DVec3::ZERO;
     for (b, m) in system.bodies().iter().zip(motions) {
-        kinetic += kinetic_energy(b, m);
+        kinetic += kinetic_energy(&b.mass, m);
         moment += b.mass.mass * m.p + m.r * b.mass.first_moment;
-        momentum += linear_momentum(b, m);
+        momentum += linear_momentum(&b.mass, m);
     }
     let centre = moment / mass;
-    let angular_momentum = angular_momentum(system, motions, centre, momentum / mass);
+    let angular_momentum = angular_momentum_about(system, motions, centre, momentum / mass);
     Budget {
         kinetic,
         potential: -system.gravity().dot(moment),
@@ -34,14 +33,9 @@ pub fn budget(system: &System, motions: &[BodyMotion]) -> Budget {
     }
 }
 
-/// `m v + R (w x s)` [kg m/s], N components.
-fn linear_momentum(b: &Body, m: &BodyMotion) -> DVec3 {
-    b.mass.mass * m.v + m.r * m.w.cross(b.mass.first_moment)
-}
-
 /// Angular momentum about the mass centre [kg m2/s], N components. Positions and velocities are
 /// taken relative to the mass centre, so that nothing cancels far from the origin.
-fn angular_momentum(
+fn angular_momentum_about(
     system: &System,
     motions: &[BodyMotion],
     centre: DVec3,
@@ -50,12 +44,11 @@ fn angular_momentum(
     let mut sum = DVec3::ZERO;
     for (b, m) in system.bodies().iter().zip(motions) {
         let relative = BodyMotion {
+            p: m.p - centre,
             v: m.v - centre_velocity,
             ..*m
         };
-        sum += (m.p - centre).cross(linear_momentum(b, &relative))
-            + m.r
-                * (b.mass.first_moment.cross(m.r.transpose() * relative.v) + b.mass.inertia * m.w);
+        sum += angular_momentum(&b.mass, &relative);
     }
     sum
 }
@@ -92,7 +85,7 @@ pub fn relative_energy(
             linear: back * (a.linear - acc.linear) - turning,
             angular: a.angular - r.transpose() * w_dot + relative.w.cross(seen),
         };
-        sum[0] += kinetic_energy(body, &relative);
+        sum[0] += kinetic_energy(&body.mass, &relative);
         sum[1] += inertia_wrench(body, &relative, &rate).power(&relative);
     }
     sum

@@ -1,8 +1,5 @@
 //! The interface between a mechanical system and a time integrator.
 
-use wingbeat_math::solve_small;
-
-use crate::added_mass::{seen, wrench};
 use crate::mirror::MirrorSymmetry;
 use crate::shape::ShapeMass;
 use crate::{AddedMass, BodyMotion, DynamicsError, Solution, System, Workspace, Wrench};
@@ -10,7 +7,7 @@ use crate::{AddedMass, BodyMotion, DynamicsError, Solution, System, Workspace, W
 /// A way to write the motion of a [`System`] as `y' = f(t, y)`.
 ///
 /// `loads` holds one [`Wrench`] per body, gravity not included. All buffers are in the
-/// [`Workspace`]: steps allocate nothing, errors apart, but where bodies on free joints carry air along.
+/// [`Workspace`]: steps allocate nothing, errors apart.
 pub trait Formulation: Send + Sync {
     /// The system.
     fn system(&self) -> &System;
@@ -167,60 +164,11 @@ pub fn add_by_response<F: Formulation + ?Sized>(
     ws: &mut Workspace,
     out: &mut Solution,
 ) -> Result<(), DynamicsError> {
-    let mut motions = vec![BodyMotion::REST; loads.len()];
-    form.motions(t, y, ws, &mut motions)?;
-    let unknowns: Vec<(usize, usize)> = (added.iter().enumerate())
-        .flat_map(|(i, a)| a.directions().iter().map(move |&k| (i, k)))
-        .collect();
-    let n = unknowns.len();
-    // Added loads that the accelerations under `loads` and the trial `z` ask for.
-    let mut answer = |z: &[f64]| -> Result<Vec<f64>, DynamicsError> {
-        let mut trial = loads.to_vec();
-        put(added, &unknowns, z, &motions, &mut trial);
-        form.solve(t, y, &trial, ws, out)?;
-        let load = |&(i, k): &(usize, usize)| {
-            let body = added[i].body();
-            added[i].load(&seen(&motions[body], &out.bodies[body]))[k]
-        };
-        Ok(unknowns.iter().map(load).collect())
-    };
-    let at_rest = answer(&vec![0.0; n])?;
-    // Any size of the trial loads serves a linear map; theirs own keeps the digits.
-    let size = at_rest.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
-    if size == 0.0 {
-        return Ok(());
-    }
-    let mut matrix = vec![0.0; n * n];
-    for j in 0..n {
-        let mut z = vec![0.0; n];
-        z[j] = size;
-        let moved = answer(&z)?;
-        for i in 0..n {
-            matrix[i * n + j] = f64::from(i == j) - (moved[i] - at_rest[i]) / size;
-        }
-    }
-    let mut z = at_rest;
-    let singular = |_| DynamicsError::SingularAddedMass { time: t };
-    solve_small(&mut matrix.clone(), &mut z).map_err(singular)?;
-    // One step of iterative refinement takes the rounding of the differences away.
-    let mut rest: Vec<f64> = answer(&z)?.iter().zip(&z).map(|(a, z)| a - z).collect();
-    solve_small(&mut matrix, &mut rest).map_err(singular)?;
-    z.iter_mut().zip(&rest).for_each(|(z, r)| *z += r);
-    put(added, &unknowns, &z, &motions, loads);
-    Ok(())
-}
-
-/// Adds the components `z` of the added loads to `loads`.
-fn put(
-    added: &[AddedMass],
-    unknowns: &[(usize, usize)],
-    z: &[f64],
-    motions: &[BodyMotion],
-    loads: &mut [Wrench],
-) {
-    for (&(i, k), z) in unknowns.iter().zip(z) {
-        let (body, mut six) = (added[i].body(), [0.0; 6]);
-        six[k] = *z;
-        loads[body] += wrench(motions[body].r, &six);
-    }
+    let mut response = std::mem::take(&mut ws.response);
+    response.motions.resize(loads.len(), BodyMotion::REST);
+    form.motions(t, y, ws, &mut response.motions)?;
+    let mut solve = |loads: &[Wrench], out: &mut Solution| form.solve(t, y, loads, ws, out);
+    let done = response.add((t, added), loads, &mut solve, out);
+    ws.response = response;
+    done
 }

@@ -72,6 +72,7 @@ mod offsets;
 mod placement;
 mod prescribed;
 mod quaternion;
+mod response;
 mod shape;
 mod solution;
 mod system;
@@ -80,7 +81,9 @@ mod workspace;
 
 pub use added_mass::{AddedMass, Six};
 pub use baumgarte::Baumgarte;
-pub use body::{Body, NaturalUnits, kinetic_energy, weight_wrench};
+pub use body::{
+    Body, NaturalUnits, angular_momentum, kinetic_energy, linear_momentum, weight_wrench,
+};
 pub use budget::{budget, load_power, mass_centre, relative_energy};
 pub use configuration::{Composite, CompositeRates, Configuration, ConfigurationTable};
 pub use cycle::Cycle;

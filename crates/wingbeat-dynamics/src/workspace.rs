@@ -5,6 +5,7 @@ use crate::euler::scratch::EulerScratch;
 use crate::free::FreeScratch;
 use crate::mechanism::form::AbsoluteScratch;
 use crate::prescribed::{Carried, Turning};
+use crate::response::Response;
 use crate::shape::ShapeMass;
 use crate::{BodyAcceleration, BodyMotion, System, Wrench};
 
@@ -26,6 +27,8 @@ pub struct Workspace {
     pub(crate) turning: Turning,
     /// Added masses last met, where no joint is free.
     pub(crate) carried: Carried,
+    /// Of added masses where joints are free, and in the other forms.
+    pub(crate) response: Response,
     /// What bodies that change their shape do otherwise than rigid ones; the whole with that, and the inverse
     /// of its inertia.
     pub(crate) shapes: Vec<ShapeMass>,
@@ -49,6 +52,7 @@ impl Workspace {
             whole_rates: CompositeRates::default(),
             turning: Turning::default(),
             carried: Carried::default(),
+            response: Response::default(),
             shapes: vec![],
             shaped: Composite::default(),
             shaped_turning: Turning::default(),

@@ -78,7 +78,8 @@ fn exact_kinetic_energy_is_the_sum_over_points() {
         let sum: f64 = cloud().iter().map(points).sum();
         assert!((kinetic_energy(&b, &k) - sum).abs() < 1e-14 * sum.max(1.0)); // roundings
         assert!(
-            (wingbeat_dynamics::kinetic_energy(&b, &k.motion) - sum).abs() < 1e-14 * sum.max(1.0)
+            (wingbeat_dynamics::kinetic_energy(&b.mass, &k.motion) - sum).abs()
+                < 1e-14 * sum.max(1.0)
         );
     }
 }

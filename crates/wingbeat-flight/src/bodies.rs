@@ -204,7 +204,7 @@ pub fn loop_names(setup: &FlightSetup) -> Result<Vec<String>, DynamicsError> {
 pub fn natural_units(setup: &FlightSetup) -> NaturalUnits {
     let farthest = |nodes: &[DVec3]| nodes.iter().fold(0.0_f64, |m, r| m.max(r.length()));
     let body = setup.animal.parts.iter().map(|p| farthest(&p.mesh.nodes));
-    let wings = setup.animal.wing_length();
+    let wings = setup.animal.wing_reach();
     let length = [wings, body.fold(0.0, f64::max), 1.0];
     NaturalUnits {
         length: length

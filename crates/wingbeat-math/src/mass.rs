@@ -25,6 +25,9 @@ pub enum MassError {
     /// A moment is not a finite number.
     #[error("a moment of mass is not a finite number")]
     NotFinite,
+    /// A first moment without mass.
+    #[error("a body without mass has a first moment of {0:.3e} kg m")]
+    Massless(f64),
     /// The inertia matrix is not symmetric.
     #[error("the inertia matrix is not symmetric")]
     NotSymmetric,
@@ -105,15 +108,18 @@ impl MassProperties {
     /// Checks that some distribution of positive mass has these moments.
     ///
     /// # Errors
-    /// [`MassError`] names the first condition that fails. Round-off of 1e-9 of the largest
-    /// principal moment is forgiven (meshes of flat plates meet the triangle inequality with
-    /// equality); for numbers that were rounded see [`Self::within_rounding`].
+    /// [`MassError`] names the first condition that fails. Round-off of 1e-9 of the largest entry of the
+    /// inertia about the origin is forgiven (meshes of flat plates meet the triangle inequality with equality);
+    /// for numbers that were rounded see [`Self::within_rounding`].
     pub fn validate(&self) -> Result<(), MassError> {
         if !(self.mass.is_finite() && self.mass >= 0.0) {
             return Err(MassError::Mass(self.mass));
         }
         if !(self.first_moment.is_finite() && self.inertia.is_finite()) {
             return Err(MassError::NotFinite);
+        }
+        if self.mass == 0.0 && self.first_moment != DVec3::ZERO {
+            return Err(MassError::Massless(self.first_moment.length()));
         }
         let j = self.inertia_about_centre();
         let scale = self
@@ -287,5 +293,15 @@ mod tests {
             ok.scaled(-1.0).validate(),
             Err(MassError::Mass(_))
         ));
+    }
+
+    #[test]
+    fn refuses_a_first_moment_without_mass() {
+        let ghost = MassProperties {
+            first_moment: DVec3::new(0.0, 3e-6, 4e-6),
+            ..MassProperties::ZERO
+        };
+        assert_eq!(ghost.validate(), Err(MassError::Massless(5e-6)));
+        assert_eq!(MassProperties::ZERO.validate(), Ok(()));
     }
 }

@@ -76,7 +76,7 @@ pub fn rotation_vector_of_matrix(r: DMat3) -> DVec3 {
         let s2 = sine.length_squared();
         return sine * (1.0 + s2 / 6.0 + 3.0 * s2 * s2 / 40.0);
     }
-    // Not small here: as `rotation_vector`, in the digits that flights had.
+    // Not small here: as [`rotation_vector`], up to rounding.
     let q = DQuat::from_mat3(&r).normalize();
     let short = if q.w < 0.0 { -q } else { q };
     short.to_scaled_axis()

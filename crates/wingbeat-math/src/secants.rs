@@ -87,13 +87,23 @@ impl Secants {
 
     /// Leaves in `shown` what the newest passes have shown, `most` of them at most: those whose corrections
     /// differ by at least the part `telling` \[1\] of the largest difference.
-    pub fn keep(&self, telling: f64, most: usize, shown: &mut Vec<Shown>) {
-        let both = self.corrections.iter().zip(&self.sums);
+    pub fn keep(&mut self, telling: f64, most: usize, shown: &mut Vec<Shown>) {
+        self.keep_none(shown);
         let least = telling * self.corrections.iter().map(|d| norm(d)).fold(0.0, f64::max);
-        let told = both.rev().filter(|(d, _)| norm(d) > least).take(most);
-        shown.clear();
-        shown.extend(told.map(|(d, s)| [d.clone(), s.clone()]));
+        for k in (0..self.corrections.len()).rev() {
+            if shown.len() < most && norm(&self.corrections[k]) > least {
+                let [mut correction, mut sum] = [self.column(), self.column()];
+                correction.extend_from_slice(&self.corrections[k]);
+                sum.extend_from_slice(&self.sums[k]);
+                shown.push([correction, sum]);
+            }
+        }
         shown.reverse();
+    }
+
+    /// Leaves nothing in `shown`.
+    pub fn keep_none(&mut self, shown: &mut Vec<Shown>) {
+        self.spare.extend(shown.drain(..).flatten());
     }
 
     /// The change of the unknowns for the correction `f`, in its place. The norm of least squares takes the

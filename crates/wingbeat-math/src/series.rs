@@ -66,14 +66,18 @@ pub fn with_harmonics(
 }
 
 /// Value at `x` of a table of `rows` whose abscissae rise, straight lines between, constant beyond the
-/// ends; `row` gives abscissa and value of a row.
+/// ends; `row` gives abscissa and value of a row. NaN at NaN.
 ///
 /// ```
 /// let rows = [(0.0, 1.0), (2.0, 5.0)];
 /// let at = |x| wingbeat_math::interpolate(rows.len(), |k| rows[k], x);
 /// assert_eq!([-1.0, 0.5, 3.0].map(at), [1.0, 2.0, 5.0]);
+/// assert!(at(f64::NAN).is_nan());
 /// ```
 pub fn interpolate(rows: usize, row: impl Fn(usize) -> (f64, f64), x: f64) -> f64 {
+    if x.is_nan() {
+        return x;
+    }
     let (mut below, mut next) = (0, rows); // rows before `below` are at or below x, from `next` on above
     while below < next {
         let middle = (below + next) / 2;

@@ -98,6 +98,11 @@ impl Wing {
         }
     }
 
+    /// Wing length R: distance of the tip from the hinge along the span \[m\].
+    pub fn length(&self) -> f64 {
+        (self.mesh.nodes.iter()).fold(0.0, |most, x| most.max(x.y.abs()))
+    }
+
     /// Least distance of the surface from the hinge along the span over the largest.
     pub fn root(&self) -> f64 {
         let [root, tip] = span(&self.mesh);
@@ -156,8 +161,14 @@ impl Animal {
         self.wings.iter().any(|w| w.structure.is_some())
     }
 
-    /// Distance of the farthest wing node from its hinge \[m\]; 0 without wings.
+    /// Wing length R of the longest wing, hinge to tip along the span \[m\]; 0 without wings.
     pub fn wing_length(&self) -> f64 {
+        self.wings.iter().map(Wing::length).fold(0.0, f64::max)
+    }
+
+    /// Distance of the farthest wing node from its hinge \[m\]; 0 without wings. With its chord it is more than
+    /// the wing length: by 0.1 % in a fruit fly, by a fifth in wings that are wide at the tip.
+    pub fn wing_reach(&self) -> f64 {
         let nodes = self.wings.iter().flat_map(|w| &w.mesh.nodes);
         nodes.fold(0.0, |m, r| m.max(r.length()))
     }

@@ -80,7 +80,7 @@ impl Wing {
         let quads = self.mesh.to_quads(Side::Right);
         let moments = integrate::shell(&quads, |_| 1.0);
         let area = moments.mass;
-        let length = (quads.nodes.iter()).fold(0.0_f64, |a, x| a.max(x.y.abs()));
+        let length = self.length();
         let chord = |j: usize| {
             let (lead, trail) = (self.mesh.node(0, j), self.mesh.node(self.mesh.rows, j));
             (self.mesh.nodes[lead] - self.mesh.nodes[trail]).length()

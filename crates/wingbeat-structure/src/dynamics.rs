@@ -4,10 +4,8 @@ mod carried;
 mod generalized_alpha;
 mod response;
 mod solver;
-mod step;
 
 pub use carried::{carried_by_frame, resultant};
 pub use generalized_alpha::{GeneralizedAlpha, State, Trial, Weights};
 pub use solver::{LoadTangent, Solver};
 pub(crate) use solver::{inertial, size};
-pub use step::{Passes, Step};

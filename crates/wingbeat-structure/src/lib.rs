@@ -38,8 +38,7 @@ pub use beam::{Beam, BeamEnd, Section, Stiffness};
 pub use builder::StructureBuilder;
 pub use configuration::{Configuration, NODE};
 pub use dynamics::{
-    GeneralizedAlpha, LoadTangent, Passes, Solver, State, Step, Trial, Weights, carried_by_frame,
-    resultant,
+    GeneralizedAlpha, LoadTangent, Solver, State, Trial, Weights, carried_by_frame, resultant,
 };
 pub use element::{Element, ElementForces, MassBetween};
 pub use error::StructureError;

@@ -43,8 +43,9 @@ impl Mode {
 
 /// Modes about an equilibrium in a frame that moves steadily, of rising frequency: stiffness of the deformed
 /// state with centrifugal stiffening and softening; Coriolis forces, which couple modes of a turning body, are
-/// left out. `added` is mass that moves along, by rows of 6 N x 6 N numbers, N nodes, force in W and moment in
-/// node components by acceleration (added mass of the air), to be symmetric.
+/// left out. Modes faster than the slowest by `1 / sqrt(n epsilon)`, n unknowns, some 1e6, are rounding and
+/// left out, as motions without mass are. `added` is mass that moves along, by rows of 6 N x 6 N numbers, N
+/// nodes, force in W and moment in node components by acceleration (added mass of the air), to be symmetric.
 ///
 /// The matrices of this eigenproblem are dense: up to some 600 unknowns are solved within seconds.
 ///
@@ -74,9 +75,10 @@ pub fn modes(
             shape,
         }
     };
-    // Massless combinations have no frequency.
+    // Massless combinations have no frequency: their eigenvalues are the rounding of the largest.
     let heaviest = values.iter().fold(0.0_f64, |a, v| a.max(*v));
-    let heavy = (0..n).filter(|&j| values[j] > f64::EPSILON * f64::EPSILON * heaviest);
+    let rounding = n as f64 * f64::EPSILON * heaviest;
+    let heavy = (0..n).filter(|&j| values[j] > rounding);
     let mut all: Vec<Mode> = heavy.map(mode).collect();
     all.sort_by(|a, b| a.square.total_cmp(&b.square));
     Ok(all)
@@ -86,13 +88,14 @@ pub fn modes(
 const LARGE: f64 = 2.5e8;
 
 /// Most passes of the iteration, and the change of the eigenvalue that ends it \[1\].
-const PASSES: usize = 60;
+const PASSES: usize = 200;
 const CONVERGED: f64 = 1e-8;
 
 /// Angular frequency \[rad/s\] of the slowest vibration about rest, by inverse iteration with the banded
 /// stiffness and Rayleigh's quotient; 0 where a push grows. With `turns` nodes have all their inertia; without,
 /// as for sheets, that of their turns counts in the quotient alone: motions in which nodes turn and nothing
-/// moves are of the elements and of no sheet. None of a body so large that this takes long.
+/// moves are of the elements and of no sheet. None of a body so large that this takes long, and where the
+/// iteration does not converge: the slowest vibrations are too close to each other.
 ///
 /// # Errors
 /// [`StructureError::Singular`], [`StructureError::Modes`]: a body that is not held, stiffnesses that differ by more than rounding.
@@ -122,16 +125,16 @@ pub fn first_frequency(structure: &Structure, turns: bool) -> Result<Option<f64>
         let (found, before) = (stiffness / whole, square);
         (push, square) = (momentum, found);
         push.iter_mut().for_each(|f| *f /= kinetic.sqrt());
+        if !found.is_finite() {
+            return Err(StructureError::Modes(
+                "stiffnesses differ by more than rounding",
+            ));
+        }
         if (found - before).abs() <= CONVERGED * found.abs() {
-            break;
+            return Ok(Some(found.max(0.0).sqrt()));
         }
     }
-    match square.is_finite() {
-        true => Ok(Some(square.max(0.0).sqrt())),
-        false => Err(StructureError::Modes(
-            "stiffnesses differ by more than rounding",
-        )),
-    }
+    Ok(None)
 }
 
 fn product(a: &[f64], b: &[f64]) -> f64 {

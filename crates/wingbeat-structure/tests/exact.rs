@@ -5,7 +5,7 @@ mod mixed;
 
 use common::*;
 use std::f64::consts::PI;
-use wingbeat_math::{DMat3, DQuat, DVec3, MassProperties};
+use wingbeat_math::{DMat3, DQuat, DVec3, MassProperties, outer};
 use wingbeat_structure::*;
 
 /// Largest difference.
@@ -232,24 +232,72 @@ fn exact_lumped_mass_has_the_moments_of_the_beam() {
     masses.iter().for_each(|m| m.validate().unwrap());
 }
 
+/// Iterations end on it: no correction is mistaken for a small one.
 #[test]
-fn refuses_loads_that_are_not_numbers() {
+fn behaves_corrections_under_loads_that_are_not_numbers_are_not_numbers_either() {
     let body = straight(2, 1.0, &slender()).clamp(0).build().unwrap();
     let method = GeneralizedAlpha::new(0.9).unwrap();
+    let state = State::at_rest(body.rest().clone());
     for k in 0..6 {
         // One number of the tip: a force, then a moment.
-        let mut state = State::at_rest(body.rest().clone());
-        let before = state.clone();
-        let mut trial = Trial::of(&state);
-        let step = Step {
-            h: 1e-3,
-            frame: &FrameMotion::REST,
-            loads: &mut |_: &Trial, loads: &mut [f64]| loads[12 + k] = f64::NAN,
-            passes: Passes::default(),
-        };
-        let told = Solver::new(&body).advance(&method, &body, &mut state, step, &mut trial);
-        let is_told = matches!(told, Err(StructureError::NotConverged { .. }));
-        assert!(is_told, "number {k}: {told:?}");
-        assert_eq!(state, before);
+        let mut loads = vec![0.0; NODE * body.nodes()];
+        loads[12 + k] = f64::NAN;
+        let (mut trial, mut solver) = (Trial::of(&state), Solver::new(&body));
+        method.predict(&body, &state, 1e-3, &mut trial);
+        let residual = solver.residual(&body, &trial, &FrameMotion::REST, &loads);
+        let free = body.free_numbers().iter();
+        let mut change: Vec<f64> = free.map(|&k| -residual[k]).collect();
+        let none = LoadTangent::default();
+        solver
+            .factor(&body, &trial, &FrameMotion::REST, &none)
+            .unwrap();
+        solver.solve(&mut change);
+        assert!(trial.add(&body, &change).is_nan(), "number {k}");
     }
+}
+
+#[test]
+fn exact_bodies_have_as_many_modes_as_motions_with_mass() {
+    // Ten thin rods on a beam without mass, none along an axis: what turns each about itself has no mass.
+    let section = Section {
+        mass: MassProperties::ZERO,
+        ..slender()
+    };
+    let along = DVec3::new(1.0, 2.0, 3.0).normalize();
+    let thin = DMat3::IDENTITY - outer(along);
+    let rod = MassProperties::about_centre(0.1, DVec3::ZERO, thin * 1e-3);
+    let body = (1..=10).fold(straight(10, 1.0, &section).clamp(0), |b, n| b.mass(n, rod));
+    let body = body.build().unwrap();
+    let found = modes(&body, body.rest(), &FrameMotion::REST, None).unwrap();
+    assert_eq!(found.len(), 50, "{:?}", found.last().map(|m| m.square));
+}
+
+/// A cantilever of unit length and mass whose stiffnesses are 1 and `other`.
+fn two_ways(other: f64) -> Structure {
+    let stiffness = Stiffness {
+        axial: 1e4,
+        shear: [1e4; 2],
+        torsion: 1.0,
+        bending: [1.0, other],
+    };
+    let section = Section::new(&stiffness).with_mass(1.0, [0.0; 2], [1e-4; 2]);
+    straight(8, 1.0, &section).clamp(0).build().unwrap()
+}
+
+#[test]
+fn agrees_first_frequency_is_that_of_the_modes() {
+    for other in [1.0, 1.1, 3.0] {
+        let body = two_ways(other);
+        let all = modes(&body, body.rest(), &FrameMotion::REST, None).unwrap();
+        let quick = first_frequency(&body, true).unwrap().unwrap();
+        let gap = quick / all[0].frequency() - 1.0;
+        println!("{other}: {gap:e}");
+        // What is left of a change of 1e-8 of the square that falls by 1.2 a pass.
+        assert!(gap.abs() < 3e-8, "{other}: {gap:e}");
+    }
+}
+
+#[test]
+fn behaves_first_frequency_is_not_known_where_two_are_too_close() {
+    assert_eq!(first_frequency(&two_ways(1.001), true), Ok(None));
 }

@@ -19,7 +19,7 @@ pub(crate) use carry_through::{Carried, carried, middle_columns};
 pub use joined_edge::JoinedEdge;
 pub use node_motion::NodeMotion;
 pub use panels::Panels;
-pub(crate) use panels::{corner_weights, point_and_normal};
+pub(crate) use panels::{corner_weights, point_and_normal, vector_area};
 pub(crate) use rings::{Rings, rings};
 pub(crate) use shed_around::{ShedAround, joined_groups, shed_around};
 pub use strips::Strip;

@@ -95,7 +95,7 @@ pub(crate) fn point_and_normal(corners: &[usize; 4], nodes: &[DVec3]) -> Option<
 }
 
 /// Half the cross product of the diagonals.
-pub(super) fn vector_area(x: &[DVec3; 4]) -> DVec3 {
+pub(crate) fn vector_area(x: &[DVec3; 4]) -> DVec3 {
     0.5 * (x[2] - x[0]).cross(x[3] - x[1])
 }
 

@@ -15,7 +15,7 @@
 //! edge. The lattice has the pressure drag of a wing at incidence already; the polar is for what it lacks. The
 //! force is spread over the panels of the strip by their area.
 
-use crate::geometry::{Strip, column};
+use crate::geometry::{Strip, column, vector_area};
 use crate::lattice::Lattice;
 use crate::loads::values::AirLoads;
 use crate::settings::SectionDrag;
@@ -37,7 +37,7 @@ pub(crate) fn add_section_drag(lattice: &Lattice, position: &[DVec3], out: &mut 
 /// Area of a panel [m2], that of the surface: rings may be smaller.
 fn area(lattice: &Lattice, panel: usize, position: &[DVec3]) -> f64 {
     let x = lattice.topology().panels[panel].map(|n| position[n]);
-    0.5 * (x[2] - x[0]).cross(x[3] - x[1]).length()
+    vector_area(&x).length()
 }
 
 /// Force per area of a strip [Pa], N components.

@@ -6,12 +6,14 @@ use super::Recovery;
 ///
 /// ```
 /// use wingbeat_analysis::episode::{Recoveries, Recovery};
-/// let flown = |beats| Recovery { tilt: 1.0, rate: 0.0, beats, strayed: 0.01 };
-/// let tumbles = [flown(Some(20)), flown(None), flown(Some(10)), flown(Some(30))];
+/// let flown = |beats, strayed| Recovery { tilt: 1.0, rate: 0.0, beats, strayed };
+/// let tumbles = [flown(Some(20), 0.25), flown(None, 2.0), flown(Some(10), 0.5), flown(Some(30), 1.0)];
 /// let all = Recoveries::of(tumbles.iter().collect());
 /// assert_eq!(all.recovered()[0], 0.75);
 /// assert_eq!(all.beats(0.5), Some(20));
-/// assert_eq!(all.strayed(), Some(0.01)); // m
+/// assert_eq!(all.strayed(), Some(0.5)); // m
+/// let two = Recoveries::of(tumbles[..3].iter().collect());
+/// assert_eq!(two.strayed(), Some(0.375));
 /// ```
 pub struct Recoveries<'a> {
     all: Vec<&'a Recovery>,
@@ -56,6 +58,7 @@ impl<'a> Recoveries<'a> {
         let recovered = self.all.iter().filter(|r| r.beats.is_some());
         let mut far: Vec<f64> = recovered.map(|r| r.strayed).collect();
         far.sort_unstable_by(f64::total_cmp);
-        far.get(far.len() / 2).copied()
+        let n = far.len();
+        (n > 0).then(|| 0.5 * (far[(n - 1) / 2] + far[n / 2]))
     }
 }

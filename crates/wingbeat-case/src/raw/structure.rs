@@ -29,13 +29,14 @@ pub struct StructureCase {
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub region: Vec<RegionCase>,
     /// Time by which rates of strain add to strains (Kelvin and Voigt): the damping ratio of a mode is half
-    /// this times its angular frequency. In shells bending alone is damped, not stretching.
+    /// this times its angular frequency. In shells bending alone is damped, not stretching. It belongs to the
+    /// material: `animal.scale` leaves it.
     ///
     /// Change it to the damping that was measured.
     #[schemars(range(min = 0))]
     pub damping_s: f64,
     /// Rate by which momentum relative to the wing frame decays: the damping ratio of a mode is half this over
-    /// its angular frequency.
+    /// its angular frequency. `animal.scale` leaves it.
     ///
     /// Change it where damping does not grow with frequency.
     #[schemars(range(min = 0))]

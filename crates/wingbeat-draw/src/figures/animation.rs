@@ -172,9 +172,7 @@ fn animal(poses: &Poses, row: &[f64]) -> Vec<([[f64; 3]; 4], bool)> {
 /// What lengths are counted in: the longest wing, or the body without one.
 fn size(case: &LoadedCase) -> f64 {
     let animal = &case.setup.animal;
-    let reports = animal.wing_reports();
-    let longest = reports.iter().map(|r| r.length).fold(0.0, f64::max);
-    let size = longest.max(0.5 * animal.body_length());
+    let size = animal.wing_length().max(0.5 * animal.body_length());
     if size > 0.0 { size } else { 1.0 }
 }
 

@@ -267,8 +267,7 @@ impl<'a> Scene<'a> {
 
     /// What lengths are counted in: the longest wing, else the largest solid \[m\].
     fn length(&self, case: &LoadedCase) -> f64 {
-        let reports = case.setup.animal.wing_reports();
-        let longest = reports.iter().map(|r| r.length).fold(0.0, f64::max);
+        let longest = case.setup.animal.wing_length();
         let size = self.solids.iter().map(Solid::size).fold(0.0, f64::max);
         let length = if longest > 0.0 { longest } else { size };
         if length > 0.0 { length } else { 1.0 }

@@ -282,7 +282,7 @@ impl AbsoluteForm {
     pub fn energies(&self, t: f64, motions: &[BodyMotion]) -> [f64; 3] {
         let mut sum = [0.0; 3];
         for (b, m) in self.mechanism.bodies().iter().zip(motions) {
-            sum[0] += kinetic_energy(b, m);
+            sum[0] += kinetic_energy(&b.mass, m);
             let moment = b.mass.mass * m.p + m.r * b.mass.first_moment;
             sum[1] -= self.mechanism.gravity().dot(moment);
         }

@@ -1,7 +1,10 @@
 //! What the elastic wings do to the bodies that carry them, their energies and momenta.
 
-use wingbeat_dynamics::{AddedMass, Body, BodyMotion, Budget, ShapeMass, Wrench, kinetic_energy};
-use wingbeat_math::{DVec3, EulerSequence, MassProperties};
+use wingbeat_dynamics::{
+    AddedMass, BodyMotion, Budget, ShapeMass, Wrench, angular_momentum, kinetic_energy,
+    linear_momentum,
+};
+use wingbeat_math::{DVec3, MassProperties};
 use wingbeat_structure::resultant;
 
 use super::coupling::{ElasticScratch, Moment};
@@ -198,17 +201,10 @@ struct Parts {
 
 impl Parts {
     fn of(mass: &MassProperties, m: &BodyMotion) -> Self {
-        let body = Body {
-            name: String::new(),
-            mass: *mass,
-            sequence: EulerSequence::WING_132,
-        };
-        let momentum = mass.mass * m.v + m.r * m.w.cross(mass.first_moment);
-        let spin = mass.first_moment.cross(m.r.transpose() * m.v) + mass.inertia * m.w;
         Self {
-            kinetic: kinetic_energy(&body, m),
-            momentum,
-            angular: m.p.cross(momentum) + m.r * spin,
+            kinetic: kinetic_energy(mass, m),
+            momentum: linear_momentum(mass, m),
+            angular: angular_momentum(mass, m),
             first: mass.mass * m.p + m.r * mass.first_moment,
         }
     }

@@ -16,7 +16,8 @@
 //!
 //! Undamped vibrations of the angular frequency w grow by the formula of order four where w h is more than a
 //! few tenths (by 1.4 % a step at 0.6, by 11 % at 1). That of order two damps vibrations of every frequency,
-//! and leaves the share rho of the fastest from step to step: the generalized-alpha method for equations of
+//! and leaves the share `max(rho, |1 - 3 rho| / (3 - rho))` of the fastest from step to step, which is rho from
+//! 0.172 on and a third at rho = 0: the generalized-alpha method for equations of
 //! first order [Jansen, Whiting & Hulbert 2000], its rates at the middle of a step taken out. Its parameters
 //! are those of the method of second order [Chung & Hulbert 1993], by which elastic bodies go: velocities of
 //! bodies that carry each other then follow alike from their accelerations, however these jump:
@@ -51,15 +52,15 @@ const ORDER_FOUR: Weights = Weights {
     predictor: [55.0, -59.0, 37.0, -9.0],
 };
 
-/// m, a and g of the method of order two that leaves the share `rho`.
+/// m, a and g of the method of order two of the parameter `rho`.
 fn parameters(rho: f64) -> [f64; 3] {
     let (m, a) = ((2.0 - rho) / (1.0 + rho), 1.0 / (1.0 + rho));
     [m, a, 0.5 + m - a]
 }
 
-/// Weights of f0 to f3 in (y_k - y_0) / h of the first three steps of the method of order two that leaves the
-/// share `rho`: one of Euler's backward method, one in which the rate at the middle of the step before is that
-/// at its end, and one as all later ones.
+/// Weights of f0 to f3 in (y_k - y_0) / h of the first three steps of the method of order two of the
+/// parameter `rho`: one of Euler's backward method, one in which the rate at the middle of the step before is
+/// that at its end, and one as all later ones.
 pub fn order_two_start(rho: f64) -> [[f64; 4]; 3] {
     let [m, a, g] = parameters(rho);
     let (now, before) = (g * a / m, 1.0 - g * a / m);
@@ -112,7 +113,8 @@ impl Bdf {
         }
     }
 
-    /// That of order two that leaves the share `rho` \[1\] of the fastest vibrations from step to step.
+    /// That of order two that leaves the share `max(rho, |1 - 3 rho| / (3 - rho))` \[1\] of the fastest
+    /// vibrations from step to step.
     pub fn order_two(self, rho: f64) -> Self {
         let [m, a, g] = parameters(rho);
         let weights = Weights {

@@ -50,10 +50,10 @@ impl Passing {
     }
 
     /// So many `passes` of the step agree: what they have shown is left for the next, unless all were plain.
-    pub fn end(&self, c: &Convergence, passes: usize, shown: &mut Vec<Shown>) {
+    pub fn end(&mut self, c: &Convergence, passes: usize, shown: &mut Vec<Shown>) {
         match c.accelerated_from.is_some_and(|from| passes >= from) {
             true => (self.secants).keep(TELLING, MAX_KEPT, shown),
-            false => shown.clear(),
+            false => self.secants.keep_none(shown),
         }
     }
 

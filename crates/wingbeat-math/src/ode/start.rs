@@ -9,9 +9,9 @@
 //! ```
 //!
 //! The three steps are swept in order, again and again, each with the latest rates of the others;
-//! the first sweep makes do with the trapezoidal rule and Adams-Moulton. Within a step y and f are
-//! iterated until they agree. A right-hand side with a history (a wake) is replayed from the
-//! start in every sweep and frozen within a step, as it will be later on.
+//! the first sweep has the trapezoidal rule for y1, whose formula asks for later rates. Within a step y and f
+//! are iterated until they agree. A right-hand side with a history (a wake) is replayed from the start in every
+//! sweep and frozen within a step, as it will be later on.
 
 use super::corrector::{Convergence, Passing, StepError, StepReport, scaled_difference};
 use super::hamming::Multistep;

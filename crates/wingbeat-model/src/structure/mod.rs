@@ -58,7 +58,9 @@ impl WingStructure {
     }
 
     /// Of a wing `s` times as large of the same materials: stiffnesses of sections (forces times areas) go with
-    /// the fourth power, times with the first.
+    /// the fourth power, periods of vibrations so with the first. Times of damping belong to the material and
+    /// stay: of the same mode the damping ratio by strain rates (time times frequency) falls with the size,
+    /// that by mass rises.
     pub fn scaled(&self, s: f64) -> Self {
         let members = match &self.members {
             Members::Beam(beam) => Members::Beam(beam.scaled(s)),

@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use wingbeat_math::{DVec3, MassProperties};
 use wingbeat_model::planform::{Beta, BetaChord, ChordSize, Landmarks};
 use wingbeat_model::{
-    GridMesh, MassInput, Planform, Side, Spacing, Wing, WingMotion, WingReport, WingShape,
+    Animal, GridMesh, MassInput, Planform, Side, Spacing, Wing, WingMotion, WingReport, WingShape,
 };
 
 fn wing(shape: &WingShape) -> Wing {
@@ -53,6 +53,22 @@ fn exact_a_four_by_four_square_has_its_nodes_at_integers() {
         [r.length, r.area, r.max_chord, r.mean_chord],
         [4.0, 16.0, 4.0, 4.0]
     );
+}
+
+#[test]
+fn exact_wing_length_is_along_the_span_and_reach_to_the_farthest_corner() {
+    // A square of 4 m whose axis lies at a quarter of the chord: the corner behind at the tip is 3 m and 4 m
+    // away.
+    let wings = vec![wing(&square(0.25)), wing(&square(0.25)).mirrored("left")];
+    let animal = Animal {
+        name: "square".into(),
+        body: MassProperties::ZERO,
+        parts: vec![],
+        wings,
+        segments: vec![],
+    };
+    assert_eq!([animal.wing_length(), animal.wing_reach()], [4.0, 5.0]);
+    assert!(animal.wing_reports().iter().all(|r| r.length == 4.0));
 }
 
 #[test]

@@ -7,7 +7,7 @@
 or ``gymnasium.make("wingbeat/Hover-v0")``, ``gymnasium.make_vec(..., vectorization_mode="vector_entry_point")``; tasks
 hover, recover (from a tumble), path (follow a target), gust. Needs gymnasium.
 
-An episode is flown about the trimmed flight of ``flight``. R is the wing length [m], T the wingbeat [s]. Level axes are forward,
+An episode is flown about the trimmed flight of ``flight``. R is the wing length, hinge to tip [m], T the wingbeat [s]. Level axes are forward,
 right and down of the trimmed attitude at the start of a wingbeat: down along gravity, forward the horizontal part of b1.
 
 **Actions**: four numbers in [-1, 1] (larger ones are cut), once per control step, over which the strokes go to them smoothly.

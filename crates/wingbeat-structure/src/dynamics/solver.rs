@@ -63,8 +63,6 @@ pub struct Solver {
     damping: Vec<f64>,
     /// Loads of the last residual.
     pub(super) loads: Vec<f64>,
-    /// Loads while they are filled.
-    pub(super) given: Vec<f64>,
     /// Where stresses are foreseen from, and six increments a node.
     before: Configuration,
     ahead: Vec<f64>,
@@ -80,7 +78,6 @@ impl Solver {
             change: vec![0.0; structure.unknowns()],
             damping: vec![0.0; NODE * structure.nodes()],
             loads: vec![0.0; NODE * structure.nodes()],
-            given: vec![],
             before: Configuration::default(),
             ahead: vec![],
             response: ResponseScratch::default(),
@@ -106,12 +103,6 @@ impl Solver {
         r.iter_mut().zip(&self.damping).for_each(|(r, d)| *r += d);
         inertial(structure, &trial.motion(), frame, r);
         r
-    }
-
-    /// Largest residual at a free number [N, N m].
-    pub(super) fn largest_residual(&self, structure: &Structure) -> f64 {
-        let free = structure.number.iter().map(|&k| self.residual[k].abs());
-        free.fold(0.0, larger)
     }
 
     fn damping_forces(&mut self, structure: &Structure, trial: &Trial) {
@@ -270,21 +261,6 @@ impl Solver {
     /// way in and an increment on the way out.
     pub fn solve(&mut self, x: &mut [f64]) {
         self.assembly.matrix.solve(x);
-    }
-
-    /// Newton's correction of a trial, from the last residual and factors: returns its size \[1\], the largest
-    /// of rotations \[rad\] and translations over the size of the body.
-    pub fn correct(&mut self, structure: &Structure, trial: &mut Trial) -> f64 {
-        self.solve_residual(structure);
-        apply(structure, &self.change, trial)
-    }
-
-    /// Fills `change` with what takes the last residual away, by the last factors.
-    pub(super) fn solve_residual(&mut self, structure: &Structure) {
-        for (x, &k) in self.change.iter_mut().zip(&structure.number) {
-            *x = -self.residual[k];
-        }
-        self.assembly.matrix.solve(&mut self.change);
     }
 
     /// Ends a step: the trial, with what damping dissipated, becomes the state. To be called after

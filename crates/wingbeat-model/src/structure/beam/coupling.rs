@@ -2,6 +2,7 @@
 
 use crate::deformation::SpanLaw;
 use crate::error::ModelError;
+use wingbeat_math::interpolate;
 
 /// Off-diagonal stiffness of the sections along a beam: rows of r/R and six terms, straight lines between. Axes
 /// of a section of a right wing: 1 outward along the beam, 2 in the plane towards the leading edge, 3 the upper
@@ -21,10 +22,8 @@ const MIRRORED: [f64; 6] = [1.0, 1.0, -1.0, -1.0, -1.0, 1.0];
 impl Coupling {
     /// Terms at r/R.
     pub fn at(&self, r: f64) -> [f64; 6] {
-        let term = |k: usize| {
-            let rows: Vec<(f64, f64)> = self.0.iter().map(|(r, row)| (*r, row[k])).collect();
-            crate::integrate::interpolate(&rows, r)
-        };
+        let rows = &self.0;
+        let term = |k| interpolate(rows.len(), |j| (rows[j].0, rows[j].1[k]), r);
         match self.0.is_empty() {
             true => [0.0; 6],
             false => std::array::from_fn(term),

@@ -36,9 +36,7 @@ impl Shown {
     /// A wingbeat takes a second; the longest wing, or the body, is 1 to 10 decimetres long.
     pub fn of(source: &Source) -> Self {
         let setup = &source.case.setup;
-        let reports = setup.animal.wing_reports();
-        let wing = reports.iter().map(|r| r.length).fold(0.0, f64::max);
-        let length = wing.max(setup.animal.body_length());
+        let length = setup.animal.wing_length().max(setup.animal.body_length());
         let larger = match length > 0.0 {
             true => 10f64.powf((0.0999 / length).log10().ceil()),
             false => 1.0,
