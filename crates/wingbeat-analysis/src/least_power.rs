@@ -129,7 +129,10 @@ impl<'a> Search<'a> {
     /// The unknowns whose bounds ended the search, as far as it resolves that.
     fn at_bound(&self, found: &TrimSolution) -> Vec<Unknown> {
         let asked = |b: &&Bound| self.problem.bounds.contains(b);
-        let bounds = self.spare.iter().chain(self.determined.iter().filter(asked));
+        let bounds = self
+            .spare
+            .iter()
+            .chain(self.determined.iter().filter(asked));
         let is_reached = |b: &&Bound| {
             let within = (10.0 * RESOLUTION).min(0.01 * (b.to - b.from));
             (found.value(b.unknown)).is_some_and(|x| b.is_reached(x, within))
