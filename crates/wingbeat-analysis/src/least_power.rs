@@ -14,6 +14,7 @@ use crate::AnalysisError;
 use crate::plausibility::stroke_amplitude;
 use crate::power::power_of_trim;
 use crate::progress;
+use crate::solution::TrimSolution;
 use crate::steady::TrimProblem;
 use crate::steady::{Residuals, check};
 use crate::trim::{Trim, trim, trim_from};
@@ -47,8 +48,12 @@ pub fn trim_within(setup: &FlightSetup, problem: &TrimProblem) -> Result<Trim, A
     let best = search.least(&start, unit);
     let mut found = search.trim(&best)?;
     found.solution.iterations = search.iterations.get();
+    found.solution.at_bound = search.at_bound(&found.solution);
     Ok(found)
 }
+
+/// To what the search determines the spare unknowns \[1, rad\].
+const RESOLUTION: f64 = 1e-5;
 
 /// Cost of a point without a trim, over that of the first.
 const LOST: f64 = 10.0;
@@ -79,6 +84,8 @@ struct Search<'a> {
     spare: Vec<Bound>,
     known: RefCell<Vec<Known>>,
     last: RefCell<Option<(Vec<f64>, Option<Outcome>)>>,
+    /// The point of least power inside all bounds so far, and that power [W].
+    best: RefCell<Option<(Vec<f64>, f64)>>,
     trims: Cell<usize>,
     /// Newton's, of all trims.
     iterations: Cell<usize>,
@@ -102,6 +109,7 @@ impl<'a> Search<'a> {
             },
             known: RefCell::default(),
             last: RefCell::default(),
+            best: RefCell::default(),
             trims: Cell::default(),
             iterations: Cell::default(),
         }
@@ -118,7 +126,22 @@ impl<'a> Search<'a> {
         inside.collect()
     }
 
-    /// Values of the spare unknowns with least power over `unit` [W], from `start` on.
+    /// The unknowns whose bounds ended the search, as far as it resolves that.
+    fn at_bound(&self, found: &TrimSolution) -> Vec<Unknown> {
+        let asked = |b: &&Bound| self.problem.bounds.contains(b);
+        let bounds = self
+            .spare
+            .iter()
+            .chain(self.determined.iter().filter(asked));
+        let is_reached = |b: &&Bound| {
+            let within = (10.0 * RESOLUTION).min(0.01 * (b.to - b.from));
+            (found.value(b.unknown)).is_some_and(|x| b.is_reached(x, within))
+        };
+        bounds.filter(is_reached).map(|b| b.unknown).collect()
+    }
+
+    /// Values of the spare unknowns with least power over `unit` [W], from `start` on: the best point that is inside all
+    /// bounds; where there is none, that at which the search ended.
     fn least(&self, start: &[f64], unit: f64) -> Vec<f64> {
         let cost = |x: &[f64], (): &mut ()| self.at(x).map_or(LOST, |f| f.power / unit);
         let room = |k: usize| move |x: &[f64], (): &mut ()| self.at(x).map_or(-1.0, |f| f.room[k]);
@@ -127,7 +150,7 @@ impl<'a> Search<'a> {
         let steps = ranges.iter().map(|(a, b)| (0.25 * (b - a)).min(FIRST_STEP));
         let tolerances = StopTols {
             ftol_rel: 1e-7,
-            xtol_abs: vec![1e-5; start.len()],
+            xtol_abs: vec![RESOLUTION; start.len()],
             ..StopTols::default()
         };
         let found = minimize(
@@ -141,7 +164,8 @@ impl<'a> Search<'a> {
             Some(tolerances),
         );
         let (Ok((_, x, _)) | Err((_, x, _))) = found;
-        x
+        let best = self.best.take();
+        best.map_or(x, |(inside, _)| inside)
     }
 
     /// The trim with the spare unknowns at `x`, from the nearest that is known.
@@ -179,8 +203,19 @@ impl<'a> Search<'a> {
             return outcome.clone();
         }
         let outcome = self.outcome(x);
+        if let Some(found) = &outcome {
+            self.keep_best(x, found);
+        }
         *self.last.borrow_mut() = Some((x.to_vec(), outcome.clone()));
         outcome
+    }
+
+    fn keep_best(&self, x: &[f64], found: &Outcome) {
+        let is_inside = found.room.iter().all(|r| *r >= 0.0);
+        let mut best = self.best.borrow_mut();
+        if is_inside && best.as_ref().is_none_or(|b| found.power < b.1) {
+            *best = Some((x.to_vec(), found.power));
+        }
     }
 
     fn outcome(&self, x: &[f64]) -> Option<Outcome> {

@@ -72,21 +72,19 @@ impl TrimProblem {
         own.copied().unwrap_or_else(|| Bound::default_of(unknown))
     }
 
-    /// The unknowns whose values are outside the given bounds or turn strokes inside out, and those at a bound
-    /// that steady flight does not determine.
+    /// The unknowns whose values are outside the given bounds or turn strokes inside out, and those at a bound, both
+    /// to rounding: a confined search that a bound stops ends on it.
     pub(crate) fn beyond(&self, unknowns: &[Unknown], values: &[f64]) -> [Vec<Unknown>; 2] {
-        // Of relative changes and radians.
-        const NEAR: f64 = 1e-3;
         let given = |u: &Unknown| self.given.iter().any(|g| g.0 == *u);
         let bounded = |u: &Unknown| given(u) || self.bounds.iter().any(|b| b.unknown == *u);
         let pairs = || unknowns.iter().zip(values).filter(|(u, _)| bounded(u));
-        let room = |(u, x): &(&Unknown, &f64)| self.bound(**u).room(**x);
-        let outside = pairs().filter(|p| room(p) < -NEAR).map(|p| *p.0);
-        let near = pairs().filter(|p| room(p).abs() <= NEAR).map(|p| *p.0);
-        let mut outside: Vec<Unknown> = outside.collect();
+        let outside = pairs().filter(|(u, x)| self.bound(**u).excludes(**x));
+        let at = pairs().filter(|(u, x)| self.bound(**u).is_reached(**x, 0.0));
+        let (mut outside, at): (Vec<_>, _) =
+            (outside.map(|p| *p.0).collect(), at.map(|p| *p.0).collect());
         let turned = turned_inside_out(unknowns, values);
         outside.extend(turned.filter(|u| !outside.contains(u)));
-        [outside, near.collect()]
+        [outside, at]
     }
 
     /// Moves values of the chosen unknowns into the bounds that were given.

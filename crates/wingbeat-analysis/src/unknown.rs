@@ -176,6 +176,21 @@ impl Bound {
     pub(crate) fn room(&self, x: f64) -> f64 {
         (x - self.from).min(self.to - x)
     }
+
+    /// Whether `x` is outside by more than rounding.
+    pub(crate) fn excludes(&self, x: f64) -> bool {
+        self.room(x) < -self.rounding()
+    }
+
+    /// Whether `x` is on a bound, or inside by no more than `within`.
+    pub(crate) fn is_reached(&self, x: f64, within: f64) -> bool {
+        !self.excludes(x) && self.room(x) <= within + self.rounding()
+    }
+
+    /// Rounding of values as large as the bounds.
+    fn rounding(&self) -> f64 {
+        4.0 * f64::EPSILON * self.from.abs().max(self.to.abs())
+    }
 }
 
 /// What the values of unknowns make of an animal.

@@ -235,5 +235,46 @@ fn limit_bounds_are_kept_where_there_is_a_choice_and_named_where_there_is_none()
         found.solution.converged && found.solution.outside.is_empty(),
         "{x}"
     );
-    assert!((bound.from - 1e-3..=bound.to + 1e-3).contains(&x), "{x}");
+    assert!((bound.from..=bound.to).contains(&x), "{x}");
+}
+
+/// Bounds are kept to rounding, whatever the unit: 1e-6 short of what steady flight needs is outside, 1e-6 beyond it is
+/// inside and not at the bound.
+#[test]
+fn limit_a_bound_that_is_short_by_a_millionth_is_outside() {
+    let own = trimmed(&fly(), &hover(40)).solution;
+    for unknown in own.unknowns.clone() {
+        let x = own.value(unknown).unwrap();
+        let within = |to: f64| {
+            let mut problem = hover(40);
+            let from = x - 0.2;
+            problem.bounds = vec![Bound { unknown, from, to }];
+            trim(&fly(), &problem).unwrap().solution
+        };
+        let [short, enough] = [within(x - 1e-6), within(x + 1e-6)];
+        assert_eq!(short.outside, [unknown]);
+        assert!(!short.is_as_asked() && short.at_bound.is_empty());
+        assert!(enough.is_as_asked() && enough.at_bound.is_empty());
+    }
+}
+
+/// Where power falls across the bound of a spare unknown, the search for least power ends on that bound and names it.
+#[test]
+fn limit_least_power_lies_at_the_bound_that_it_is_kept_from_crossing() {
+    let mut problem = hover(40);
+    problem.unknowns.push(Unknown::Frequency);
+    let free = trim_within(&fly(), &problem).unwrap().solution;
+    let best = free.value(Unknown::Frequency).unwrap();
+    let (from, to) = (best + 0.1, best + 0.3);
+    problem.bounds = vec![Bound {
+        unknown: Unknown::Frequency,
+        from,
+        to,
+    }];
+    let found = trim_within(&fly(), &problem).unwrap().solution;
+    assert!(found.is_as_asked());
+    assert_eq!(found.at_bound, [Unknown::Frequency]);
+    // To what the search resolves.
+    let over = found.value(Unknown::Frequency).unwrap() - from;
+    assert!((0.0..1e-4).contains(&over), "{over}");
 }

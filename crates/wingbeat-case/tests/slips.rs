@@ -102,7 +102,8 @@ fn refuses_fibres_without_direction() {
             .map_err(|e| e.to_string())
     };
     let said = load(&[]).unwrap_err();
-    assert!(said.contains("fibre_angle_deg = 20"), "{said}");
+    let says = "wing.right.structure.shell.fibre_angle_deg = 20: must be 0 in a sheet alike";
+    assert!(said.contains(says), "{said}");
     for (key, value) in [
         ("young_chord_pa", "1e9"),
         ("shear_pa", "5e8"),

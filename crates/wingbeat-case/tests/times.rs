@@ -135,7 +135,7 @@ fn behaves_a_gap_between_samples_is_named() {
         case.setup.gaps_in_angles().join("\n")
     };
     let hole = gaps(&|k| !(51..=99).contains(&k), 200);
-    let says = "motion.phi has no samples from phase 0.250 to 0.500, where others are 0.0050 wingbeats apart";
+    let says = "wings `left`, `right`: motion.phi has no samples from phase 0.250 to 0.500, where others are 0.0050 wingbeats apart";
     assert!(hole.contains(says), "{hole}");
     let last = gaps(&|k| (0..180).contains(&k), 200);
     assert!(last.contains("from phase 0.895 to 1.000"), "{last}");

@@ -13,50 +13,25 @@ const STEPS: f64 = 2.0;
 impl FlightSetup {
     /// Says which tables of wing angles hold noise, or samples that are wrong, how much, and what to do about it.
     pub fn scattered_angles(&self) -> Vec<String> {
-        let mut found: Vec<(String, Vec<&str>)> = vec![];
-        for wing in &self.animal.wings {
-            for (angle, scatter, jump) in scatters(wing) {
+        let all = self.animal.wings.iter().flat_map(|wing| {
+            scatters(wing).map(|(angle, scatter, jump)| {
                 let text = match jump {
                     Some(jump) => say_jump(angle, &jump),
                     None => self.say_scatter(angle, &scatter),
                 };
-                match found.iter_mut().find(|f| f.0 == text) {
-                    Some((_, wings)) => wings.push(&wing.name),
-                    None => found.push((text, vec![&wing.name])),
-                }
-            }
-        }
-        let named = |(text, wings): (String, Vec<&str>)| {
-            let (what, names) = match &wings[..] {
-                [one] => ("wing", format!("`{one}`")),
-                more => ("wings", format!("`{}`", more.join("`, `"))),
-            };
-            format!("{what} {names}: {text}")
-        };
-        found.into_iter().map(named).collect()
+                (&wing.name[..], text)
+            })
+        });
+        of_wings(all)
     }
 
     /// Says of which tables of wing angles a part of the beat has no samples, which the spline crosses as it happens to.
     pub fn gaps_in_angles(&self) -> Vec<String> {
-        let mut found = vec![];
-        for (angle, table) in self.animal.wings.iter().flat_map(tables) {
-            let rows: Vec<(f64, f64)> = table.rows().collect();
-            let mut apart: Vec<f64> = rows.windows(2).map(|two| two[1].0 - two[0].0).collect();
-            let widest = (0..apart.len()).max_by(|&a, &b| apart[a].total_cmp(&apart[b]));
-            let Some(at) = widest else { continue };
-            let gap = apart[at];
-            apart.sort_by(f64::total_cmp);
-            let usual = apart[apart.len() / 2];
-            if gap > GAP[0].max(GAP[1] * usual) {
-                found.push(format!(
-                    "motion.{angle} has no samples from phase {:.3} to {:.3}, where others are {usual:.4} wingbeats apart: the spline crosses the gap as it happens to; give the samples that are missing, or fit the others by `harmonics`",
-                    rows[at].0,
-                    rows[at + 1].0
-                ));
-            }
-        }
-        found.dedup();
-        found
+        let all = self.animal.wings.iter().flat_map(|wing| {
+            let gaps = tables(wing).filter_map(|(angle, table)| say_gap(angle, table));
+            gaps.map(|text| (&wing.name[..], text))
+        });
+        of_wings(all)
     }
 
     fn say_scatter(&self, angle: &str, s: &Scatter) -> String {
@@ -76,6 +51,42 @@ impl FlightSetup {
             s.harmonics
         )
     }
+}
+
+/// What is said of wings, each text once with the names of those that it is said of.
+fn of_wings<'a>(all: impl Iterator<Item = (&'a str, String)>) -> Vec<String> {
+    let mut found: Vec<(String, Vec<&str>)> = vec![];
+    for (wing, text) in all {
+        match found.iter_mut().find(|f| f.0 == text) {
+            Some((_, wings)) => wings.push(wing),
+            None => found.push((text, vec![wing])),
+        }
+    }
+    let named = |(text, wings): (String, Vec<&str>)| {
+        let (what, names) = match &wings[..] {
+            [one] => ("wing", format!("`{one}`")),
+            more => ("wings", format!("`{}`", more.join("`, `"))),
+        };
+        format!("{what} {names}: {text}")
+    };
+    found.into_iter().map(named).collect()
+}
+
+/// The gap between the samples of a table, if there is one.
+fn say_gap(angle: &str, table: &PeriodicSpline) -> Option<String> {
+    let rows: Vec<(f64, f64)> = table.rows().collect();
+    let mut apart: Vec<f64> = rows.windows(2).map(|two| two[1].0 - two[0].0).collect();
+    let at = (0..apart.len()).max_by(|&a, &b| apart[a].total_cmp(&apart[b]))?;
+    let gap = apart[at];
+    apart.sort_by(f64::total_cmp);
+    let usual = apart[apart.len() / 2];
+    (gap > GAP[0].max(GAP[1] * usual)).then(|| {
+        format!(
+            "motion.{angle} has no samples from phase {:.3} to {:.3}, where others are {usual:.4} wingbeats apart: the spline crosses the gap as it happens to; give the samples that are missing, or fit the others by `harmonics`",
+            rows[at].0,
+            rows[at + 1].0
+        )
+    })
 }
 
 /// Least part of a wingbeat, and least multiple of the usual distance of samples, that is a gap \[1\].

@@ -1,5 +1,7 @@
 //! Errors as exceptions of `wingbeat.errors`, each with the key it is about, the line, and what to try.
 
+use std::path::Path;
+
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -39,6 +41,21 @@ pub fn refused(py: Python<'_>, key: &str, problem: &str, remedy: &str) -> PyErr 
         remedy: remedy.to_owned(),
     };
     exception(py, "CaseError", &message, parts)
+}
+
+/// Of a folder with the numbers of a flight in memory, which no case goes with.
+pub fn without_case(py: Python<'_>, dir: &Path) -> PyErr {
+    let key = dir.display().to_string();
+    let message = format!(
+        "`{key}`: it holds the numbers of a flight in memory (run.write), and no case to read them with"
+    );
+    let remedy = "fly(out=FOLDER) writes what read() takes; history.csv and summary.json are read by other means (numpy, json)";
+    let parts = Parts {
+        key,
+        line: None,
+        remedy: remedy.to_owned(),
+    };
+    exception(py, "ResultError", &message, parts)
 }
 
 /// Of a question to air that is no vortex lattice.
@@ -164,7 +181,7 @@ fn of_case(error: &CaseError) -> Parts {
 
 fn flight(error: &FlightError) -> (&'static str, Parts) {
     match error {
-        FlightError::Setup { key, problem, .. } => ("CaseError", about(*key, problem.as_str())),
+        FlightError::Setup { key, problem, .. } => ("CaseError", about(*key, last_clause(problem))),
         FlightError::NotConverged { .. } => {
             let remedy = "more steps (time.steps_per_beat), more passes (corrector.max_passes), or corrector.relaxation below 1";
             ("FlightError", about("time.steps_per_beat", remedy))

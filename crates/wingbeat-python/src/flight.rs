@@ -83,6 +83,20 @@ impl Flight {
         }
         Ok(())
     }
+
+    /// Refuses a map of one wingbeat where air or wings remember.
+    fn check_map(&self, py: Python<'_>) -> PyResult<()> {
+        let setup = &self.flight.setup;
+        let (key, problem) = match (&setup.air, setup.animal.is_elastic()) {
+            (AirModel::VortexLattice(_), _) => ("air.model", "the lattice has wakes"),
+            (_, true) => ("wing.structure", "loads bend the wings"),
+            (air, _) if air.has_strip_wakes() => ("air.blade.unsteady", "the strips have wakes"),
+            _ => return Ok(()),
+        };
+        let problem = format!("{problem}, and a wingbeat depends on those before it");
+        let remedy = "trim_with_wake(), which takes a memory along; without it air.model = \"blade_element\", no air.blade.unsteady, rigid wings";
+        Err(refused(py, key, &problem, remedy))
+    }
 }
 
 #[pymethods]
@@ -311,6 +325,7 @@ impl Flight {
     /// Steady flight, in so many steps per wingbeat.
     fn trim(&self, py: Python<'_>, asked: mechanics::Asked, steps: usize) -> PyResult<Trim> {
         self.check_memory(py)?;
+        self.check_map(py)?;
         let problem = mechanics::problem(py, &self.flight, &asked, steps)?;
         let case = (!self.is_own()).then(|| self.case.clone());
         let parts = self.parts.copy(py);
@@ -325,9 +340,16 @@ impl Flight {
         py: Python<'_>,
         asked: mechanics::Asked,
         held_beats: usize,
-        tolerance: f64,
+        tolerance: Option<f64>,
     ) -> PyResult<WakeTrim> {
         const MOST: usize = 100;
+        // Of orbits, whose maps are smooth; as the command line has it.
+        const ORBIT: f64 = 1e-6;
+        let usual = WakeSettings::default();
+        let tolerance = tolerance.unwrap_or(match self.flight.setup.air.keeps_wake() {
+            true => usual.tolerance,
+            false => ORBIT,
+        });
         if !(1..=MOST).contains(&held_beats) {
             let remedy = format!("a whole number from 1 to {MOST}");
             return Err(refused(py, "held_beats", "out of range", &remedy));
@@ -338,7 +360,7 @@ impl Flight {
         let settings = WakeSettings {
             held_beats,
             tolerance,
-            ..WakeSettings::default()
+            ..usual
         };
         let steps = TrimSettings::default().steps;
         self.check_memory(py)?;

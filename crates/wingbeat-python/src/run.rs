@@ -14,7 +14,7 @@ use wingbeat::results::{Outcome, ResultDir, Summary};
 use wingbeat::{Error, results};
 
 use crate::arrays::array;
-use crate::errors::{named, raised, refused};
+use crate::errors::{named, raised, refused, without_case};
 use crate::frame::Frame;
 
 /// A flight that was flown, in memory or in a result directory.
@@ -87,7 +87,11 @@ impl Run {
             let run = wingbeat::Run::read(&dir)?;
             Ok((run, ResultDir::open(&dir)?.case()?))
         };
-        let (run, case) = py.detach(read).map_err(|e| raised(py, &e))?;
+        let has = |name: &str| dir.join(name).is_file();
+        let (run, case) = py.detach(read).map_err(|e| match has("manifest.json") {
+            false if has("history.csv") && has("summary.json") => without_case(py, &dir),
+            _ => raised(py, &e),
+        })?;
         Ok(Self::flown(run, vec![], Some(dir), case.resolved()))
     }
 

@@ -1,14 +1,14 @@
-//! Trim and stability in air with a memory: the vortex lattice.
+//! Trim and stability in air with a memory and of elastic wings.
 
 use pyo3::prelude::*;
 use wingbeat::analysis::wake::{
-    WakeMemory, WakeSettings, trim_with_wake, wake_modes, wake_monodromy,
+    WakeMemory, WakeSettings, elastic_floquet, trim_with_wake, wake_modes, wake_monodromy,
 };
 use wingbeat::analysis::{TrimProblem, power_with_wake};
 use wingbeat::case::{LoadedCase, wake_trimmed_case};
 
 use crate::arrays::array;
-use crate::errors::{named, raised};
+use crate::errors::{named, raised, refused};
 use crate::mechanics::{ModeParts, modes, powers};
 use crate::solution::TrimSolution;
 use crate::worker::analyse;
@@ -65,7 +65,7 @@ impl WakeTrim {
         Ok(powers(&power))
     }
 
-    /// Monodromy matrix of the free wingbeat by rows, and Floquet's modes; held fixed when the body is
+    /// In the lattice, monodromy matrix of the free wingbeat by rows, and Floquet's modes; held fixed when the body is
     /// disturbed: the wake of the trimmed flight (`given`), or the disturbance during the hold (`carried`).
     fn stability<'py>(
         &self,
@@ -77,6 +77,11 @@ impl WakeTrim {
             ("carried", WakeMemory::Carried),
         ];
         let memory = named(py, "wake", wake, &memories)?;
+        if self.trim.is_orbit() {
+            let problem = "this flight is periodic with its elastic wings or wakes of strips, and no wake is given or carried";
+            let remedy = "floquet_modes(), the modes of body, wings and wakes together";
+            return Err(refused(py, "wake", problem, remedy));
+        }
         let trim = self.trim.clone();
         let found = analyse(py, move || {
             let matrix = wake_monodromy(&trim, memory)?;
@@ -84,5 +89,19 @@ impl WakeTrim {
         })?;
         let (matrix, set) = found.map_err(|e| raised(py, &e.into()))?;
         Ok((array(py, matrix, &[9, 9])?, modes(&set)))
+    }
+
+    /// Floquet's modes of the periodic orbit of body, elastic wings, `count` modes of each, and wakes of strips.
+    fn floquet_modes(&self, py: Python<'_>, count: usize) -> PyResult<Vec<ModeParts>> {
+        if !self.trim.is_orbit() {
+            let problem = "wakes in space have no orbit of few unknowns, and a wingbeat after a hold was trimmed";
+            let remedy = "stability(wake=\"given\") and stability(wake=\"carried\"), which bracket its modes";
+            return Err(refused(py, "air.model", problem, remedy));
+        }
+        let trim = self.trim.clone();
+        let count = if trim.past.wings.is_empty() { 0 } else { count };
+        let found = analyse(py, move || elastic_floquet(&trim, count))?;
+        let set = found.map_err(|e| raised(py, &e.into()))?;
+        Ok(modes(&set))
     }
 }

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import copy
 import pickle
+import sys
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -31,6 +32,16 @@ def blown(answer: Any) -> Bad:
 
 def lattice() -> wingbeat.Stepper:
     return Flight.preset("fruit-fly-hover").start()
+
+
+STRIPS = {"air.blade.unsteady": "jones"}
+
+
+def without(package: str, ask: Callable[[], Any]) -> Any:
+    """Asks where a package cannot be imported."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setitem(sys.modules, package, None)
+        return ask()
 
 
 def problem(blade: Flight) -> wingbeat.Problem:
@@ -146,6 +157,7 @@ BAD: dict[str, Bad] = {
     "progress that is none": lambda blade, _: blade.fly(progress=3),
     "adjustment in words": controlled_by(lambda: Adjustment(stroke_amplitude="0.1")),
     "adjustment of an array": controlled_by(lambda: Adjustment(stroke_amplitude=np.zeros(2))),
+    "figure without matplotlib": lambda blade, _: without("matplotlib", blade.fly().plot),
     "trim under a load": lambda blade, _: Flight.preset("fruit-fly-hover").trim(),
 }
 
@@ -187,6 +199,34 @@ def test_behaves_errors_of_keys_that_were_set_name_them(blade):
         blade.set("motion.frequency_hz", -3)
     assert caught.value.key == "motion.frequency_hz"
     assert "motion.frequency_hz=-3 (set on top of preset fruit-fly-blade)" in str(caught.value)
+
+
+def test_refuses_a_package_that_is_not_installed_by_its_name():
+    with pytest.raises(wingbeat.PackageError, match="ray") as caught:
+        without("ray", wingbeat.campaign.Ray)
+    assert isinstance(caught.value, ImportError)
+    assert caught.value.key == "executor" and caught.value.remedy == "pip install wingbeat[engines]"
+
+
+@pytest.mark.parametrize(
+    ("preset", "keys", "key"),
+    [
+        ("fruit-fly-hover", {}, "air.model"),
+        ("fruit-fly-blade", STRIPS, "air.blade.unsteady"),
+        ("hawkmoth-elastic", {"air.model": "blade_element"}, "wing.structure"),
+    ],
+)
+def test_refuses_a_map_of_one_wingbeat_where_something_remembers(preset, keys, key):
+    with pytest.raises(wingbeat.CaseError) as caught:
+        Flight.preset(preset).set(keys).trim()
+    assert caught.value.key == key and caught.value.remedy.startswith("trim_with_wake()")
+
+
+def test_refuses_numbers_without_a_case(blade, tmp_path):
+    blade.set("time.beats", 0.1).fly().write(tmp_path / "numbers")
+    with pytest.raises(wingbeat.ResultError, match="no case to read them with") as caught:
+        wingbeat.read(tmp_path / "numbers")
+    assert caught.value.remedy.startswith("fly(out=FOLDER)")
 
 
 def test_behaves_errors_name_the_line_of_a_case(blade):

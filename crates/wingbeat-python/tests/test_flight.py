@@ -108,6 +108,17 @@ def test_exact_beats_are_differences_of_the_impulse(blade):
     assert run.summary["steps"] == 600 and "flew to its end" in run.summary_text
 
 
+def test_exact_coefficients_are_mean_forces_over_the_mean_dynamic_pressure_on_the_wings(blade):
+    """Both are differences over a wingbeat of what the history integrates: to rounding."""
+    run = blade.set("time.beats", 3).fly()
+    pressure = np.diff(run.arrays["dynamic_impulse_newton_s"][:: round(blade.period_s / blade.step_s)]) / blade.period_s
+    assert (pressure > 0).all()
+    for force in ("lift", "thrust"):
+        coefficient = run.beats[f"{force}_coefficient"]
+        np.testing.assert_allclose(coefficient, run.beats[f"{force}_newton"] / pressure, rtol=1e-11)
+    assert (run.beats["lift_coefficient"] > 0.5).all()
+
+
 def test_behaves_arrays_cannot_be_written_and_outlive_their_flight(lattice):
     run = lattice.fly()
     arrays = run.arrays

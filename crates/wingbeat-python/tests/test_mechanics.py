@@ -141,3 +141,23 @@ def test_agrees_trim_with_a_wake_with_the_command_line(program):
         values = np.linalg.eigvals(model.monodromy)
         assert all(abs(values - m.multiplier).min() < 1e-9 * abs(values).max() for m in model.floquet_modes)
     assert abs(models["given"].monodromy - models["carried"].monodromy).max() > 1e-3
+    with pytest.raises(wingbeat.CaseError) as caught:
+        trim.floquet_modes()
+    assert caught.value.remedy.startswith("stability(wake=")
+
+
+def test_agrees_modes_of_strips_with_wakes_with_the_command_line(program):
+    keys = {"air.blade.unsteady": "jones", "time.steps_per_beat": 40}
+    trim = wingbeat.Flight.preset("fruit-fly-blade").set(keys).trim_with_wake()
+    sets = [x for key, value in keys.items() for x in ("--set", f"{key}={json.dumps(value)}")]
+    told = json.loads(program("stability", "fruit-fly-blade", "--json", *sets).stdout)["floquet_modes"]
+    modes = trim.floquet_modes()
+    assert [m.name for m in modes] == [m["name"] for m in told]
+    assert [m.growth_per_s for m in modes] == [m["growth_per_s"] for m in told]
+    for wake in ("given", "carried"):
+        with pytest.raises(wingbeat.CaseError, match="wakes of strips") as caught:
+            trim.stability(wake=wake)
+        assert caught.value.key == "wake" and caught.value.remedy.startswith("floquet_modes()")
+    for count in (0, 21):
+        with pytest.raises(wingbeat.CaseError, match="wing_modes"):
+            trim.floquet_modes(wing_modes=count)

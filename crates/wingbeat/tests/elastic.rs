@@ -350,6 +350,17 @@ fn refuses_what_knows_no_elastic_wings() {
             "no wake",
         ),
         (
+            vec![
+                "stability",
+                "fruit-fly-blade",
+                "--set",
+                "air.blade.unsteady=jones",
+                "--wake",
+                "carried",
+            ],
+            "modes always carry them along",
+        ),
+        (
             vec!["trim", "c.toml", "--set", blade, "--hold", "2"],
             "nothing is held",
         ),

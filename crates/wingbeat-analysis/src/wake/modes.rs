@@ -29,7 +29,7 @@ pub fn wake_monodromy(trim: &WakeTrim, memory: WakeMemory) -> Result<Vec<f64>, A
     if trim.is_orbit() {
         return Err(AnalysisError::not_covered(
             "this flight is periodic with its elastic wings or wakes of strips, and no wake is given or carried",
-            "ask for the modes of body, wings and wakes (elastic_floquet; `wingbeat stability` without --wake)",
+            "ask for the modes of body, wings and wakes together: elastic_floquet",
         ));
     }
     let (level, sizes) = (level(&trim.setup), scales(&trim.setup).array());

@@ -23,11 +23,13 @@ pub(super) fn fault_at(path: &str, raw: &impl Serialize, error: &ModelError) -> 
     };
     let table = toml::Table::try_from(raw).unwrap_or_default();
     let same = table.keys().find(|key| *key == stem);
-    let key = match same.or_else(|| table.keys().find(matching)) {
-        Some(key) => format!("{path}.{key}"),
-        None => path.to_owned(),
+    let found = same.or_else(|| table.keys().find(matching));
+    let (key, problem) = match found {
+        // The case says it in units of its own.
+        Some(key) => (format!("{path}.{key}"), format!("must be {allowed}")),
+        None => (path.to_owned(), error.to_string()),
     };
-    Fault::new(key, error.to_string(), allowed, "change this value")
+    Fault::new(key, problem, allowed, "change this value")
 }
 
 /// A key without effect, and why.

@@ -23,7 +23,7 @@ from wingbeat._mechanics import Derivatives, LinearModel, Mode, Power, Trim, Wak
 from wingbeat._own import Adjustment, Motions, Sensed
 from wingbeat._run import Beats, Estimate, Run, read
 from wingbeat._vibration import Flutter, FlutterCondition, FlutterOnset, GrowingMode, Vibrations, WingModes
-from wingbeat.errors import AnalysisError, CaseError, Error, FlightError, ResultError
+from wingbeat.errors import AnalysisError, CaseError, Error, FlightError, PackageError, ResultError
 
 if TYPE_CHECKING:
     from wingbeat import campaign
@@ -49,6 +49,7 @@ __all__ = [
     "LinearModel",
     "Mode",
     "Motions",
+    "PackageError",
     "Part",
     "Particles",
     "Power",

@@ -292,15 +292,18 @@ class Flight:
         unknowns: Sequence[str] | None = None,
         bounds: Mapping[str, tuple[float, float]] | None = None,
         held_beats: int = 2,
-        tolerance: float = 2e-3,
+        tolerance: float | None = None,
     ) -> WakeTrim:
-        """The same in the vortex lattice, in the steps of the case: the body is held for ``held_beats`` wingbeats while its
-        wake grows, and the free wingbeat after them is the one that is trimmed: its residuals, forces over weight, within
-        ``tolerance``. Some 10 to 30 such flights: minutes.
+        """The same in air with a memory (the vortex lattice, strips with ``air.blade.unsteady``) or with elastic wings, in the
+        steps of the case. In the lattice the body is held for ``held_beats`` wingbeats while its wake grows, and the free
+        wingbeat after them is the one that is trimmed: its residuals, forces over weight, within ``tolerance`` (2e-3 if it is
+        left out). Some 10 to 30 such flights: minutes. In blade elements a periodic orbit is trimmed, wings and wakes of strips
+        included, within 1e-6.
         """
         asked = _asked(_velocity(forward_m_per_s, sideslip_m_per_s, climb_m_per_s), 0.0, unknowns, bounds)
         beats = whole("held_beats", held_beats, 1, 100)
-        return WakeTrim(self._core.trim_with_wake(asked, beats, real("tolerance", tolerance)))
+        within = None if tolerance is None else real("tolerance", tolerance)
+        return WakeTrim(self._core.trim_with_wake(asked, beats, within))
 
     def stability(self, **trim: Any) -> LinearModel:
         """Linear model about the trimmed flight; arguments are those of :meth:`trim`."""

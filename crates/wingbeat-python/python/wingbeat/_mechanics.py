@@ -8,7 +8,9 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any, Generic, NoReturn, Self, TypeVar
 
 from wingbeat import _core
+from wingbeat._numbers import whole
 from wingbeat._own import Adjustment
+from wingbeat._packages import needs
 from wingbeat._paths import path as plain_path
 from wingbeat.errors import AnalysisError, CaseError, ResultError
 
@@ -89,6 +91,7 @@ class LinearModel:
 
     def save(self, path: str | os.PathLike[str], *, overwrite: bool = False) -> None:
         """Writes a ``.mat`` file for MATLAB, in place of one that exists only with ``overwrite``. Needs scipy."""
+        needs("scipy.io", "study", "save")
         import numpy as np
         from scipy.io import savemat
 
@@ -295,8 +298,9 @@ class Trim(_Trimmed[_core.Trim]):
 
 
 class WakeTrim(_Trimmed[_core.WakeTrim]):
-    """Steady flight in air with a memory: a wingbeat that changes nothing but the place, after wingbeats in which the body was
-    held while its wake grew; the point found, converged or not.
+    """Steady flight in air with a memory or with elastic wings; the point found, converged or not. In the vortex lattice a
+    wingbeat that changes nothing but the place, after wingbeats in which the body was held while its wake grew; in blade
+    elements a periodic orbit of body, elastic wings and wakes of strips.
     """
 
     @property
@@ -305,13 +309,22 @@ class WakeTrim(_Trimmed[_core.WakeTrim]):
         return self._core.flights
 
     def stability(self, *, wake: str = "carried") -> WakeModel:
-        """Derivative of the free wingbeat by the state of the body, and its modes: 18 more flights. Held fixed when the body is
+        """In the lattice, derivative of the free wingbeat by the state of the body, and its modes: 18 more flights. Held fixed when the body is
         disturbed: the wake of the trimmed flight (``given``), or the disturbance during the hold, so that the wake goes with it
         (``carried``). Neither is the whole problem of body and wake; the two bracket it.
         """
         self._check()
         matrix, modes = self._core.stability(wake)
         return WakeModel(matrix, STATES, STATE_UNITS, _modes(modes))
+
+    def floquet_modes(self, *, wing_modes: int = 3) -> tuple[Mode, ...]:
+        """In blade elements, Floquet's modes of the periodic orbit of body, elastic wings and wakes of strips, as ``wingbeat
+        stability`` has them: ``wing_modes`` leading modes of each elastic wing are disturbed, too (20 at most; with one
+        fewer the multipliers tell whether they are enough), and all states of the wakes. Decaying motions in which wakes have
+        more part than body and wings are left out. The lattice has :meth:`stability`.
+        """
+        self._check()
+        return _modes(self._core.floquet_modes(whole("wing_modes", wing_modes, 1, 20)))
 
 
 def _flight(case_text: str | None) -> Flight:

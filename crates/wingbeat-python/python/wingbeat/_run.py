@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any
 from wingbeat import _core
 from wingbeat._case import Part
 from wingbeat._frame import Frame
+from wingbeat._packages import needs
 from wingbeat._paths import path
 from wingbeat.errors import CaseError
 
@@ -149,6 +150,7 @@ class Run:
         """The history as a dataset over ``time_s``: the columns of ``history.csv`` with ``units``, ``long_name``,
         ``frame`` and ``symbol``, the case (``case_toml``) as an attribute. Needs xarray.
         """
+        needs("xarray", "data", "history")
         import xarray
 
         variables = {}
@@ -204,6 +206,7 @@ class Run:
                 key="kind",
                 remedy=f"one of {', '.join(charts)}; `wingbeat plot DIR` draws all others",
             )
+        needs("matplotlib", "plot", "plot")
         import matplotlib.pyplot as plt
 
         title, x_label, x, panels = charts[name]
@@ -222,7 +225,9 @@ class Run:
         return figure
 
     def write(self, dir: str | os.PathLike[str]) -> None:
-        """Writes ``history.csv``, ``summary.txt`` and ``summary.json`` into the new folder ``dir``."""
+        """Writes ``history.csv``, ``summary.txt`` and ``summary.json`` into the new folder ``dir``: numbers for other programs,
+        without the case that :func:`wingbeat.read` needs. ``fly(out=DIR)`` writes what it takes.
+        """
         self._core.write(path("dir", dir))
 
     def export(

@@ -46,5 +46,9 @@ class AnalysisError(Error, RuntimeError):
     """An analysis that cannot be made."""
 
 
+class PackageError(Error, ImportError):
+    """A package of others that this needs and that is not installed."""
+
+
 class ResultError(Error, OSError):
     """A file or result directory that cannot be read or written."""

@@ -10,6 +10,7 @@ from concurrent.futures import Executor, Future
 from typing import TYPE_CHECKING, Any
 
 from wingbeat.campaign import _task
+from wingbeat._packages import needs
 from wingbeat.errors import CaseError, FlightError
 
 if TYPE_CHECKING:
@@ -124,6 +125,7 @@ class Ray(Executor):
     """
 
     def __init__(self, **options: Any) -> None:
+        needs("ray", "engines", "executor")
         import ray
 
         if not ray.is_initialized():

@@ -8,6 +8,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 from wingbeat import _core
+from wingbeat._packages import needs
 from wingbeat.campaign import _names
 from wingbeat.campaign._points import Points
 from wingbeat.campaign._task import Found
@@ -78,6 +79,7 @@ class Table(Mapping[str, "NDArray[Any]"]):
         """The table as a dataset over ``point``, the keys as coordinates, with ``units``, ``reason`` and the case
         (``case_toml``) as an attribute. Needs xarray.
         """
+        needs("xarray", "data", "dataset")
         import numpy as np
         import xarray
 

@@ -62,7 +62,13 @@ pub(crate) fn run(args: &StabilityArgs) -> Result<(), Failure> {
             return Err(unused("write", why));
         }
         if args.wake.is_some() && !wakes {
-            return Err(unused("wake", "this air has no wake"));
+            let why = match case.setup.air.has_strip_wakes() {
+                true => {
+                    "the wakes of strips (air.blade.unsteady) are part of the periodic orbit, and its modes always carry them along"
+                }
+                false => "this air has no wake",
+            };
+            return Err(unused("wake", why));
         }
         if args.modes.is_some() && (wakes || !case.setup.animal.is_elastic()) {
             let why =
