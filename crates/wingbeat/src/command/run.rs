@@ -11,7 +11,7 @@ use wingbeat::flight::{FlightError, Simulation};
 use wingbeat::results::{Outcome, RESULTS, RecordedFlight, ResultDir, saver};
 
 use crate::command::failure::{FAILED, Failure, INTERRUPTED};
-use crate::command::options::RunOptions;
+use crate::command::options::{CaseName, RunOptions};
 use crate::command::progress::Progress;
 use crate::command::signals::Interrupts;
 use crate::command::target::folder;
@@ -21,10 +21,10 @@ use crate::command::terminal::{self, say, tell};
 #[derive(Args)]
 pub(crate) struct RunArgs {
     /// Case file or preset; - is the standard input.
-    #[arg(default_value = presets::DEFAULT)]
-    case: String,
+    #[arg(default_value = presets::DEFAULT, value_parser = CaseName, hide_possible_values = true)]
+    case: PathBuf,
     /// Result directory; default results/NAME, with a number appended if that exists.
-    #[arg(long, value_name = "DIR", value_parser = folder)]
+    #[arg(long, value_name = "DIR", value_parser = folder())]
     out: Option<PathBuf>,
     /// Replace an earlier run in the result directory.
     #[arg(long, requires = "out")]
