@@ -263,6 +263,24 @@ fn behaves_a_full_disk_leaves_nothing_behind() {
     flown(dir, &["new", "fruit-fly-hover"]);
 }
 
+/// An empty directory, or a link to one, is taken for a run without being asked to replace anything.
+#[cfg(unix)]
+#[test]
+fn behaves_an_empty_directory_is_taken() {
+    let scratch = with_run("empty");
+    let dir = &scratch.0;
+    let run = |out| ["run", "case.toml", "--quiet", "--out", out];
+    for name in ["empty", "linked"] {
+        fs::create_dir(dir.join(name)).unwrap();
+    }
+    std::os::unix::fs::symlink("linked", dir.join("link")).unwrap();
+    for (out, place) in [("empty", "empty"), ("link", "linked")] {
+        flown(dir, &run(out));
+        assert!(dir.join(place).join("history.csv").is_file());
+        refused(dir, &run(out), "take this one with --overwrite");
+    }
+}
+
 /// Paths are what the file system has, whether they are Unicode or not.
 #[cfg(target_os = "linux")]
 #[test]
