@@ -1,7 +1,7 @@
 //! A case, read and checked: from text to a validated setup, and back to text with everything
 //! filled in.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::sync::Arc;
 
 use wingbeat_flight::{AirModel, FlightError, FlightSetup};
@@ -119,21 +119,21 @@ impl LoadedCase {
     ///
     /// # Errors
     /// As [`Self::from_file`]; [`IoError::NoCase`] for a name that is neither.
-    pub fn find(name: &str, overrides: &[String]) -> Result<Self, IoError> {
-        if name == files::STANDARD_INPUT {
+    pub fn find(name: impl AsRef<Path>, overrides: &[String]) -> Result<Self, IoError> {
+        let path = name.as_ref();
+        if path == Path::new(files::STANDARD_INPUT) {
             let text = files::text_of_input()?;
             return Self::from_text("stdin", &text, Path::new(""), overrides);
         }
-        let path = PathBuf::from(name);
         if path.is_file() {
-            return Self::from_file(&path, overrides);
+            return Self::from_file(path, overrides);
         }
-        match presets::find(name) {
+        match presets::find(&path.to_string_lossy()) {
             Ok(preset) => {
                 let origin = format!("preset {}", preset.name);
                 Self::from_text(&origin, preset.text, Path::new(""), overrides)
             }
-            Err(_) if path.exists() => Self::from_file(&path, overrides), // says what it is
+            Err(_) if path.exists() => Self::from_file(path, overrides), // says what it is
             Err(e) => Err(e),
         }
     }

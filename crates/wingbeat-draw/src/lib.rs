@@ -17,9 +17,6 @@ use wingbeat_results::{ResultDir, Summary};
 /// # Errors
 /// A history that cannot be read or a file that cannot be written.
 pub fn draw_run(dir: &ResultDir, case: &LoadedCase, summary: &Summary) -> Result<(), IoError> {
-    if summary.steps < 2 {
-        return Ok(());
-    }
     if case.output.figures {
         figures::draw_all(dir, case, summary)?;
     }

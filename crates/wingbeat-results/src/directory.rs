@@ -60,7 +60,20 @@ pub struct ResultDir {
 }
 
 impl ResultDir {
-    /// A new directory at exactly this path.
+    /// A directory at exactly this path: a new one, or one that is there and empty.
+    ///
+    /// # Errors
+    /// As [`Self::create`], but for empty directories.
+    pub fn create_or_fill(path: &Path) -> Result<Self, IoError> {
+        match is_empty(path) {
+            true => Ok(Self {
+                path: path.to_owned(),
+            }),
+            false => Self::create(path),
+        }
+    }
+
+    /// A new directory at exactly this path, which of several programs at a time only one can make.
     ///
     /// # Errors
     /// [`IoError::Exists`] if anything is there already, [`IoError::File`] if it cannot be made.
@@ -247,8 +260,12 @@ pub(crate) fn belongs_to_run(path: &Path) -> bool {
 
 /// Whether a directory is empty or holds an earlier run.
 fn may_be_taken(path: &Path) -> bool {
-    let mut entries = fs::read_dir(path).into_iter().flatten();
-    path.is_dir() && entries.next().is_none() || holds_run(path)
+    is_empty(path) || holds_run(path)
+}
+
+/// Whether this is a directory with nothing in it; links are followed.
+fn is_empty(path: &Path) -> bool {
+    fs::read_dir(path).is_ok_and(|mut entries| entries.next().is_none())
 }
 
 /// Whether a run was written here: other programs have files called manifest.json, too.

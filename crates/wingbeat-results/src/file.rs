@@ -2,7 +2,7 @@
 //! place of what a run writes.
 
 use std::fs;
-use std::io::ErrorKind;
+use std::io::{Error, ErrorKind};
 use std::path::{Path, PathBuf};
 
 use tempfile::NamedTempFile;
@@ -149,7 +149,7 @@ impl NewFile {
         #[cfg(unix)]
         builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(PERMISSIONS));
         let part = builder.tempfile_in(folder_of(&self.path));
-        part.map_err(IoError::write(&self.path))
+        part.map_err(unnamed).map_err(IoError::write(&self.path))
     }
 
     fn place(&self, part: NamedTempFile) -> Result<(), IoError> {
@@ -181,6 +181,13 @@ pub fn write_file(path: &Path, content: &[u8], existing: Existing) -> Result<(),
     }
 }
 
+/// An error without the name of the temporary file that it is about.
+fn unnamed(error: Error) -> Error {
+    let text = error.to_string();
+    let reason = text.split(" at path ").next().unwrap_or_default();
+    Error::new(error.kind(), reason)
+}
+
 fn holds(path: &Path, content: &[u8]) -> bool {
     fs::read(path).is_ok_and(|old| old == content)
 }
@@ -198,5 +205,21 @@ fn folder_of(path: &Path) -> &Path {
     match path.parent() {
         Some(folder) if !folder.as_os_str().is_empty() => folder,
         _ => Path::new("."),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What cannot be written is named, not the temporary file beside it.
+    #[test]
+    fn exact_errors_name_the_target() {
+        let folder = tempfile::tempdir().unwrap();
+        let file = NewFile::claim(&folder.path().join("case.toml"), Existing::Kept).unwrap();
+        folder.close().unwrap();
+        let said = file.write(b"mine").unwrap_err().to_string();
+        assert!(said.contains("case.toml`: No such file"), "{said}");
+        assert!(!said.contains(".part"), "{said}");
     }
 }

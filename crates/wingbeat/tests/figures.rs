@@ -141,7 +141,7 @@ fn refuses_to_replace_figures_unasked() {
     flown(&scratch.0, &[&CASE[..5], &args].concat());
     // The run has drawn this one: the same figure again is no conflict.
     assert_eq!(
-        plotted(&scratch.0, &["angles"]),
+        plotted(&scratch.0, &["angles", "angles"]),
         [scratch.0.join("run/figures/angles.svg")]
     );
     let file = scratch.0.join("run/figures/angles.svg");

@@ -262,3 +262,65 @@ fn behaves_a_full_disk_leaves_nothing_behind() {
     // With space again, nothing is in the way.
     flown(dir, &["new", "fruit-fly-hover"]);
 }
+
+/// An empty directory, or a link to one, is taken for a run without being asked to replace anything.
+#[cfg(unix)]
+#[test]
+fn behaves_an_empty_directory_is_taken() {
+    let scratch = with_run("empty");
+    let dir = &scratch.0;
+    let run = |out| ["run", "case.toml", "--quiet", "--out", out];
+    for name in ["empty", "linked"] {
+        fs::create_dir(dir.join(name)).unwrap();
+    }
+    std::os::unix::fs::symlink("linked", dir.join("link")).unwrap();
+    for (out, place) in [("empty", "empty"), ("link", "linked")] {
+        flown(dir, &run(out));
+        assert!(dir.join(place).join("history.csv").is_file());
+        refused(dir, &run(out), "take this one with --overwrite");
+    }
+}
+
+/// Paths are what the file system has, whether they are Unicode or not.
+#[cfg(target_os = "linux")]
+#[test]
+fn behaves_paths_need_not_be_unicode() {
+    use std::ffi::OsStr;
+    use std::os::unix::ffi::OsStrExt;
+    let scratch = Scratch::new("bytes");
+    quick_case(&scratch.0);
+    let [case, run, figures, report] =
+        [&b"c\xff.toml"[..], b"r\xff", b"f\xff", b"o\xff"].map(OsStr::from_bytes);
+    fs::rename(scratch.0.join("case.toml"), scratch.0.join(case)).unwrap();
+    let done = |command: &[&str], more: &[&OsStr], rest: &[&str]| {
+        let mut program = Command::new(env!("CARGO_BIN_EXE_wingbeat"));
+        program.current_dir(&scratch.0);
+        let out = program.args(command).args(more).args(rest).output();
+        let out = out.unwrap();
+        let said = String::from_utf8_lossy(&out.stderr);
+        assert!(out.status.success(), "{command:?}: {said}");
+    };
+    let out = OsStr::new("--out");
+    done(&["run"], &[case, out, run], &["--json"]);
+    done(&["resume"], &[run], &[]);
+    done(&["check"], &[case, out, report], &["--json"]);
+    done(&["plot"], &[run, out, figures], &["angles"]);
+    done(&["export"], &[run, out, figures], &["--format", "parquet"]);
+    done(
+        &["new", "fruit-fly-blade"],
+        &[OsStr::from_bytes(b"n\xff")],
+        &[],
+    );
+    for file in [
+        &b"r\xff/flight.html"[..],
+        b"o\xff",
+        b"f\xff/angles.svg",
+        b"f\xff/history.parquet",
+        b"n\xff",
+    ] {
+        assert!(
+            scratch.0.join(OsStr::from_bytes(file)).is_file(),
+            "{file:?}"
+        );
+    }
+}

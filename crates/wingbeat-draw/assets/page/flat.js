@@ -1,5 +1,5 @@
 // Without WebGL: the same scene in the plane, wings and body as filled panels over the filaments of the wake.
-const flat = { turn: -0.85, tilt: 0.27, scale: 100 };
+const flat = { turn: -0.85, tilt: 0.27, zoom: 1, scale: 100 };
 const FLAT_VIEWS = { quarter: [-0.85, 0.27], side: [-Math.PI / 2, 0.04], front: [0, 0.04], top: [-Math.PI / 2, Math.PI / 2], wake: [-2.2, 0.2] };
 // Right, up, toward the reader.
 function flatSeen([x, y, z]) {
@@ -18,12 +18,12 @@ function drawFlat(k) {
   const sky = g.createLinearGradient(0, 0, 0, h);
   sky.addColorStop(0, theme.sky[0]); sky.addColorStop(1, theme.sky[1]);
   g.fillStyle = sky; g.fillRect(0, 0, w, h);
-  flat.scale = (flat.zoom || 1) * Math.min(w, h) / (hasWake ? 3.4 : 2.6) / REACH;
+  flat.scale = flat.zoom * Math.min(w, h) / (hasWake ? 3.4 : 2.6) / REACH;
   const c = centreOf(k), up = hasWake ? 0.42 : 0.5;
   const at = (p) => { const [x, y, z] = flatSeen([p[0] - c[0], p[1] - c[1], p[2] - c[2]]); return [0.5 * w + flat.scale * x, up * h - flat.scale * y, z]; };
   const css = (colour, alpha) => `rgba(${colour.map((x) => Math.round(255 * Math.min(1, x))).join()},${alpha})`;
   const frame = unpack(k), dye = wakeDye(state.colour), P = frame.wake;
-  if (state.vortices || state.smoke || state.filaments) eachFilament(frame, flight.frames[k].step, state.age * BEAT, (a, b, strength, age, shed, wing) => {
+  if (state.filaments) eachFilament(frame, flight.frames[k].step, state.age * BEAT, (a, b, strength, age, shed, wing) => {
     const s = Math.min(1, Math.abs(strength) / STRENGTH) * youthOf(age);
     if (s < 0.05) return;
     const p = at(P.subarray(a, a + 3)), q = at(P.subarray(b, b + 3));
@@ -48,18 +48,20 @@ function drawFlat(k) {
     g.strokeStyle = css(rgb(theme.edge), 0.35); g.lineWidth = 0.5;
     g.beginPath(); p.forEach(([x, y], i) => (i ? g.lineTo(x, y) : g.moveTo(x, y))); g.closePath(); g.fill(); g.stroke();
   }
-  drawFlatForce(k, g, at);
+  for (const arrow of forceArrows(k)) drawFlatForce(arrow, g, at);
 }
-function drawFlatForce(k, g, at) {
-  if (state.force === "none" || !flight.frames[k].forces.length) return;
-  const force = totalForce(k), size = Math.hypot(...force), from = centreOf(k), length = Math.min(1.3, size / flight.most.force) * 0.6 * REACH;
-  if (!(size > 0.3 * forceUnit)) return;
-  const p = at(from), q = at(from.map((x, c) => x + length * force[c] / size)), d = Math.hypot(q[0] - p[0], q[1] - p[1]) || 1, u = [(q[0] - p[0]) / d, (q[1] - p[1]) / d];
+function drawFlatForce({ from, size, way, alone }, g, at) {
+  const p = at(from), q = at(from.map((x, c) => x + way[c])), d = Math.hypot(q[0] - p[0], q[1] - p[1]) || 1, u = [(q[0] - p[0]) / d, (q[1] - p[1]) / d];
   g.strokeStyle = g.fillStyle = theme.force; g.lineWidth = 3;
   g.beginPath(); g.moveTo(p[0], p[1]); g.lineTo(q[0], q[1]); g.stroke();
   g.beginPath(); g.moveTo(q[0] + 9 * u[0], q[1] + 9 * u[1]); g.lineTo(q[0] - 5 * u[1], q[1] + 5 * u[0]); g.lineTo(q[0] + 5 * u[1], q[1] - 5 * u[0]); g.fill();
   g.font = "600 12px system-ui, sans-serif";
-  g.fillText(forceWords(size), q[0] + 12, q[1]);
+  if (alone) g.fillText(forceWords(size), q[0] + 12, q[1]);
+}
+// The wake is one drawing here, of its filaments; pressure and paths are not drawn.
+function flatState() {
+  state.filaments = WAKES.some((name) => state[name]);
+  state.vortices = state.smoke = state.pressure = false;
 }
 if (!renderer && LAST >= 0) {
   canvas.addEventListener("pointerdown", (e) => canvas.setPointerCapture(e.pointerId));
@@ -69,5 +71,5 @@ if (!renderer && LAST >= 0) {
     flat.tilt = Math.max(-1.5, Math.min(1.57, flat.tilt + 0.008 * e.movementY));
     redraw();
   });
-  canvas.addEventListener("wheel", (e) => { e.preventDefault(); flat.zoom = Math.max(0.2, Math.min(8, (flat.zoom || 1) * Math.exp(-0.001 * e.deltaY))); redraw(); }, { passive: false });
+  canvas.addEventListener("wheel", (e) => { e.preventDefault(); flat.zoom = Math.max(0.2, Math.min(8, flat.zoom * Math.exp(-0.001 * e.deltaY))); redraw(); }, { passive: false });
 }

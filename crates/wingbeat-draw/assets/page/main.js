@@ -50,7 +50,7 @@ function drawAll() {
     data.triangles = renderer.info.render.triangles;
   } else { drawFlat(k); data.triangles = "flat"; }
   drawn = k;
-  drawOverlay(); drawClock(k); drawPlots(); drawTime();
+  drawClock(k); drawOverlay(); drawPlots(); drawTime();
   slider.value = k;
   slider.setAttribute("aria-valuetext", whenWords(k));
   if (!state.playing && byId("values-box").open) valueTable(k);
@@ -70,14 +70,15 @@ function dress() {
   drawLegend();
   redraw();
 }
-function pressed(button, get, flip) {
-  const show = () => button.setAttribute("aria-pressed", get());
-  button.addEventListener("click", () => { flip(); show(); drawLegend(); redraw(); });
-  show();
+if (!renderer) flatState();
+const shows = []; // each shows the state of a control
+for (const name of [...WAKES, "pressure", "trail", "follow", "loop"]) {
+  const button = byId("on-" + name), show = () => button.setAttribute("aria-pressed", state[name]);
+  button.addEventListener("click", () => { state[name] = !state[name]; show(); drawLegend(); redraw(); });
+  shows.push(show);
 }
-for (const name of ["vortices", "smoke", "filaments", "pressure", "trail", "follow", "loop"]) pressed(byId("on-" + name), () => state[name], () => { state[name] = !state[name]; });
 for (const name of ["colour", "force"]) {
-  byId(name).value = state[name];
+  shows.push(() => { byId(name).value = state[name]; });
   byId(name).addEventListener("change", (e) => { state[name] = e.target.value; drawLegend(); redraw(); });
 }
 const speedWords = () => (flight.period ? (state.speed < 1 ? state.speed.toFixed(2) : state.speed.toFixed(1)) + " beats/s" : (100 * framesPerSecond() / Math.max(1, LAST)).toFixed(1) + " %/s");
@@ -88,10 +89,10 @@ for (const [name, read, write, words] of [
   ["level", () => Math.log2(state.level), (v) => { state.level = 2 ** v; }, () => digits(levelNow()) + " s⁻¹"],
 ]) {
   const input = byId(name), show = () => { byId(name + "-words").textContent = words(); input.setAttribute("aria-valuetext", words()); };
-  input.value = read();
   input.addEventListener("input", () => { write(+input.value); show(); redraw(); });
-  show();
+  shows.push(() => { input.value = read(); show(); });
 }
+shows.forEach((show) => show());
 document.querySelectorAll("[data-view]").forEach((b) => b.addEventListener("click", () => setView(b.dataset.view)));
 byId("play").addEventListener("click", () => setPlaying(!state.playing));
 slider.max = Math.max(0, LAST);
@@ -112,22 +113,32 @@ TABS.forEach(([name], n) => {
   byId("tabs").append(b);
 });
 
-// Keys: where a control has the focus, its own keys are its own.
+// Keys: where a control has the focus, its own keys are its own, and only these.
+const MOVES = ["ArrowLeft", "ArrowRight", "ArrowUp", "ArrowDown", "Home", "End", "PageUp", "PageDown"], PRESSES = [" ", "Enter"];
+function ownsKey(control, key) {
+  if (!control) return false;
+  if (control.matches("button, summary, a")) return PRESSES.includes(key);
+  if (control.matches("[type=range]")) return MOVES.includes(key);
+  // A list is also searched by first letters.
+  if (control.matches("select")) return MOVES.includes(key) || PRESSES.includes(key) || [...control.options].some((o) => o.text[0] === key);
+  return true;
+}
 const KEYS = {
   " ": () => setPlaying(!state.playing), ArrowRight: () => seek(frameNow() + 1), ArrowLeft: () => seek(frameNow() - 1), Home: () => seek(0), End: () => seek(LAST),
   f: () => byId("full").click(), l: () => byId("on-loop").click(), p: savePicture, t: () => byId("theme").click(),
   1: () => setView("quarter"), 2: () => setView("side"), 3: () => setView("front"), 4: () => setView("top"), 5: () => setView("wake"),
 };
 window.addEventListener("keydown", (e) => {
-  if (e.ctrlKey || e.metaKey || e.altKey || LAST < 0 || e.target.closest("input, select, button, summary, textarea, a")) return;
-  if (e.target === canvas && turnByKey(e.key)) { e.preventDefault(); return; }
-  if (KEYS[e.key]) { e.preventDefault(); KEYS[e.key](); }
+  const key = e.key.length === 1 ? e.key.toLowerCase() : e.key; // Caps Lock and Shift change nothing
+  if (e.ctrlKey || e.metaKey || e.altKey || LAST < 0 || ownsKey(e.target.closest("input, select, button, summary, textarea, a"), key)) return;
+  if (e.target === canvas && turnByKey(key)) { e.preventDefault(); return; }
+  if (KEYS[key]) { e.preventDefault(); KEYS[key](); }
 });
 // With the focus on the scene, arrow keys turn it, + and - come closer and go away.
 function turnByKey(key) {
   const turns = { ArrowLeft: [-0.1, 0], ArrowRight: [0.1, 0], ArrowUp: [0, -0.1], ArrowDown: [0, 0.1], "+": [0, 0, 0.9], "-": [0, 0, 1 / 0.9] }[key];
   if (!turns) return false;
-  if (!renderer) { flat.turn += turns[0]; flat.tilt -= turns[1]; redraw(); return true; }
+  if (!renderer) { flat.turn += turns[0]; flat.tilt -= turns[1]; flat.zoom /= turns[2] || 1; redraw(); return true; }
   const arm = camera.position.clone().sub(orbit.target), far = arm.length() * (turns[2] || 1), azimuth = Math.atan2(arm.y, arm.x) + turns[0], height = Math.max(0.02, Math.min(3.1, Math.acos(arm.z / arm.length()) + turns[1]));
   camera.position.set(orbit.target.x + far * Math.sin(height) * Math.cos(azimuth), orbit.target.y + far * Math.sin(height) * Math.sin(azimuth), orbit.target.z + far * Math.cos(height));
   orbit.update();
@@ -135,7 +146,8 @@ function turnByKey(key) {
   return true;
 }
 const hide = (id, missing) => { byId(id).hidden = missing; };
-hide("wake-controls", !hasWake); hide("wake-sliders", !hasWake); hide("on-pressure", !PANELS || !(flight.most.pressure > 0)); hide("force-box", !(LAST >= 0 && flight.frames[0].forces.length)); hide("on-trail", LAST < 1);
+hide("wake-controls", !hasWake); hide("wake-sliders", !hasWake); hide("on-pressure", !PANELS || !(flight.most.pressure > 0)); hide("force-box", !(LAST >= 0 && flight.frames[0].forces.length)); hide("on-trail", LAST < 1 || !renderer);
+if (!renderer) for (const id of ["on-vortices", "on-smoke", "on-pressure", "on-follow", "level-box"]) hide(id, true);
 hide("scene", LAST < 0);
 if (!hasStrokes) byId("colour").querySelector("[value=stroke]").remove();
 if (matchMedia("(max-width: 820px)").matches) byId("display").open = false;
@@ -176,14 +188,43 @@ window.addEventListener("message", ({ data }) => {
   // They begin to keep step anew: with what plays, or with the next act.
   if (data.apart) Object.assign(beside, { act: 0, leads: state.playing, touched: false, known: shownNow() });
 });
-if (link.get("narrow")) document.documentElement.classList.add("narrow");
+if (linkNow().has("narrow")) document.documentElement.classList.add("narrow");
 
 // A frame can be linked to: flight.html#frame=12 moves the slider there.
 function followLink() {
   const k = /frame=(\d+)/.exec(location.hash);
   if (k) seek(+k[1]);
 }
-window.addEventListener("hashchange", followLink);
+window.addEventListener("hashchange", () => {
+  choose(linkNow());
+  if (!renderer) flatState();
+  shows.forEach((show) => show());
+  followLink();
+  dress();
+  if (LAST >= 0 && linkNow().has("view")) setView(state.view);
+});
+// Paper is white: a print is light, and drawn in the size that it has there.
+// What WebGL has drawn is lost on the way to the printer: a copy of it is printed.
+let unprinted = null; // the theme of the screen, while it is printed
+const printed = document.createElement("canvas");
+printed.id = "printed";
+function dressForPrint(on) {
+  if (on === (unprinted !== null)) return;
+  if (on) { unprinted = state.theme; state.theme = "light"; } else { state.theme = unprinted; unprinted = null; }
+  document.documentElement.classList.toggle("printing", on);
+  if (renderer) resizeStage();
+  dress();
+  drawAll();
+  printed.remove();
+  if (!on || !renderer) return;
+  printed.width = canvas.width; printed.height = canvas.height;
+  printed.getContext("2d").drawImage(canvas, 0, 0);
+  canvas.after(printed);
+}
+window.addEventListener("beforeprint", () => dressForPrint(true));
+window.addEventListener("afterprint", () => dressForPrint(false));
+const paper = matchMedia("print");
+paper.addEventListener("change", () => dressForPrint(paper.matches));
 if (renderer) { orbit.addEventListener("change", redraw); resizeStage(); }
 new ResizeObserver(() => { if (renderer) resizeStage(); redraw(); }).observe(document.body);
 if (renderer) new ResizeObserver(() => { resizeStage(); redraw(); }).observe(stage);

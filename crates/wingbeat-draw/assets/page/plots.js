@@ -39,20 +39,29 @@ function movePlots(from, span = plots.range[1] - plots.range[0]) {
 }
 function listen(c) {
   const fingers = new Map();
+  let tap = null; // where a finger came down that has not moved and is alone yet
+  let moves = false; // whether the pointer moves the time
   const where = (e) => toTime(c, e.clientX - c.getBoundingClientRect().left);
-  c.addEventListener("pointerdown", (e) => { fingers.set(e.pointerId, e); if (LAST >= 0 && fingers.size === 1 && !e.shiftKey) seek(frameAt(where(e))); });
+  const goTo = (e) => { if (LAST >= 0) seek(frameAt(where(e))); };
+  c.addEventListener("pointerdown", (e) => {
+    fingers.set(e.pointerId, e);
+    tap = fingers.size === 1 && e.pointerType === "touch" ? e : null;
+    moves = fingers.size === 1 && !tap && !e.shiftKey;
+    if (moves) goTo(e);
+  });
   c.addEventListener("pointermove", (e) => {
     const before = fingers.get(e.pointerId);
     if (before && fingers.size === 2) {
       const other = [...fingers].find(([id]) => id !== e.pointerId)[1], gap = (a) => Math.max(8, Math.abs(a.clientX - other.clientX));
       zoomPlots(gap(before) / gap(e), where(other));
     } else if (before && e.shiftKey) movePlots(plots.range[0] - (where(e) - where(before)));
-    else if (before && LAST >= 0) seek(frameAt(where(e)));
+    else if (before && tap && Math.abs(e.clientX - tap.clientX) > 8) { tap = null; moves = true; }
+    if (before && moves) goTo(e);
     if (before) fingers.set(e.pointerId, e);
     plots.hover = where(e);
     drawPlots();
   });
-  for (const name of ["pointerup", "pointercancel", "pointerleave"]) c.addEventListener(name, (e) => { fingers.delete(e.pointerId); if (name === "pointerleave") { plots.hover = null; drawPlots(); } });
+  for (const name of ["pointerup", "pointercancel", "pointerleave"]) c.addEventListener(name, (e) => { if (name === "pointerup" && tap) goTo(e); tap = null; moves = false; fingers.delete(e.pointerId); if (name === "pointerleave") { plots.hover = null; drawPlots(); } });
   c.addEventListener("wheel", (e) => { e.preventDefault(); zoomPlots(Math.exp(0.0015 * e.deltaY), where(e)); }, { passive: false });
   c.addEventListener("dblclick", () => movePlots(whole[0], whole[1] - whole[0]));
 }

@@ -30,28 +30,34 @@ function drawPaths(k) {
 const forceUnit = flight.weight_newton > 0 && flight.most.force < 50 * flight.weight_newton ? flight.weight_newton : flight.most.force;
 const forceWords = (size) => (forceUnit === flight.weight_newton ? digits(size / forceUnit) + " × weight" : withPrefix(size, "N"));
 let arrowLabel = null; // where and what
-function drawForces(k) {
-  const f = flight.frames[k].forces, colour = rgb(theme.force), arrows = [];
-  arrowLabel = null;
-  const middle = centreOf(k);
-  if (state.force === "total" && f.length) arrows.push([middle, totalForce(k)]);
+// Arrows of force: whence, how large [N], the way to the tip; small forces have none.
+function forceArrows(k) {
+  const f = flight.frames[k].forces, arrows = [];
+  if (state.force === "total" && f.length) arrows.push([centreOf(k), totalForce(k)]);
   if (state.force === "each") WINGS.forEach((w) => {
     const p = unpack(k).wings.subarray(3 * w.first, 3 * (w.first + w.nodes)), c = [0, 0, 0];
     for (let i = 0; i < p.length; i++) c[i % 3] += p[i] / w.nodes;
     if (f[w.body]) arrows.push([c, f[w.body]]);
   });
+  const alone = arrows.length === 1;
+  return arrows.map(([from, force]) => {
+    const size = Math.hypot(...force), length = Math.min(1.3, size / flight.most.force) * 0.6 * REACH;
+    return { from, size, alone, way: force.map((x) => length * x / size) };
+  }).filter(({ size }) => size > (alone ? 0.3 : 0.15) * forceUnit);
+}
+function drawForces(k) {
+  const colour = rgb(theme.force);
+  arrowLabel = null;
   shafts.begin();
   let n = 0;
-  for (const [from, force] of arrows) {
-    const size = Math.hypot(...force), relative = size / forceUnit;
-    if (!(relative > 0.3 * (arrows.length > 1 ? 0.5 : 1))) continue;
-    const d = force.map((x) => x / size), length = Math.min(1.3, size / flight.most.force) * 0.6 * REACH, tip = from.map((x, c) => x + length * d[c]), head = arrowHead(n++);
+  for (const { from, size, way, alone } of forceArrows(k)) {
+    const length = Math.hypot(...way), d = way.map((x) => x / length), tip = from.map((x, c) => x + way[c]), head = arrowHead(n++);
     shafts.add(from, tip, colour, [0.95, 0.95], [0.014, 0.014]);
     head.visible = true;
     head.material.color.set(theme.force);
     head.position.set(...tip.map((x, c) => x + 0.04 * d[c]));
     head.quaternion.setFromUnitVectors(new THREE.Vector3(0, 1, 0), new THREE.Vector3(...d));
-    if (arrows.length === 1) arrowLabel = { at: tip.map((x, c) => x + 0.13 * d[c]), text: forceWords(size) };
+    if (alone) arrowLabel = { at: tip.map((x, c) => x + 0.13 * d[c]), text: forceWords(size) };
   }
   for (let i = n; i < heads.length; i++) heads[i].visible = false;
   shafts.end();
@@ -89,7 +95,20 @@ function drawOverlay() {
   byId("triad").innerHTML = svg;
   const label = byId("force-words");
   label.hidden = !arrowLabel || !renderer;
-  if (!label.hidden) { const [x, y] = onStage(arrowLabel.at); label.textContent = arrowLabel.text; label.style.left = Math.max(0, Math.min(x, stage.clientWidth - label.offsetWidth - 16)) + "px"; label.style.top = y + "px"; }
+  if (!label.hidden) placeLabel(label);
+}
+// The words of the force beside the tip of the arrow, or as near above or below as nothing else stands.
+function placeLabel(label) {
+  label.textContent = arrowLabel.text;
+  const [x, y] = onStage(arrowLabel.at), stands = stage.getBoundingClientRect(), w = label.offsetWidth, half = label.offsetHeight / 2 + 1;
+  const left = Math.max(0, Math.min(x + 10, stands.width - w - 6)), right = left + w;
+  const others = ["#clock", "#views > *", "#note", "#legend > *", "#scale", "#triad"].flatMap((s) => [...stage.querySelectorAll(s)]).map((e) => e.getBoundingClientRect())
+    .filter((r) => r.width && r.left - stands.left < right && r.right - stands.left > left).map((r) => [r.top - stands.top, r.bottom - stands.top]);
+  const free = (m) => m >= half && m <= stands.height - half && others.every(([top, bottom]) => m + half <= top || m - half >= bottom);
+  const middle = [y, ...others.flatMap(([top, bottom]) => [top - half, bottom + half])].filter(free).sort((a, b) => Math.abs(a - y) - Math.abs(b - y))[0];
+  label.style.left = left + "px";
+  label.style.top = (middle ?? y) + "px";
+  label.style.visibility = middle === undefined ? "hidden" : "";
 }
 // What the colours mean: swatches and ramps, as [words, colours].
 function legend() {

@@ -7,6 +7,8 @@ use wingbeat_math::DVec3;
 
 use super::dots::Dots;
 use super::drawing::{Anchor, COLOURS, Drawing, INK, Stroke};
+use super::font;
+use super::plot;
 use super::reel::{Film, Gif, Reel, SIZE};
 use super::source::Source;
 use super::style::Style;
@@ -177,12 +179,14 @@ fn size(case: &LoadedCase) -> f64 {
 }
 
 fn words(to: &mut Drawing, case: &LoadedCase, time: f64) {
-    to.text([12.0, 22.0], &case.name, 14.0, Anchor::Start);
     let when = match case.setup.time.period {
         Some(period) => format!("{:.2} wingbeats", time / period),
         None => format!("{:.4} s", time),
     };
     to.text([SIZE[0] - 12.0, 22.0], &when, 14.0, Anchor::End);
+    let room = SIZE[0] - 48.0 - font::width(&when, 14.0);
+    let (name, letters) = plot::fitted(&case.name, room, 14.0);
+    to.text([12.0, 22.0], &name, letters, Anchor::Start);
     // Three axes would say more than needed: one bar of a wing length says how large it is.
     let length = size(case);
     let end = 12.0 + SIZE[0] / WING_LENGTHS;

@@ -12,6 +12,7 @@ use super::part::Part;
 use super::plot::{self, Area, Axes, Plot};
 use super::strokes::{goes_down, reference_number, reference_wing, stroke};
 use super::style::Look;
+use super::ticks;
 use super::units::prefix;
 use wingbeat_results::History;
 use wingbeat_results::columns::body_names;
@@ -206,7 +207,17 @@ fn draw(setup: &FlightSetup, chords: &[Vec<Chord>; 2], when: &str, look: &Look) 
             draw_chord(&mut drawing, &axes, chord, &scales, look);
         }
         if are_beside == (half == 1) {
-            key(&mut drawing, &axes, setup, &scales, look);
+            let room = match are_beside {
+                true => area.width - font::width(&plot.y_label, look.font),
+                false => 0.5 * (area.width - font::width(name, look.font)),
+            };
+            key(
+                &mut drawing,
+                (&axes, room - look.font),
+                setup,
+                &scales,
+                look,
+            );
         }
     }
     drawing
@@ -280,33 +291,56 @@ fn draw_chord(to: &mut Drawing, axes: &Axes, chord: &Chord, scales: &Scales, loo
     to.arrow(at(middle), at(tip), stroke);
 }
 
-/// An arrow of known force above the frame, on the right.
-fn key(to: &mut Drawing, axes: &Axes, setup: &FlightSetup, scales: &Scales, look: &Look) {
+/// Lengths of the arrow of known force, the first that has room \[heights of letters\].
+const KEYS: [f64; 5] = [6.0, 4.0, 2.5, 1.5, 1.0];
+
+/// An arrow of known force above the frame, on the right, in so much `room` \[points\].
+fn key(
+    to: &mut Drawing,
+    (axes, room): (&Axes, f64),
+    setup: &FlightSetup,
+    scales: &Scales,
+    look: &Look,
+) {
     if scales.arrow == 0.0 {
         return;
     }
     let weight = setup.animal.mass() * setup.gravity.length();
-    let per_newton = scales.arrow / scales.length; // in units of the axis
     let points = axes.at([1.0, 0.0])[0] - axes.at([0.0, 0.0])[0];
-    let most = 6.0 * look.font / (points * per_newton);
+    let per_newton = points * scales.arrow / scales.length;
+    let gap = 0.6 * look.font;
+    let known = |most: f64| {
+        let (force, text) = known_force(most * look.font / per_newton, weight);
+        let width = font::width(&text, look.font);
+        (force * per_newton, text, width)
+    };
+    let fits = |(length, _, width): &(f64, String, f64)| length + gap + width <= room;
+    let found = KEYS.map(known).into_iter().find(fits);
+    let (length, text, width) = found.unwrap_or_else(|| known(KEYS[KEYS.len() - 1]));
+    let y = axes.area.top - 0.55 * look.font;
+    let right = axes.area.left + axes.area.width;
+    to.text([right, y], &text, look.font, Anchor::End);
+    let end = right - width - gap;
+    let start = end - length;
+    let middle = y - 0.35 * look.font;
+    let stroke = Stroke::solid(COLOURS[1], look.line);
+    to.arrow([start, middle], [end, middle], stroke);
+}
+
+/// The largest force of one digit that is not above `most` \[N\], and its words: in weights, where there is one.
+fn known_force(most: f64, weight: f64) -> (f64, String) {
     let unit = if weight > 0.0 { weight } else { 1.0 };
     let power = 10f64.powf((most / unit).log10().floor());
     let nice = [5.0, 2.0, 1.0].map(|m| m * power);
     let nice = nice.into_iter().find(|n| n * unit <= most).unwrap_or(power);
-    let text = if weight > 0.0 {
-        format!("{nice} × weight")
-    } else {
-        let (scale, prefix) = prefix(&[nice]);
-        format!("{} {prefix}N", nice / scale)
+    let text = match weight > 0.0 {
+        true => format!("{} × weight", ticks::short(nice)),
+        false => {
+            let (scale, prefix) = prefix(&[nice]);
+            format!("{} {prefix}N", ticks::short(nice / scale))
+        }
     };
-    let y = axes.area.top - 0.55 * look.font;
-    let right = axes.area.left + axes.area.width;
-    to.text([right, y], &text, look.font, Anchor::End);
-    let end = right - font::width(&text, look.font) - 0.6 * look.font;
-    let start = end - nice * unit * per_newton * points;
-    let middle = y - 0.35 * look.font;
-    let stroke = Stroke::solid(COLOURS[1], look.line);
-    to.arrow([start, middle], [end, middle], stroke);
+    (nice * unit, text)
 }
 
 #[cfg(test)]
@@ -338,6 +372,14 @@ mod tests {
             assert!((at[0] - radius * side * phi).abs() < 1e-9, "{at:?}");
             assert!((at[1] + radius * side * theta).abs() < 1e-9, "{at:?}");
         }
+    }
+
+    #[test]
+    fn exact_known_forces_are_round() {
+        assert_eq!(known_force(7.3e-3, 1e-3), (5e-3, "5 × weight".to_owned()));
+        assert_eq!(known_force(2.1e-4, 1e-3).1, "0.2 × weight");
+        assert_eq!(known_force(3e10, 1e-3).1, "2·10¹³ × weight");
+        assert_eq!(known_force(1.5e-6, 0.0), (1e-6, "1 µN".to_owned()));
     }
 
     #[test]

@@ -183,7 +183,11 @@ impl Order {
         let stills = Kind::ALL.map(|k| k.1).into_iter();
         match self.kinds.is_empty() {
             true => stills.filter(|k| *k != Kind::Animation).collect(),
-            false => self.kinds.clone(),
+            false => {
+                let first = |(k, kind): &(usize, &Kind)| !self.kinds[..*k].contains(kind);
+                let kinds = self.kinds.iter().enumerate().filter(first);
+                kinds.map(|(_, kind)| *kind).collect()
+            }
         }
     }
 }

@@ -305,8 +305,35 @@ pub(super) fn title(to: &mut Drawing, text: &str, look: &Look) {
     text.clone_into(&mut to.title);
     if look.titled {
         let at = [to.size[0] / 2.0, 1.7 * look.font];
-        to.text(at, text, 1.15 * look.font, Anchor::Middle);
+        let (text, size) = fitted(text, to.size[0] - 2.0 * look.font, 1.15 * look.font);
+        to.text(at, &text, size, Anchor::Middle);
     }
+}
+
+/// Characters that a shortened name keeps at least, at both ends together.
+const MIN_KEPT: usize = 12;
+
+/// `NAME: what it shows` in so much room \[points\] and in letters of this size: the middle of a long name is left out,
+/// and where that is not enough the letters are smaller.
+pub(super) fn fitted(text: &str, room: f64, size: f64) -> (String, f64) {
+    let (name, what) = text.split_at(text.find(": ").unwrap_or(text.len()));
+    let name: Vec<char> = name.chars().collect();
+    let kept = |n: usize| -> String {
+        let (start, end) = (&name[..n.div_ceil(2)], &name[name.len() - n / 2..]);
+        start.iter().chain(&['…']).chain(end).collect::<String>() + what
+    };
+    let whole = std::iter::once(text.to_owned());
+    let fewer = (MIN_KEPT..name.len().saturating_sub(1)).rev();
+    let all = whole.chain(fewer.map(kept));
+    let mut shortest = String::new();
+    for text in all {
+        if font::width(&text, size) <= room {
+            return (text, size);
+        }
+        shortest = text;
+    }
+    let size = size * room / font::width(&shortest, size);
+    (shortest, size)
 }
 
 /// A curve in the colour and dash of number `k`.
@@ -322,5 +349,30 @@ pub(super) fn curve(
         points,
         stroke: look.pen(colour, k),
         dotted: false,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Long names lose their middle, titles that are long without them their size; nothing is wider than its room.
+    #[test]
+    fn exact_titles_fit() {
+        let of = |name: &str, what: &str| {
+            let (text, size) = fitted(&format!("{name}: {what}"), 600.0, 14.0);
+            assert!(font::width(&text, size) <= 600.0 * (1.0 + 1e-12), "{text}");
+            (text, size)
+        };
+        let what = "wingbeat by wingbeat, with means";
+        assert_eq!(of("locust", what), (format!("locust: {what}"), 14.0));
+        let long = format!("first-{}-last", "x".repeat(90));
+        let (text, size) = of(&long, what);
+        assert!(text.starts_with("first-xx") && text.ends_with(&format!("-last: {what}")));
+        assert!(text.contains('…') && size == 14.0, "{text}");
+        // One more character would not fit.
+        assert!(font::width(&text.replace('…', "…x"), 14.0) > 600.0);
+        let (text, size) = of(&long, &what.repeat(4));
+        assert!(text.starts_with("first-…x-last: ") && size < 14.0, "{text}");
     }
 }

@@ -36,6 +36,14 @@ fn label(value: f64, step: f64) -> String {
     minus(&format!("{value:.digits$}"))
 }
 
+/// A number as text, with a power of ten where it is very large or small.
+pub(super) fn short(value: f64) -> String {
+    match (1e-4..1e5).contains(&value.abs()) {
+        true => minus(&value.to_string()),
+        false => scientific(value),
+    }
+}
+
 /// Digits times a power of ten.
 pub(super) fn scientific(value: f64) -> String {
     let text = format!("{value:.1e}");

@@ -50,15 +50,13 @@ pub(super) fn gather(
     let scene = scene.read(&case)?;
     scene.describe(&mut head, &case);
     head["thinned"] = json!(format!(
-        "{}; {}; {PRECISION}",
+        "{}; {}; {}",
         scene.thinned(),
-        plots(group, every)
+        plots(group, every),
+        scene.precision()
     ));
     Ok(inert(&head.to_string()))
 }
-
-const PRECISION: &str =
-    "positions rounded to 1/65535 of the frame. history.csv and frames/ hold everything.";
 
 fn plots(group: usize, every: usize) -> String {
     match (group, every) {

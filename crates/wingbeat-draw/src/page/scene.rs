@@ -294,6 +294,15 @@ impl<'a> Scene<'a> {
         }
         text
     }
+
+    /// How positions are rounded here, and the files that hold them in full.
+    pub fn precision(&self) -> String {
+        let files = match self.framed {
+            true => "history.csv and frames/ hold",
+            false => "history.csv holds",
+        };
+        format!("positions rounded to 1/65535 of the frame. {files} everything")
+    }
 }
 
 /// Square of the distance from a place to the nearest of these points \[m2\].

@@ -151,7 +151,7 @@ impl Summary {
 
     /// As JSON in one line, with the directory it belongs to.
     pub fn to_json_line(&self, dir: &std::path::Path) -> String {
-        serde_json::json!({ "directory": dir, "summary": self }).to_string()
+        serde_json::json!({ "directory": dir.to_string_lossy(), "summary": self }).to_string()
     }
 
     /// As JSON.

@@ -1,5 +1,7 @@
 //! `wingbeat check`: what a case holds, what its flight will be like, and whether it can be flown.
 
+use std::path::PathBuf;
+
 use clap::Args;
 use serde_json::{Value, json};
 use wingbeat::analysis::estimate;
@@ -10,6 +12,7 @@ use wingbeat::results::fixed::fixed;
 
 use crate::command::expectation::{self, Cost};
 use crate::command::failure::Failure;
+use crate::command::options::CaseName;
 use crate::command::report::{Report, ReportArgs, entry, line};
 use crate::command::terminal::tell;
 use crate::command::watch::Watch;
@@ -18,7 +21,8 @@ use crate::command::watch::Watch;
 #[derive(Args)]
 pub(crate) struct CheckArgs {
     /// Case file or preset; - is the standard input.
-    case: String,
+    #[arg(value_parser = CaseName, hide_possible_values = true)]
+    case: PathBuf,
     /// Set a key of the case, e.g. time.beats=3; KEY= takes it away (may be repeated).
     #[arg(long = "set", value_name = "KEY=VALUE")]
     set: Vec<String>,

@@ -6,6 +6,7 @@ use clap::builder::styling::{AnsiColor, Styles};
 use clap::{Args, Parser, Subcommand};
 use clap_complete::Shell;
 
+use super::help::MAX_WIDTH;
 use super::report::ReportArgs;
 use super::target::folder;
 use super::{
@@ -25,7 +26,7 @@ pub(crate) const STYLES: Styles = Styles::styled()
 /// 2 nothing was run: command line, case or output directory cannot be used; 130 a flight was
 /// interrupted by Ctrl-C or SIGTERM (what was flown is kept). Analyses end by these signals at once.
 #[derive(Parser)]
-#[command(version, max_term_width = 100, styles = STYLES)]
+#[command(version, max_term_width = MAX_WIDTH, styles = STYLES)]
 pub(crate) struct Cli {
     #[command(subcommand)]
     pub(crate) command: Command,
@@ -93,7 +94,7 @@ pub(crate) enum Command {
 #[derive(Args)]
 pub(crate) struct ManArgs {
     /// Folder for the pages.
-    #[arg(value_parser = folder)]
+    #[arg(value_parser = folder())]
     pub(crate) dir: PathBuf,
     /// Replace files that exist already.
     #[arg(long)]

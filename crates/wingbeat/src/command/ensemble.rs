@@ -1,5 +1,7 @@
 //! `wingbeat ensemble`: the same flight many times over, from starts that differ by next to nothing.
 
+use std::path::PathBuf;
+
 use clap::Args;
 use serde_json::json;
 use wingbeat::analysis::estimate;
@@ -9,7 +11,7 @@ use wingbeat::{Flight, ensemble};
 
 use super::analyse::trimming::watched;
 use super::failure::Failure;
-use super::options;
+use super::options::{self, CaseName};
 use super::report::{Report, ReportArgs, line};
 use super::run::name_program;
 use super::terminal::tell;
@@ -22,8 +24,8 @@ const DEFAULT_MEMBERS: usize = 8;
 #[derive(Args)]
 pub(crate) struct EnsembleArgs {
     /// Case file or preset; - is the standard input.
-    #[arg(default_value = "fruit-fly-hover")]
-    case: String,
+    #[arg(default_value = "fruit-fly-hover", value_parser = CaseName, hide_possible_values = true)]
+    case: PathBuf,
     /// Set a key of the case, e.g. time.beats=3; KEY= takes it away (may be repeated).
     #[arg(long = "set", value_name = "KEY=VALUE")]
     set: Vec<String>,

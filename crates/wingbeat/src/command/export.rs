@@ -8,7 +8,7 @@ use wingbeat::results::export::{self, Format};
 use wingbeat::results::file::Existing;
 
 use crate::command::failure::Failure;
-use crate::command::options::choose;
+use crate::command::options::Choice;
 use crate::command::target::folder;
 use crate::command::terminal::say;
 
@@ -18,18 +18,14 @@ pub(crate) struct ExportArgs {
     /// Result directory of the run.
     dir: PathBuf,
     /// Format: hdf5, vtkhdf, parquet or gltf.
-    #[arg(long, value_parser = format)]
+    #[arg(long, value_parser = Choice(&Format::ALL), hide_possible_values = true)]
     format: Format,
     /// Folder for the files; default the result directory.
-    #[arg(long, value_name = "DIR", value_parser = folder)]
+    #[arg(long, value_name = "DIR", value_parser = folder())]
     out: Option<PathBuf>,
     /// Replace files that exist already.
     #[arg(long)]
     overwrite: bool,
-}
-
-fn format(name: &str) -> Result<Format, String> {
-    choose(name, &Format::ALL)
 }
 
 /// The whole command.

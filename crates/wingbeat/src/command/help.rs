@@ -17,6 +17,11 @@ use crate::command::terminal::{self, say};
 /// Name of the program.
 const PROGRAM: &str = "wingbeat";
 
+/// Columns of the help at most.
+pub(crate) const MAX_WIDTH: usize = 100;
+/// Columns before the descriptions of commands.
+const INDENT: usize = 14;
+
 /// The commands by what they are for.
 const GROUPS: [(&str, &[&str]); 5] = [
     ("Cases", &["presets", "new", "check", "schema"]),
@@ -44,7 +49,7 @@ const GROUPS: [(&str, &[&str]); 5] = [
 pub(crate) fn command() -> Command {
     let mut command = Cli::command();
     command.build();
-    let list = groups(&command);
+    let list = groups(&command, width());
     Cli::command().help_template(StyledStr::from(format!(
         "{{about-with-newline}}\n{{usage-heading}} {{usage}}\n\n{list}{{options}}{{after-help}}"
     )))
@@ -73,8 +78,32 @@ pub(crate) fn advised(mut mistake: Error) -> Error {
     mistake
 }
 
+/// Columns of the help, as clap counts them.
+fn width() -> usize {
+    let columns = || std::env::var("COLUMNS").ok()?.parse().ok();
+    let terminal = terminal_size::terminal_size().map(|(width, _)| usize::from(width.0));
+    terminal
+        .or_else(columns)
+        .unwrap_or(MAX_WIDTH)
+        .min(MAX_WIDTH)
+}
+
+/// Ends a line with words from the column of the descriptions on, and goes on below them.
+fn wrap(text: &mut String, words: &str, width: usize) {
+    let mut column = INDENT;
+    for word in words.split_whitespace() {
+        if column > INDENT && column + 1 + word.chars().count() > width {
+            let _ = write!(text, "\n{:INDENT$}", ""); // a string takes everything
+            column = INDENT;
+        }
+        let _ = write!(text, " {word}");
+        column += 1 + word.chars().count();
+    }
+    text.push('\n');
+}
+
 /// The groups with what each command is for.
-fn groups(command: &Command) -> String {
+fn groups(command: &Command, width: usize) -> String {
     let (header, literal) = (STYLES.get_header(), STYLES.get_literal());
     let mut text = String::new();
     for (group, names) in GROUPS {
@@ -82,7 +111,8 @@ fn groups(command: &Command) -> String {
         for name in names {
             let about = command.find_subcommand(name).and_then(Command::get_about);
             let about = about.map(ToString::to_string).unwrap_or_default();
-            let _ = writeln!(text, "  {literal}{name:<12}{literal:#} {about}");
+            let _ = write!(text, "  {literal}{name:<12}{literal:#}");
+            wrap(&mut text, &about, width);
         }
         text.push('\n');
     }
@@ -94,7 +124,21 @@ fn groups(command: &Command) -> String {
 pub(crate) fn completions(shell: Shell) {
     let mut script = vec![];
     clap_complete::generate(shell, &mut Cli::command(), PROGRAM, &mut script);
-    terminal::output(format_args!("{}", String::from_utf8_lossy(&script)));
+    let script = String::from_utf8_lossy(&script);
+    // The shells of which the generator completes either names or files: a case is both.
+    let script = match shell {
+        Shell::Zsh => with_files(&script),
+        _ => script.into_owned(),
+    };
+    terminal::output(format_args!("{script}"));
+}
+
+/// A script of zsh that completes files, too, where it completes the presets.
+fn with_files(script: &str) -> String {
+    let names: Vec<&str> = presets::PRESETS.iter().map(|p| p.name).collect();
+    let names = format!("({})", names.join(" "));
+    let both = format!(r#"_alternative "presets:preset:{names}" "files:file:_files""#);
+    script.replace(&format!(":{names}'"), &format!(":{both}'"))
 }
 
 /// The program as its manual has it: without `help`, which has no page.
@@ -173,6 +217,60 @@ mod tests {
                     name(command)
                 );
             }
+        }
+    }
+
+    #[test]
+    fn exact_descriptions_of_commands_are_as_wide_as_the_help() {
+        let mut program = Cli::command();
+        program.build();
+        for width in [40, 100] {
+            let list = groups(&program, width);
+            let plain: String = list
+                .split('\u{1b}')
+                .map(|p| p.split_once('m').map_or(p, |p| p.1))
+                .collect();
+            let widest = plain.lines().map(|l| l.chars().count()).max();
+            assert!(widest <= Some(width), "{plain}");
+            let said = plain.split_whitespace().collect::<Vec<_>>().join(" ");
+            for command in program.get_subcommands().filter(|c| c.get_name() != "help") {
+                let about = command.get_about().unwrap().to_string();
+                assert!(said.contains(&about), "{about}");
+            }
+        }
+    }
+
+    /// Shells complete presets where a case is asked, files beside them, and names of figures, styles and formats.
+    #[test]
+    fn behaves_shells_complete_names() {
+        let script = |shell| {
+            let mut script = vec![];
+            clap_complete::generate(shell, &mut Cli::command(), PROGRAM, &mut script);
+            String::from_utf8(script).unwrap()
+        };
+        let [bash, zsh] = [script(Shell::Bash), with_files(&script(Shell::Zsh))];
+        for preset in presets::PRESETS {
+            assert!(
+                bash.contains(&format!(" {}", preset.name)),
+                "{}",
+                preset.name
+            );
+        }
+        let cases = zsh
+            .matches(r#"_alternative "presets:preset:(fruit-fly-hover"#)
+            .count();
+        assert_eq!(
+            cases,
+            zsh.matches("Case file or preset").count() + 1,
+            "new asks for a preset or a file"
+        );
+        for names in [
+            "screen paper dark",
+            "svg png pdf gif mp4",
+            "hdf5 vtkhdf parquet gltf",
+            "angles forces lollipop",
+        ] {
+            assert!(bash.contains(names) && zsh.contains(names), "{names}");
         }
     }
 

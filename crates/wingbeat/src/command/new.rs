@@ -1,6 +1,6 @@
 //! `wingbeat new` and `wingbeat presets`: what flights there are to start from.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
 use serde_json::json;
@@ -9,7 +9,7 @@ use wingbeat::case::{self, presets};
 use wingbeat::results::file::{Existing, write_file};
 
 use crate::command::failure::Failure;
-use crate::command::options;
+use crate::command::options::{self, CaseName};
 use crate::command::report::{ReportArgs, line};
 use crate::command::target::Target;
 use crate::command::terminal::say;
@@ -19,7 +19,8 @@ use crate::command::terminal::say;
 #[command(override_usage = USAGE)]
 pub(crate) struct NewArgs {
     /// Name of the preset; left out where --species, --mass or --wing says what to write.
-    preset: Option<String>,
+    #[arg(value_parser = CaseName, hide_possible_values = true)]
+    preset: Option<PathBuf>,
     /// File to write, - for the standard output; default NAME.toml.
     file: Option<PathBuf>,
     /// An insect of this species; `wingbeat presets` lists them.
@@ -85,12 +86,16 @@ impl NewArgs {
             let problem = "name a preset, or an insect by --species, --mass or --wing; `wingbeat presets` lists both";
             return Err(Failure::Option(problem.to_owned()));
         };
-        let preset = presets::find(name)?;
+        let preset = presets::find(&name.to_string_lossy())?;
         if self.air.is_some() {
             let problem = "--air has no effect on a preset, which has its own; leave it out, or set air.model in the file";
             return Err(Failure::Option(problem.to_owned()));
         }
-        Ok((name.clone(), preset.text.to_owned(), self.file.clone()))
+        Ok((
+            preset.name.to_owned(),
+            preset.text.to_owned(),
+            self.file.clone(),
+        ))
     }
 
     /// The same of an insect of one's own.
@@ -99,8 +104,8 @@ impl NewArgs {
             let problem = "--species, --mass and --wing write one file instead of a preset; name the file alone";
             return Err(Failure::Option(problem.to_owned()));
         }
-        let name = self.preset.as_deref();
-        if name.is_some_and(|name| presets::find(name).is_ok()) {
+        let name = self.preset.as_deref().map(Path::to_string_lossy);
+        if name.is_some_and(|name| presets::find(&name).is_ok()) {
             let problem = "a preset and an insect are two cases; name one of them, and the file with its ending; to change the size of a preset write it alone, and edit its masses and lengths, or animal.scale, in the file";
             return Err(Failure::Option(problem.to_owned()));
         }
@@ -116,8 +121,7 @@ impl NewArgs {
             Some(name) => (name.as_str(), insect::case_of_species(name, air)?),
             None => ("insect", insect::case_of_size(&self.size(), air)?),
         };
-        let file = self.preset.as_ref().map(PathBuf::from);
-        Ok((name.to_owned(), text, file))
+        Ok((name.to_owned(), text, self.preset.clone()))
     }
 }
 

@@ -1,7 +1,12 @@
 //! Numbers and names on the command line, each with the range it may have.
 
-use clap::Args;
+use std::ffi::OsStr;
+use std::path::PathBuf;
+
+use clap::builder::{PathBufValueParser, PossibleValue, TypedValueParser};
+use clap::{Arg, Args, Command};
 use wingbeat::analysis::SPEED_OF_SOUND;
+use wingbeat::case::presets::PRESETS;
 
 /// A finite number for which `allowed` holds; `range` says so in words.
 fn number(text: &str, allowed: impl Fn(f64) -> bool, range: &str) -> Result<f64, String> {
@@ -118,6 +123,52 @@ pub(crate) fn choose<T: Copy>(name: &str, known: &[(&'static str, T)]) -> Result
             None => format!("choose from {all}"),
         }
     })
+}
+
+/// Parser of one of the `known` names, which shells complete.
+#[derive(Clone, Copy)]
+pub(crate) struct Choice<T: 'static>(pub(crate) &'static [(&'static str, T)]);
+
+impl<T: Copy + Send + Sync + 'static> TypedValueParser for Choice<T> {
+    type Value = T;
+
+    fn parse_ref(
+        &self,
+        command: &Command,
+        arg: Option<&Arg>,
+        value: &OsStr,
+    ) -> Result<T, clap::Error> {
+        let known = self.0;
+        let parser = move |name: &str| choose(name, known);
+        parser.parse_ref(command, arg, value)
+    }
+
+    fn possible_values(&self) -> Option<Box<dyn Iterator<Item = PossibleValue> + '_>> {
+        let names = self.0.iter().map(|k| PossibleValue::new(k.0));
+        Some(Box::new(names))
+    }
+}
+
+/// Parser of a case: the path of a file or the name of a preset, which shells complete.
+#[derive(Clone, Copy)]
+pub(crate) struct CaseName;
+
+impl TypedValueParser for CaseName {
+    type Value = PathBuf;
+
+    fn parse_ref(
+        &self,
+        command: &Command,
+        arg: Option<&Arg>,
+        value: &OsStr,
+    ) -> Result<PathBuf, clap::Error> {
+        PathBufValueParser::new().parse_ref(command, arg, value)
+    }
+
+    fn possible_values(&self) -> Option<Box<dyn Iterator<Item = PossibleValue> + '_>> {
+        let names = PRESETS.iter().map(|p| PossibleValue::new(p.name));
+        Some(Box::new(names))
+    }
 }
 
 /// Threads at most.

@@ -8,7 +8,7 @@ use wingbeat::results::ResultDir;
 use wingbeat::results::file::Existing;
 
 use crate::command::failure::{FAILED, Failure};
-use crate::command::options::{self, choose};
+use crate::command::options::{self, Choice};
 use crate::command::target::folder;
 use crate::command::terminal::{say, tell};
 
@@ -19,13 +19,13 @@ pub(crate) struct PlotArgs {
     dir: PathBuf,
     /// Figures: angles, forces, lollipop, beats, trajectory, commands, path, phase, bending,
     /// balances, wake, animation; default all but the animation.
-    #[arg(value_name = "KIND", value_parser = kind)]
+    #[arg(value_name = "KIND", value_parser = Choice(&KINDS), hide_possible_values = true)]
     kinds: Vec<Kind>,
     /// For the screen, for a paper (180 mm wide, no title), or dark (slides).
-    #[arg(long, default_value = "screen", value_parser = style)]
+    #[arg(long, default_value = "screen", value_parser = Choice(&Style::ALL), hide_possible_values = true)]
     style: Style,
     /// File format: svg (default), png or pdf; of the animation gif (default) or mp4 (needs ffmpeg).
-    #[arg(long, value_parser = format)]
+    #[arg(long, value_parser = Choice(&Format::ALL), hide_possible_values = true)]
     format: Option<Format>,
     /// Step whose wakes are drawn (the nearest frame); default the last.
     #[arg(long, value_name = "STEP")]
@@ -43,24 +43,23 @@ pub(crate) struct PlotArgs {
           value_parser = options::positive)]
     beats: Option<f64>,
     /// Folder for the files; default DIR/figures, for the other styles DIR/figures/STYLE.
-    #[arg(long, value_name = "FOLDER", value_parser = folder)]
+    #[arg(long, value_name = "FOLDER", value_parser = folder())]
     out: Option<PathBuf>,
     /// Replace figures that are there already.
     #[arg(long)]
     overwrite: bool,
 }
 
-fn kind(name: &str) -> Result<Kind, String> {
-    choose(name, &Kind::ALL.map(|(name, kind, _)| (name, kind)))
-}
-
-fn style(name: &str) -> Result<Style, String> {
-    choose(name, &Style::ALL)
-}
-
-fn format(name: &str) -> Result<Format, String> {
-    choose(name, &Format::ALL)
-}
+/// All figures by name.
+const KINDS: [(&str, Kind); Kind::ALL.len()] = {
+    let mut kinds = [("", Kind::Angles); Kind::ALL.len()];
+    let mut k = 0;
+    while k < kinds.len() {
+        kinds[k] = (Kind::ALL[k].0, Kind::ALL[k].1);
+        k += 1;
+    }
+    kinds
+};
 
 /// The whole command.
 pub(crate) fn plot(args: &PlotArgs) -> Result<(), Failure> {

@@ -11,7 +11,7 @@ use wingbeat::flight::{FlightError, Simulation};
 use wingbeat::results::{Outcome, RESULTS, RecordedFlight, ResultDir, saver};
 
 use crate::command::failure::{FAILED, Failure, INTERRUPTED};
-use crate::command::options::RunOptions;
+use crate::command::options::{CaseName, RunOptions};
 use crate::command::progress::Progress;
 use crate::command::signals::Interrupts;
 use crate::command::target::folder;
@@ -21,10 +21,10 @@ use crate::command::terminal::{self, say, tell};
 #[derive(Args)]
 pub(crate) struct RunArgs {
     /// Case file or preset; - is the standard input.
-    #[arg(default_value = presets::DEFAULT)]
-    case: String,
+    #[arg(default_value = presets::DEFAULT, value_parser = CaseName, hide_possible_values = true)]
+    case: PathBuf,
     /// Result directory; default results/NAME, with a number appended if that exists.
-    #[arg(long, value_name = "DIR", value_parser = folder)]
+    #[arg(long, value_name = "DIR", value_parser = folder())]
     out: Option<PathBuf>,
     /// Replace an earlier run in the result directory.
     #[arg(long, requires = "out")]
@@ -110,12 +110,12 @@ fn prepare(args: &RunArgs, threads: usize, interrupts: &Interrupts) -> Result<Ru
         .as_deref()
         .filter(|out| out.exists() && !args.overwrite)
     {
-        ResultDir::create(out)?; // refuses before the flight is built
+        ResultDir::create_or_fill(out)?; // refuses before the flight is built
     }
     let flight = build(&case, interrupts)?;
     let dir = match &args.out {
         Some(out) if args.overwrite => ResultDir::overwrite(out)?,
-        Some(out) => ResultDir::create(out)?,
+        Some(out) => ResultDir::create_or_fill(out)?,
         None => ResultDir::next_free(Path::new(RESULTS), &case.name)?,
     };
     begin(dir, case, flight, threads)
@@ -150,7 +150,8 @@ fn go_back(
     let saved = saver::read(dir.path())?;
     if saved.manifest.outcome == Outcome::Finished {
         if !dir.case()?.output.save.keep {
-            saver::forget(dir.path())?; // a kill at the very end may have left it
+            // A kill at the very end may have left it; where nothing can be written it stays.
+            let _ = saver::forget(dir.path());
         }
         say!("{} has already finished.", dir.path().display());
         return Ok(None);

@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use clap::builder::{PathBufValueParser, TypedValueParser};
 use wingbeat::case::IoError;
 use wingbeat::results::file::{Existing, NewFile};
 
@@ -69,12 +70,11 @@ pub(crate) fn place_of(path: &Path) -> PathBuf {
 }
 
 /// The folder of a user for several files, which the standard output cannot hold.
-pub(crate) fn folder(text: &str) -> Result<PathBuf, String> {
-    match Target::is_output(Path::new(text)) {
+pub(crate) fn folder() -> impl TypedValueParser<Value = PathBuf> {
+    PathBufValueParser::new().try_map(|path| match Target::is_output(&path) {
         true => Err(
-            "a folder of files cannot go to the standard output; name a folder, `./-` for one of this name"
-                .to_owned(),
+            "a folder of files cannot go to the standard output; name a folder, `./-` for one of this name",
         ),
-        false => Ok(PathBuf::from(text)),
-    }
+        false => Ok(path),
+    })
 }

@@ -26,7 +26,7 @@ pub(crate) struct VerifyArgs {
     #[arg(long, value_name = "TEXT", default_value = "")]
     only: String,
     /// Folder for verification.md, .csv and .json, and in `verification/` the figures that the page shows.
-    #[arg(long, value_name = "DIR", default_value = "verification", value_parser = folder)]
+    #[arg(long, value_name = "DIR", default_value = "verification", value_parser = folder())]
     out: PathBuf,
     /// Go on where an earlier run into the same folder ended: its cases are taken as they are,
     /// those named by `--only` run again.

@@ -66,6 +66,23 @@ fn behaves_keys_belong_to_the_control_that_has_the_focus() {
     browser.press(" ", "Space", 32);
     assert_eq!(browser.value(playing), json!("true"));
     browser.press(" ", "Space", 32);
+    // Other keys than those of a focused button, slider or list are the page's, capital letters, too.
+    let shown = "[state.theme, state.view, frameNow(), state.colour].join()";
+    browser.value("state.theme = 'light', dress(), seek(4), byId('on-loop').focus()");
+    browser.press("T", "KeyT", 84);
+    browser.press("2", "Digit2", 50);
+    browser.press("ArrowRight", "ArrowRight", 39);
+    assert_eq!(browser.value(shown), json!("dark,side,5,stroke"));
+    browser.wait("slider.value === '5'"); // as drawn
+    browser.value("byId('time').focus()");
+    browser.press("t", "KeyT", 84);
+    browser.press("ArrowRight", "ArrowRight", 39);
+    assert_eq!(browser.value(shown), json!("light,side,6,stroke"));
+    browser.value("byId('colour').focus()");
+    browser.press("a", "KeyA", 65); // the list goes to `age`
+    browser.press("3", "Digit3", 51);
+    assert_eq!(browser.value(shown), json!("light,front,6,age"));
+    browser.wait("document.getElementById('state').dataset.frame === '6'");
     // With the focus on the scene, arrows turn it and time stands.
     let frame = browser.state("frame");
     browser.value("document.getElementById('gl').focus()");
@@ -73,6 +90,77 @@ fn behaves_keys_belong_to_the_control_that_has_the_focus() {
     browser.press("ArrowRight", "ArrowRight", 39);
     assert_ne!(browser.value("camera.position.toArray()"), before);
     assert_eq!(browser.state("frame"), frame);
+    content(&mut browser);
+}
+
+/// What a link may choose is obeyed while the page is open, too; what it does not name stays.
+#[test]
+fn behaves_a_changed_link_is_obeyed() {
+    let scratch = Scratch::new("browser-link");
+    let Some(mut browser) = started(&scratch, &[]) else {
+        return;
+    };
+    flown(&scratch.0, &CASE);
+    let shown = "JSON.stringify([frameNow(), state.view, state.theme, document.documentElement.dataset.theme, byId('colour').value, byId('force').value, +byId('age').value, byId('on-smoke').getAttribute('aria-pressed'), byId('on-vortices').getAttribute('aria-pressed')])";
+    browser.open(
+        &scratch.0.join("run/flight.html"),
+        "frame=3&theme=dark&wake=vortices",
+    );
+    let first = json!(r#"[3,"quarter","dark","dark","stroke","total",1.1,"false","true"]"#);
+    assert_eq!(browser.value(shown), first);
+    browser.value("location.hash = 'frame=7&view=top&theme=light&wake=smoke&colour=age&age=0.5'");
+    browser.wait("frameNow() === 7");
+    let second = json!(r#"[7,"top","light","light","age","total",0.5,"true","false"]"#);
+    assert_eq!(browser.value(shown), second);
+    browser.value("location.hash = 'force=each'");
+    browser.wait("state.force === 'each'");
+    let third = json!(r#"[7,"top","light","light","age","each",0.5,"true","false"]"#);
+    assert_eq!(browser.value(shown), third);
+    content(&mut browser);
+}
+
+/// A print is light, whatever the page is, and as it was afterwards; the scene has a height at any width.
+#[test]
+fn behaves_prints_are_light() {
+    let scratch = Scratch::new("browser-print");
+    let Some(mut browser) = started(&scratch, &[]) else {
+        return;
+    };
+    flown(&scratch.0, &CASE);
+    browser.open(&scratch.0.join("run/flight.html"), "frame=3&theme=dark");
+    browser.value("window.prints = [], window.addEventListener('beforeprint', () => { const c = byId('printed'); prints.push([state.theme, stage.clientHeight, c.width > 0 && c.getContext('2d').getImageData(9, 9, 1, 1).data[0]]); })");
+    for landscape in [false, true] {
+        browser.print(landscape);
+    }
+    let prints = browser.value("prints");
+    for print in prints.as_array().unwrap() {
+        assert_eq!((&print[0], &print[1]), (&json!("light"), &json!(400)));
+        // The sky: #ffffff at the top of the light page, #182233 of the dark one.
+        assert!(print[2].as_f64().unwrap() > 200.0, "{print}");
+    }
+    assert_eq!(prints.as_array().unwrap().len(), 2);
+    let after = "[state.theme, document.documentElement.className, !!byId('printed')].join()";
+    assert_eq!(browser.value(after), json!("dark,,false"));
+    content(&mut browser);
+}
+
+/// Two fingers on a plot zoom it and leave the time; one that taps or moves changes the time.
+#[test]
+fn behaves_a_pinch_on_a_plot_leaves_the_time() {
+    let scratch = Scratch::new("browser-pinch");
+    let Some(mut browser) = started(&scratch, &[]) else {
+        return;
+    };
+    flown(&scratch.0, &CASE);
+    browser.open(&scratch.0.join("run/flight.html"), "frame=3");
+    browser.value("window.finger = (kind, id, part) => { const c = plots.list[0].canvas, r = c.getBoundingClientRect(); c.dispatchEvent(new PointerEvent('pointer' + kind, { pointerId: id, pointerType: 'touch', clientX: r.left + part * r.width, clientY: r.top + 9 })); }");
+    let time = "[frameNow(), plots.range[1] - plots.range[0] < whole[1] - whole[0]].join()";
+    browser.value("finger('down', 1, 0.5), finger('down', 2, 0.6), finger('move', 1, 0.3), finger('move', 2, 0.9), finger('up', 2, 0.9), finger('move', 1, 0.6), finger('up', 1, 0.6)");
+    assert_eq!(browser.value(time), json!("3,true"));
+    browser.value("byId('zoom-all').click(), finger('down', 1, 0.99), finger('up', 1, 0.99)");
+    assert_eq!(browser.value("frameNow() > LAST - 3"), json!(true));
+    browser.value("finger('down', 1, 0.99), finger('move', 1, 0.7), finger('move', 1, 0.15), finger('up', 1, 0.15)");
+    assert_eq!(browser.value("frameNow() < 3"), json!(true));
     content(&mut browser);
 }
 

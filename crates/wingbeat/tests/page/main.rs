@@ -128,6 +128,11 @@ fn behaves_without_webgl_the_flight_is_drawn_flat_and_says_so() {
     let [own, moved] = [1, 2].map(|k| drawn[k].as_f64().unwrap());
     assert!(own > 500.0, "{own} colours beside the sky's");
     assert!(moved > 0.01, "{moved} of the picture moved");
+    // Controls of what is not drawn so are not on offer, and the force of each wing has its arrow.
+    let offered = browser.value("['filaments', 'vortices', 'smoke', 'pressure', 'trail', 'follow'].filter((n) => !byId('on-' + n).hidden).join() + byId('level-box').hidden");
+    assert_eq!(offered, json!("filamentstrue"));
+    let arrows = browser.value("['none', 'total', 'each'].map((f) => { state.force = f; return Math.max(...flight.frames.map((_, k) => forceArrows(k).length)); }).join()");
+    assert_eq!(arrows, json!("0,1,2"));
     assert_eq!(browser.state("errors"), "0");
 }
 
@@ -188,15 +193,16 @@ fn exact_the_page_is_whole_and_stays_within_its_size() {
         "the page needs other files"
     );
     assert!(page.contains("Shown here: 16 of 16 frames that were written; plots with every step"));
+    assert!(page.contains("of the frame. history.csv and frames/ hold everything\""));
     let viewed = |size: &str| {
         let out = wingbeat(&scratch.0, &["view", "run", "--no-open", "--size", size]);
         assert!(out.status.success());
         let small = fs::read_to_string(scratch.0.join("run/flight.html")).unwrap();
         (small, String::from_utf8(out.stdout).unwrap())
     };
-    let (small, said) = viewed("0.7");
+    let (small, said) = viewed("0.75");
     assert!(
-        small.len() < 700_000 && small.len() < page.len(),
+        small.len() < 750_000 && small.len() < page.len(),
         "{} of {}",
         small.len(),
         page.len()
@@ -228,6 +234,23 @@ fn exact_a_flight_without_a_lattice_is_drawn_from_its_history() {
     flown(&scratch.0, &args);
     let page = fs::read_to_string(scratch.0.join("run/flight.html")).unwrap();
     assert!(page.contains("steps, drawn from the history (no wakes)"));
+    assert!(page.contains("of the frame. history.csv holds everything\""));
+}
+
+/// Flights of one step have a page and figures, too.
+#[test]
+fn exact_a_flight_of_one_step_is_drawn() {
+    let scratch = Scratch::new("one-step");
+    let args = ["run", "fruit-fly-blade", "--quiet", "--out", "run"];
+    let step = ["--set", "time.beats=", "--set", "time.steps=1"];
+    flown(&scratch.0, &[&args[..], &step].concat());
+    let page = fs::read_to_string(scratch.0.join("run/flight.html")).unwrap();
+    assert!(page.contains("Shown here: 2 of 2 steps"));
+    for figure in ["angles", "forces", "trajectory", "balances"] {
+        let path = scratch.0.join(format!("run/figures/{figure}.svg"));
+        let drawing = fs::read_to_string(path).unwrap();
+        assert!(drawing.contains("<path") && !drawing.contains("NaN"));
+    }
 }
 
 #[test]

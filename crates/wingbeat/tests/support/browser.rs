@@ -154,6 +154,11 @@ impl Browser {
         self.value(&of).as_str().unwrap_or("").to_owned()
     }
 
+    /// Prints the page.
+    pub fn print(&mut self, landscape: bool) {
+        self.call("Page.printToPDF", json!({ "landscape": landscape }));
+    }
+
     /// Presses and lets go of a key.
     pub fn press(&mut self, key: &str, code: &str, number: u32) {
         let text = if key.len() == 1 { key } else { "" };

@@ -2,6 +2,8 @@
 
 use std::f64::consts::TAU;
 
+use std::path::PathBuf;
+
 use clap::Args;
 use serde_json::{Value, json};
 use wingbeat::analysis::flutter::{
@@ -11,7 +13,7 @@ use wingbeat::case::LoadedCase;
 
 use super::trimming::watched;
 use crate::command::failure::Failure;
-use crate::command::options;
+use crate::command::options::{self, CaseName};
 use crate::command::report::{Report, ReportArgs, line};
 use crate::command::terminal::tell as announce;
 
@@ -19,7 +21,8 @@ use crate::command::terminal::tell as announce;
 #[derive(Args)]
 pub(crate) struct FlutterArgs {
     /// Case file or preset with elastic wings held in a stream; - is the standard input.
-    case: String,
+    #[arg(value_parser = CaseName, hide_possible_values = true)]
+    case: PathBuf,
     /// Set a key of the case, e.g. air.density_kg_m3=1; KEY= takes it away (may be repeated).
     #[arg(long = "set", value_name = "KEY=VALUE")]
     set: Vec<String>,

@@ -12,7 +12,7 @@ use wingbeat::model::Wing;
 
 use super::trimming::watched;
 use crate::command::failure::Failure;
-use crate::command::options;
+use crate::command::options::{self, CaseName};
 use crate::command::report::{Report, ReportArgs, line};
 use crate::command::terminal::tell as announce;
 
@@ -26,7 +26,8 @@ const ALIKE: f64 = 0.5;
 #[derive(Args)]
 pub(crate) struct ModesArgs {
     /// Case file or preset with elastic wings; - is the standard input.
-    case: String,
+    #[arg(value_parser = CaseName, hide_possible_values = true)]
+    case: PathBuf,
     /// Set a key of the case, e.g. wing.right.structure.shell.young_pa=2e9; KEY= takes it away (may be repeated).
     #[arg(long = "set", value_name = "KEY=VALUE")]
     set: Vec<String>,

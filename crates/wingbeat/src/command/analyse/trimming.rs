@@ -1,5 +1,7 @@
 //! What is trimmed and how, for all analysing commands.
 
+use std::path::PathBuf;
+
 use clap::Args;
 use wingbeat::analysis::wake::{WakeSettings, WakeTrim, check_alike, trim_with_wake};
 use wingbeat::analysis::{
@@ -11,7 +13,7 @@ use wingbeat::math::DVec3;
 
 use super::found;
 use crate::command::failure::{FAILED, Failure};
-use crate::command::options;
+use crate::command::options::{self, CaseName};
 use crate::command::report::{Report, ReportArgs, line};
 use crate::command::run::name_program;
 use crate::command::terminal::tell;
@@ -34,8 +36,8 @@ const HEADING: &str = "Trim";
 pub(crate) struct Trimming {
     /// Case file or preset in blade elements; trim, stability and power take the vortex lattice, too; - is the
     /// standard input.
-    #[arg(default_value = "fruit-fly-blade")]
-    case: String,
+    #[arg(default_value = "fruit-fly-blade", value_parser = CaseName, hide_possible_values = true)]
+    case: PathBuf,
     /// Set a key of the case, e.g. time.beats=3; KEY= takes it away (may be repeated).
     #[arg(long = "set", value_name = "KEY=VALUE")]
     set: Vec<String>,

@@ -17,7 +17,7 @@ pub(super) struct Place {
     /// File of the campaign.
     pub(super) file: PathBuf,
     /// Its directory; default results/NAME.
-    #[arg(long, value_name = "DIR", value_parser = folder)]
+    #[arg(long, value_name = "DIR", value_parser = folder())]
     pub(super) out: Option<PathBuf>,
 }
 
