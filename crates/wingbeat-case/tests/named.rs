@@ -35,7 +35,7 @@ fn behaves_keys_that_change_nothing_in_this_flight_are_named() {
     };
     let still =
         "wing.right.motion={ phi.constant_deg = 0, theta.constant_deg = 0, psi.constant_deg = 0 }";
-    let hinge = "joint.hinge={ child = \"right\", axis = [0, 1, 0], element = [{ moment_newton_m = { sine = [1e-6] } }] }";
+    let hinge = "joint.hinge={ child = \"right\", kind = \"revolute\", axis = [0, 1, 0], element = [{ moment_newton_m = { sine = [1e-6] } }] }";
     for (set, key) in [
         ("motion.phase=0.3", "motion.phase"),
         ("motion.start=impulsive", "motion.start"),
@@ -49,7 +49,10 @@ fn behaves_keys_that_change_nothing_in_this_flight_are_named() {
             doubt.starts_with(&format!("{key} changes nothing")),
             "{doubt}"
         );
-        assert_eq!(said("fruit-fly-blade", &[set]), [""; 0]);
+        assert_eq!(
+            said("fruit-fly-blade", &["motion.start=smooth", set]),
+            [""; 0]
+        );
     }
     let camber = "wing.right.deformation={ camber = [{ linear = [0, 0.1] }], twist = [{ linear_deg = [0, 5] }] }";
     let [doubt] = &said("fruit-fly-blade", &[camber])[..] else {
@@ -85,7 +88,10 @@ fn refuses_keys_of_the_lattice_by_what_they_do_not_fit() {
             "pressure does not fit air.leading_edge = \"vortex_lift\"",
         ),
         (
-            ["air.particles.size_m=1e-4", "air.max_wake_rows=30"],
+            [
+                "air.particles={after_rows=3,radius_m=1e-4}",
+                "air.max_wake_rows=30",
+            ],
             "30 does not fit air.particles",
         ),
         (
