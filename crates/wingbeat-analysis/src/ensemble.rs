@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use wingbeat_flight::{Feedback, FlightSetup};
+use wingbeat_flight::{AirModel, Feedback, FlightSetup};
 use wingbeat_math::DVec3;
 
 /// Velocity by which the streams of members differ, over the speed of the wings.
@@ -24,27 +24,42 @@ fn redrawn(setup: &FlightSetup, k: usize) -> Option<Feedback> {
 }
 
 /// Member `k` of `count`: the first as it is, in the others the air moves by a millionth of the wings' speed
-/// (length over period, or that of the stream), each in a direction of its own, all in the plane of symmetry
-/// where half is computed; noise of the senses is another. None where the air has no stream.
+/// (length over period, or that of the stream), each in a direction of its own, all along planes that no air
+/// goes through: a ground, the plane of symmetry where half is computed; noise of the senses is another. None
+/// where the air has no stream.
 pub fn member(setup: &FlightSetup, k: usize, count: usize) -> Option<FlightSetup> {
     let mut member = setup.clone();
     let length = member.animal.wing_length();
     let flapping = member.time.period.map_or(0.0, |p| length / p);
-    let is_mirrored = member.air.is_mirrored();
+    let normals = normals(&member.air);
     if let Some(feedback) = (k > 0).then(|| redrawn(setup, k)).flatten() {
         member.feedback = Some(feedback);
     }
     let stream = member.air.stream_mut()?;
     if k > 0 {
-        let mut along = direction(k, count);
-        if is_mirrored {
-            along = DVec3::new(along.x, 0.0, along.z)
-                .try_normalize()
-                .unwrap_or(DVec3::X);
-        }
+        let along = along(direction(k, count), &normals);
         *stream += DIFFERENCE * flapping.max(stream.length()) * along;
     }
     Some(member)
+}
+
+/// Normals of the planes that no air goes through, at right angles or parallel, N components.
+fn normals(air: &AirModel) -> Vec<DVec3> {
+    let AirModel::VortexLattice(options) = air else {
+        return vec![];
+    };
+    let images = options.lattice.images.iter().map(|p| p.normal);
+    images.chain(options.mirror.then_some(DVec3::Y)).collect()
+}
+
+/// The direction of what `of` has along all planes with these `normals`; of an axis instead, where that is
+/// next to nothing.
+fn along(of: DVec3, normals: &[DVec3]) -> DVec3 {
+    let rest = |d: DVec3| normals.iter().fold(d, |d, n| d.reject_from(*n));
+    let mut directions = [of, DVec3::X, DVec3::Y, DVec3::Z].into_iter();
+    let found = directions.find(|d| rest(*d).length() > 1e-3);
+    // Twice: the rounding of the first time is rejected, too.
+    found.map_or(DVec3::ZERO, |d| rest(rest(d)).normalize_or_zero())
 }
 
 /// Direction `k` of `count` that are spread evenly over the sphere, on a spiral by the golden angle.

@@ -166,7 +166,8 @@ impl Section {
         let here = wind(0.0);
         let at_axis = v - here - self.x * chord_rate;
         let ahead = front(at_axis.dot(e1), at_axis.dot(n));
-        let at_front = wind(0.5 * (leading + trailing + (leading - trailing) * ahead));
+        let [at_front, at_rear] = [ahead, -ahead]
+            .map(|side| wind(0.5 * (leading + trailing + (leading - trailing) * side)));
         let falls = chord_acceleration.dot(n) + chord_rate.dot(normal_rate);
         SectionState {
             e: [e1, e2, n],
@@ -183,6 +184,7 @@ impl Section {
             wind: StripWind {
                 at_axis: here.dot(n),
                 at_front: rotation * at_front,
+                at_rear: rotation * at_rear,
                 at_once,
                 normal: rotation * n,
             },

@@ -124,10 +124,12 @@ impl BladeWing {
         let gust = |k: usize, front: f64| {
             let (s, strip) = (section(k), &self.strips()[k]);
             let [e1, _, n] = s.axes();
-            let x = strip.x_mid() + 0.5 * strip.chord * front;
+            let ahead = 0.5 * strip.chord * front;
+            let at = |x: f64| motion.rotation * wind.velocity(s.axis[0] + x * e1);
             StripWind {
                 at_axis: wind.velocity(s.axis[0]).dot(n),
-                at_front: motion.rotation * wind.velocity(s.axis[0] + x * e1),
+                at_front: at(strip.x_mid() + ahead),
+                at_rear: at(strip.x_mid() - ahead),
                 at_once: motion.rotation * wind.at_once()[0],
                 normal: motion.rotation * n,
             }

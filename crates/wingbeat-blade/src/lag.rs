@@ -9,9 +9,9 @@
 //! their law, see `w - lambda`. The way is that with the speed through the air, `sqrt(u^2 + w^2)`: where the
 //! strip turns back or meets the air broadside on, all of this stays finite and smooth. Where the wind beside
 //! the stream changes, what changes comes up by Kuessner's function from when the edge in front meets it, but
-//! for what changes everywhere at once, which is as a motion of the strip ([`crate::LocalWind`]); what the
-//! turning of the strip changes of the wind along its normal is part of the strip's own motion, as of the
-//! stream.
+//! for what changes everywhere at once, which is as a motion of the strip ([`crate::LocalWind`]), and for what
+//! is there when the memory begins, which is as the stream. What the turning of the strip changes of the wind
+//! along its normal is part of the strip's own motion, as of the stream.
 //!
 //! | symbol | name in code | meaning | unit |
 //! |---|---|---|---|
@@ -54,8 +54,9 @@ pub(crate) struct StripWind {
     pub at_axis: f64,
     /// Its velocity where the strip meets the air, N components \[m/s\].
     pub at_front: DVec3,
-    /// Of it what has changed everywhere at once since the memory, all that there is at the start, N components
-    /// \[m/s\].
+    /// Its velocity at the edge behind, N components \[m/s\].
+    pub at_rear: DVec3,
+    /// What has changed everywhere at once since the memory, N components \[m/s\].
     pub at_once: DVec3,
     /// Normal of the strip, N components \[1\].
     pub normal: DVec3,
@@ -90,14 +91,6 @@ pub enum Lag<'a> {
 }
 
 impl Lag<'_> {
-    /// Whether the strips remember nothing yet: what blows then blows from the start on.
-    pub fn begins(&self) -> bool {
-        match self {
-            Self::Trial { memory, .. } => memory.strips.iter().all(|s| s.normal == DVec3::ZERO),
-            Self::Known(_) => false,
-        }
-    }
-
     /// When the memory was accepted \[s\]; none of a trial that is known.
     pub fn since(&self) -> Option<f64> {
         match self {
@@ -243,20 +236,19 @@ impl Lags {
         [drive, speed]: [f64; 2],
         wind: StripWind,
     ) -> StripTrial {
+        let own = &memory.strips[strip];
         let mut here = StripTrial {
             drive,
             speed,
             wind: wind.at_front,
-            at_once: wind.at_once,
+            at_once: match own.remembers() {
+                true => wind.at_once,
+                false => wind.at_rear,
+            },
             normal: wind.normal,
             downwash: 0.0,
         };
-        let missing = self.missing(
-            &memory.strips[strip],
-            &here,
-            time - memory.time,
-            0.5 * chord,
-        );
+        let missing = self.missing(own, &here, time - memory.time, 0.5 * chord);
         // Of the wind at the axis, which the motion has, that at the edge in front takes the place.
         here.downwash = missing + (wind.at_front.dot(wind.normal) - wind.at_axis);
         here
@@ -300,6 +292,11 @@ fn next(rate: [f64; 2], z: [f64; 2], change: f64, way: f64) -> [f64; 2] {
 }
 
 impl StripMemory {
+    /// Whether it has met air yet.
+    fn remembers(&self) -> bool {
+        self.normal != DVec3::ZERO
+    }
+
     /// Way in half chords to an instant `duration` \[s\] later at which its speed is `speed` \[m/s\].
     fn way_to(&self, speed: f64, duration: f64, half: f64) -> f64 {
         0.5 * (self.speed + speed) * duration / half
@@ -307,11 +304,11 @@ impl StripMemory {
 
     /// By how much the downwash of the motion, and of the wind that is met, has changed in a trial \[m/s\]: of
     /// the product of wind and normal what the normal changes belongs to the motion, and what changes
-    /// everywhere at once is a motion of the strip against it.
+    /// everywhere at once, or is there at the start, is a motion of the strip against it.
     fn changes(&self, trial: &StripTrial) -> [f64; 2] {
-        let normal = match self.normal == DVec3::ZERO {
-            true => trial.normal,
-            false => self.normal,
+        let normal = match self.remembers() {
+            true => self.normal,
+            false => trial.normal,
         };
         let turned = 0.5 * (self.wind + trial.wind).dot(trial.normal - normal);
         let both = 0.5 * (trial.normal + normal);

@@ -8,7 +8,9 @@
 //! Strips with wakes come into a gust by Kuessner's function, which has the added mass of it. A wind that
 //! changes everywhere at once is not come into: to it a strip answers as to its own motion, by Wagner's
 //! function and the added mass [Miles 1956: gusts whose fronts travel, between both limits]. Gusts with a
-//! front, shear and streets are taken as come into, whatever the speed of their front.
+//! front, shear and streets are taken as come into, whatever the speed of their front. The wind that is all
+//! over a strip at the start of a flight is there as the stream is: at the start strips come only into what has
+//! reached the edge in front and not yet the other one.
 
 use wingbeat_math::DVec3;
 
@@ -25,8 +27,8 @@ pub trait LocalWind {
         DVec3::ZERO
     }
 
-    /// Of the part that is the same everywhere: by how much it has changed since the memory of the strips (since
-    /// still air where they remember nothing yet) [m/s], and its rate [m/s2].
+    /// Of the part that is the same everywhere: by how much it has changed since the memory of the strips [m/s]
+    /// (of no account where they remember nothing yet), and its rate [m/s2].
     fn at_once(&self) -> [DVec3; 2] {
         [DVec3::ZERO; 2]
     }

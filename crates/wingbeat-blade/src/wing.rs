@@ -232,6 +232,7 @@ impl BladeWing {
             StripWind {
                 at_axis: at(0.0).z,
                 at_front: frame.rotation * at(s.x_mid() + 0.5 * s.chord * front),
+                at_rear: frame.rotation * at(s.x_mid() - 0.5 * s.chord * front),
                 at_once: frame.rotation * wind.at_once()[0],
                 normal: frame.rotation.z_axis,
             }

@@ -13,7 +13,6 @@
 //! What it does not know: physics, results.
 #![warn(missing_docs)]
 
-mod biases;
 mod build;
 mod data;
 mod decode;
@@ -23,6 +22,7 @@ mod error;
 pub mod external;
 mod files;
 mod fitted;
+mod idle;
 pub mod insect;
 pub mod keys;
 mod loaded;

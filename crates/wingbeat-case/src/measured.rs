@@ -112,6 +112,7 @@ fn lost(key: &str, rows: &[[f64; 2]], zero: f64) -> Option<String> {
         let (before, after) = (rows[from - 1][1], rows.get(from + length));
         if let Some(after) = after.filter(|_| length > 0)
             && (before - zero).abs().min((after[1] - zero).abs()) > LEAP_DEG
+            && !(length == 1 && passes(rows, from, zero))
         {
             let [first, last] = [rows[from][0], rows[from + length - 1][0]];
             return Some(format!(
@@ -122,6 +123,32 @@ fn lost(key: &str, rows: &[[f64; 2]], zero: f64) -> Option<String> {
         from += length.max(1);
     }
     None
+}
+
+/// Whether a course passes through `zero` in row `k`: the rows beside it lie on either side, or the cubic
+/// through two rows on each side comes as near as neighbours need not stand away.
+fn passes(rows: &[[f64; 2]], k: usize, zero: f64) -> bool {
+    let crosses = (rows[k - 1][1] - zero) * (rows[k + 1][1] - zero) < 0.0;
+    let beside = || {
+        Some([
+            rows.get(k.checked_sub(2)?)?,
+            &rows[k - 1],
+            &rows[k + 1],
+            rows.get(k + 2)?,
+        ])
+    };
+    crosses || beside().is_some_and(|rows4| (cubic(rows4, rows[k][0]) - zero).abs() < LEAP_DEG)
+}
+
+/// The cubic through four rows at the phase `x`, by Lagrange's polynomials.
+fn cubic(rows: [&[f64; 2]; 4], x: f64) -> f64 {
+    let part = |j: usize| {
+        let others = (0..4).filter(|i| *i != j);
+        others.fold(rows[j][1], |p, i| {
+            p * (x - rows[i][0]) / (rows[j][0] - rows[i][0])
+        })
+    };
+    (0..4).map(part).sum()
 }
 
 /// A measured surface may be longer or wider than the wing at rest by this factor, or smaller.

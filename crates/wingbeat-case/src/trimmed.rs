@@ -299,7 +299,6 @@ pub fn derivative_case(
     };
     raw.air = AirCase {
         model: AirModel::Derivatives,
-        density_kg_m3: case.raw.air.density_kg_m3,
         ..AirCase::default()
     };
     let mut of_table = derivatives(&table, [roll, pitch]);

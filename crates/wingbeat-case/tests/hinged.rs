@@ -163,6 +163,40 @@ fn invariant_wings_on_hinges_in_a_stream_are_those_carried_through_still_air() {
     assert!((carried - held).abs() < 1e-5, "{carried} and {held} deg");
 }
 
+/// A wind that is the same everywhere and always is a stream, as is the far part of a shear: it was known to the
+/// air that wings carry along as no more than the lattice's differences over steps, and hinges differed by 0.1 deg.
+#[test]
+fn invariant_wings_on_hinges_in_a_steady_wind_are_those_in_a_stream() {
+    let set = |way: &'static str| ["flight.mode=tethered", way, "time.beats=0.75"];
+    let ways = [
+        "air.stream_m_s=[-2,0,0]",
+        "air.gust=[{amplitude_m_s=[-2,0,0], table=[[0,1],[9,1]], start_s=-1}]",
+        "air.gust=[{amplitude_m_s=[-2,0,0], table=[[0,1],[9,1]], start_s=-1, front_m_s=[-9,0,0]}]",
+    ];
+    let [stream, gust, front] = ways.map(|way| pitch(&robot(&set(way))));
+    println!("{stream}, {gust} and {front} deg");
+    for other in [gust, front] {
+        // What the corrector leaves.
+        assert!((stream - other).abs() < 1e-5, "{stream} and {other} deg");
+    }
+    let origin = |set: &[&str]| {
+        pitch(&robot(
+            &[&["flight.mode=tethered", "time.beats=0.75"], set].concat(),
+        ))
+    };
+    let near = [
+        "air.shear_1_s=[[0,0,9],[0,0,0],[0,0,0]]",
+        "air.stream_m_s=[-2,0,0]",
+    ];
+    let far = [
+        near[0],
+        "flight.position_m=[0,0,-1]",
+        "air.stream_m_s=[7,0,0]",
+    ];
+    let [near, far] = [&near[..], &far[..]].map(origin);
+    assert!((near - far).abs() < 1e-5, "{near} and {far} deg");
+}
+
 /// Inertia in pitch from a fifth to 1/250 of that of the air: plain passes diverge or alternate.
 #[test]
 fn agrees_a_flyer_that_is_light_as_a_whole_by_either_integrator() {

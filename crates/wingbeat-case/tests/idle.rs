@@ -324,6 +324,14 @@ const TABLE: &[(&[&str], &str, &str)] = &[
         "air.ground",
     ),
     (
+        &[
+            "air.model=derivatives",
+            "air.derivatives.moment_newton_m=[0, 0, 0]",
+        ],
+        "air.density_kg_m3=1",
+        "",
+    ),
+    (
         &["air.model=derivatives"],
         "air.gust=[{ amplitude_m_s = [0, 0, 1], duration_s = 1 }]",
         "air.gust",

@@ -50,6 +50,25 @@ fn behaves_lost_frames_and_wrapped_angles_of_tables_are_named() {
         };
         assert!(said.contains("exactly 0 from phase 0.4"), "{said}");
     }
+    // Courses that cross zero or touch it at a sample have lost nothing.
+    let coarse = |count: usize, q: &dyn Fn(f64) -> f64| -> Vec<(f64, f64)> {
+        let row = |k: usize| k as f64 / count as f64;
+        let rounded = |q: f64| (1e3 * q).round() / 1e3;
+        (0..=count)
+            .map(|k| (row(k), rounded(q(TAU * row(k)))))
+            .collect()
+    };
+    let crosses = |x: f64| -60.0 * x.cos();
+    let touches = |x: f64| 80.0 * (1.0 + x.cos());
+    for course in [coarse(20, &crosses), coarse(12, &touches)] {
+        assert_eq!(doubts(&course), [""; 0]);
+    }
+    let mut crossing = coarse(20, &crosses);
+    crossing[4].1 = 0.0;
+    let [said] = &doubts(&crossing)[..] else {
+        panic!("two zeros")
+    };
+    assert!(said.contains("exactly 0 from phase 0.2 to 0.25"), "{said}");
     let wrapped = samples(|_, q| if q > 60.0 { q - 360.0 } else { q });
     let [said] = &doubts(&wrapped)[..] else {
         panic!("a turn")

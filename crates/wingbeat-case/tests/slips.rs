@@ -318,30 +318,6 @@ fn behaves_ways_that_no_flyer_covers_are_doubted() {
 }
 
 #[test]
-fn behaves_biases_that_the_flight_that_is_held_has_too_are_named() {
-    let said = |hold: &str, bias: &str| {
-        let set = [
-            format!("control.hold={hold}"),
-            format!("control.sensors={{{bias}}}"),
-        ];
-        let case = LoadedCase::find("fruit-fly-controlled", &set).unwrap();
-        case.idle_biases()
-    };
-    for key in ["velocity_bias_m_s", "tilt_bias_deg", "rate_bias_deg_s"] {
-        let bias = format!("{key}=[0,0.5,0]");
-        let [doubt] = &said("start", &bias)[..] else {
-            panic!("{key}")
-        };
-        assert!(
-            doubt.contains(key) && doubt.contains("control.hold"),
-            "{doubt}"
-        );
-        assert_eq!(said("trim", &bias), [""; 0]);
-    }
-    assert_eq!(said("start", "tilt_noise_deg=1"), [""; 0]);
-}
-
-#[test]
 fn refuses_a_choice_without_its_value_and_one_with_a_value_that_has_none() {
     for (set, says) in [
         (

@@ -24,6 +24,65 @@ fn lift(flight: &str, air: &str) -> Vec<f64> {
     lift
 }
 
+/// One steady air in five ways: of the stream, of the flight, of a gust without a front and of one whose front has
+/// passed, of a shear that is seen from another origin. The force at once, and from step to step.
+#[test]
+fn invariant_of_how_a_steady_wind_is_described() {
+    let gust = |front: &str| {
+        format!(
+            "gust = [{{ amplitude_m_s = [-2, 0, -0.3], table = [[0, 1], [100, 1]], start_s = -10{front} }}]"
+        )
+    };
+    let sheared = "shear_1_s = [[0, 3, 0], [0, 0, 0], [0, 5, 0]]";
+    let of = |place: &str, stream: &str| lift(place, &format!("{stream}\n{sheared}"));
+    let same = [
+        lift("", "stream_m_s = [-2, 0, -0.3]"),
+        lift("velocity_m_s = [2, 0, 0.3]", ""),
+        lift("", &gust("")),
+        lift("", &gust(", front_m_s = [-3, 0, 0]")),
+    ];
+    let shears = [
+        of("", "stream_m_s = [-2, 0, -0.3]"),
+        of("position_m = [0, 10, 0]", "stream_m_s = [-32, 0, -50.3]"),
+        of("velocity_m_s = [2, 0, 0.3]", ""),
+        of(
+            "velocity_m_s = [1, 0, 0]\nposition_m = [0, -2, 0]",
+            "stream_m_s = [5, 0, 9.7]",
+        ),
+    ];
+    assert!(same[0][0] > 0.4 * same[0][300], "{:?}", &same[0][..2]); // Wagner's half
+    for all in [same, shears] {
+        for other in &all[1..] {
+            let off = apart(&all[0], other);
+            assert!(off < 1e-11, "{off:e}"); // rounding of 50 m/s beside 0.3 m/s; it was 1
+        }
+    }
+}
+
+/// Wings that beat in a shear, seen from another origin.
+#[test]
+fn invariant_wings_that_beat_in_a_shear_wherever_the_origin_is() {
+    let flown = |set: &[&str]| -> Vec<f64> {
+        let own = [
+            "air.blade.unsteady=peters",
+            "air.shear_1_s=[[0,0,20],[0,0,0],[0,0,0]]",
+            "time.beats=2",
+        ];
+        let all: Vec<String> = own.iter().chain(set).map(|s| (*s).to_owned()).collect();
+        let case = LoadedCase::find("fruit-fly-blade", &all).unwrap();
+        let mut flight = Simulation::new(case.setup).unwrap();
+        let mut force = vec![];
+        while !flight.finished() {
+            force.push(flight.step().unwrap().air_force().x);
+        }
+        force
+    };
+    let near = flown(&["air.stream_m_s=[-0.5,0,0]"]);
+    let far = flown(&["air.stream_m_s=[1.5,0,0]", "flight.position_m=[0,0,-0.1]"]);
+    let off = apart(&near, &far);
+    assert!(off < 1e-9, "{off:e}"); // rounding, which a flight that is free makes more of
+}
+
 fn apart(a: &[f64], b: &[f64]) -> f64 {
     let most = a.iter().map(|x| x.abs()).fold(0.0, f64::max);
     let pairs = a.iter().zip(b);

@@ -16,6 +16,7 @@ mod loops_on_wings;
 mod measured;
 mod meshes;
 mod mirrored_joints;
+mod named;
 mod outlines;
 mod passive_work;
 mod presets;

@@ -12,6 +12,10 @@
 //! L = L_lattice + A D q - A q'        q' = (R^T a - w x v, alpha)
 //! ```
 //!
+//! Velocities are those through the undisturbed air at the wing's origin, as the lattice's are. What the wind
+//! beside the stream changes from step to step stays in `L_lattice`: it is no motion of the wing, and jumps of
+//! gusts have no rate to take its place. So a uniform wind is a stream.
+//!
 //! Where one half of the air is computed, the loads of a wing hold the rates of its image: of both D q the mean
 //! is taken out, or what parts the two wings by rounding would feed itself.
 //!
@@ -24,6 +28,7 @@ use wingbeat_math::DVec3;
 use crate::error::FlightError;
 use crate::interface::{Air, AirScratch, Instant, WingInertia};
 use crate::memory::AirMemory;
+use wingbeat_air::Wind;
 
 /// Wings that hang on free joints, or all of a flyer that is light as a whole.
 #[derive(Clone, Debug, Default)]
@@ -31,9 +36,10 @@ pub struct CarriedAir {
     wings: Vec<usize>,
     /// Where one half of the air is computed: pairs of places in `wings` that are mirror images of each other.
     pairs: Vec<[usize; 2]>,
-    /// Velocity of the undisturbed air, N components \[m/s\]: rates are those of velocities through it, as the
-    /// lattice's are.
+    /// Velocity of the undisturbed air without wind, N components \[m/s\].
     stream: DVec3,
+    /// What is added to it.
+    wind: Wind,
 }
 
 /// What is remembered of such a wing.
@@ -44,6 +50,8 @@ pub struct CarriedState {
     linear: [DVec3; 2],
     /// Angular velocities \[rad/s\] in these steps, wing components.
     angular: [DVec3; 2],
+    /// Wind beside the stream at its origin \[m/s\] in these steps, N components.
+    wind: [DVec3; 2],
 }
 
 /// What the air answered in this step.
@@ -51,6 +59,8 @@ pub struct CarriedState {
 pub struct CarriedScratch {
     at: Option<f64>,
     answers: Vec<Option<(AddedMass, [f64; 3])>>,
+    /// Wind beside the stream at the wings' origins [m/s], N components.
+    winds: Vec<DVec3>,
     /// What the loads of the wings hold of it as differences over steps.
     held: Vec<Wrench>,
 }
@@ -98,14 +108,17 @@ impl CarriedAir {
         let pairs = pairs.filter_map(|[a, b]| Some([place(*a)?, place(*b)?]));
         Self {
             pairs: pairs.collect(),
-            wings: self.wings.clone(),
-            stream: self.stream,
+            ..self
         }
     }
 
-    /// The same in air of this velocity, N components [m/s].
-    pub fn in_stream(self, stream: DVec3) -> Self {
-        Self { stream, ..self }
+    /// The same in air of this velocity, N components [m/s], to which this wind is added.
+    pub fn in_air(self, stream: DVec3, wind: Wind) -> Self {
+        Self {
+            stream,
+            wind,
+            ..self
+        }
     }
 
     /// Whether there are none.
@@ -140,11 +153,14 @@ impl CarriedAir {
             }
             s.at = Some(at.time);
         }
+        let origins = self.wings.iter().map(|w| at.motions[w + 1].p);
+        s.winds.clear();
+        s.winds.extend(origins.map(|p| self.wind.at(p, at.time)));
         s.held.clear();
-        for (answer, state) in s.answers.iter().zip(states) {
+        for ((answer, state), wind) in s.answers.iter().zip(states).zip(&s.winds) {
             let held = answer.as_ref().map(|(mass, weights)| {
                 let m = &at.motions[mass.body()];
-                mass.wrench(m, &state.rate(m, self.stream, *weights))
+                mass.wrench(m, &state.rate(m, [self.stream, *wind], *weights))
             });
             s.held.push(held.unwrap_or_default());
         }
@@ -162,12 +178,14 @@ impl CarriedAir {
         Ok(())
     }
 
-    /// Accepts bodies that move like `motions`.
-    pub fn accept(&self, motions: &[BodyMotion], states: &mut [CarriedState]) {
-        for (state, w) in states.iter_mut().zip(&self.wings) {
+    /// Accepts bodies that move like `motions`, for which `s` was asked last.
+    pub fn accept(&self, motions: &[BodyMotion], s: &CarriedScratch, states: &mut [CarriedState]) {
+        for ((state, w), &wind) in states.iter_mut().zip(&self.wings).zip(&s.winds) {
             let m = &motions[w + 1];
-            state.linear = [m.r.transpose() * (m.v - self.stream), state.linear[0]];
+            let through = m.v - (self.stream + wind);
+            state.linear = [m.r.transpose() * through, state.linear[0]];
             state.angular = [m.w, state.angular[0]];
+            state.wind = [wind, state.wind[0]];
         }
     }
 }
@@ -182,18 +200,21 @@ fn reflected(load: &Wrench, normal: DVec3) -> Wrench {
 }
 
 impl CarriedState {
-    /// The difference over steps of the velocities of a wing that moves like `m` in this stream, as an acceleration.
+    /// The difference over steps of the velocities of a wing that moves like `m` in this stream and wind, as an
+    /// acceleration.
     fn rate(
         &self,
         m: &BodyMotion,
-        stream: DVec3,
+        [stream, wind]: [DVec3; 2],
         [now, before, earlier]: [f64; 3],
     ) -> BodyAcceleration {
-        let v = m.r.transpose() * (m.v - stream);
+        let v = m.r.transpose() * (m.v - (stream + wind));
         let difference =
             |x: DVec3, past: &[DVec3; 2]| now * x + before * past[0] + earlier * past[1];
+        // The weights add up to 0.
+        let blows = before * (self.wind[0] - wind) + earlier * (self.wind[1] - wind);
         BodyAcceleration {
-            linear: m.r * (difference(v, &self.linear) + m.w.cross(v)),
+            linear: m.r * (difference(v, &self.linear) + m.w.cross(v)) + blows,
             angular: difference(m.w, &self.angular),
         }
     }

@@ -395,7 +395,7 @@ impl Equations {
         (wings, carried): (&mut [ElasticState], &mut [CarriedState]),
         s: &Scratch,
     ) -> Result<(), FlightError> {
-        self.carried.accept(&s.motions, carried);
+        (self.carried).accept(&s.motions, &s.carried_air, carried);
         (self.elastic).accept(&s.solution.bodies, &s.elastic, wings);
         self.air.accept(air, &s.air_scratch)
     }

@@ -89,7 +89,7 @@ impl FreeFlight {
             let (key, value) = match setup.air.strip_wakes() {
                 Some(Unsteady::Jones) => ("air.blade.unsteady", "jones"),
                 Some(Unsteady::Peters { .. }) => ("air.blade.unsteady", "peters"),
-                None => ("air.model", setup.air.name()),
+                None => ("air.model", setup.air.key_value()),
             };
             return Err(FlightError::Setup {
                 key,

@@ -150,7 +150,7 @@ fn carried(
         true => CarriedAir::of_all(wings),
         false => on_joints,
     }
-    .in_stream(options.lattice.free_stream);
+    .in_air(options.lattice.free_stream, options.lattice.wind.clone());
     match options.mirror {
         true => carried.mirrored(&wing_pairs(&setup.animal)),
         false => carried,

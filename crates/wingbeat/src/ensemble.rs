@@ -10,8 +10,8 @@ use crate::value::Flight;
 
 /// Flies `flight` so many times as there are `members`, at least two, over `threads` (0: as many as the machine
 /// has): the first as it is, in the others the air moves by a millionth of the wings' speed (length over
-/// period, or that of the stream), each in a direction of its own, all in the plane of symmetry where half is
-/// computed. What separated flow makes of that is its uncertainty, as soon as the members have parted; until
+/// period, or that of the stream), each in a direction of its own, all along a ground and, where half is
+/// computed, the plane of symmetry. What separated flow makes of that is its uncertainty, as soon as the members have parted; until
 /// then they are one flight. Where the senses of a controller are noisy, each member has noise of its own
 /// (seeds that count on from that of the case), and is a flight of its own from the start. The same bits on any
 /// number of threads.

@@ -184,9 +184,9 @@ fn refuses_what_has_no_map_of_a_beat() {
         (
             "derivatives",
             "fruit-fly-hover",
-            "air.model = vortex lattice",
+            "air.model = vortex_lattice",
         ),
-        ("stabilise", "fruit-fly-hover", "air.model = vortex lattice"),
+        ("stabilise", "fruit-fly-hover", "air.model = vortex_lattice"),
         ("trim", "fruit-fly-vacuum", "there is no air"),
     ] {
         let said = refused(dir, 2, &[command, case]);

@@ -139,6 +139,9 @@ fn refuses_air_that_goes_through_a_ground() {
             other => panic!("{part}: {:?}", other.map(|_| ())),
         }
     }
+    let across_stream = vec![plane(DVec3::X, -2.0 * DVec3::X)];
+    let through = beside(Wind::default(), across_stream).err();
+    assert_eq!(through, Some(AirError::WindThroughPlane { part: "stream" }));
     let along = [
         gust(DVec3::new(1.0, 2.0, 0.0), DVec3::Z),
         shear(rising(0, 2)),

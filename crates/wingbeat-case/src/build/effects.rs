@@ -6,7 +6,7 @@ use wingbeat_model::motion::{Adjustment, AngleLaw, AngleLaws};
 use wingbeat_model::planform::Spacing;
 
 use super::fault::{Built, idle};
-use super::wingless;
+use super::{model_keys, wingless};
 use crate::error::Fault;
 use crate::raw::{
     AdjustCase, AirModel, Case, Formulation, JointCase, Mode, MotionCase, StartCase, TetherCase,
@@ -25,6 +25,7 @@ pub(crate) fn check(case: &Case, setup: &FlightSetup, source: &CaseSource) -> Bu
     joints(case)?;
     frames(case, source)?;
     wingless::check(case, source)?;
+    model_keys::check(case, source)?;
     senses(case, source)?;
     loads(case, source)?;
     for (name, spring) in &case.spring {
@@ -267,14 +268,16 @@ fn adjustments(case: &Case, setup: &FlightSetup) -> Built<()> {
     Ok(())
 }
 
+/// Whether all angles of the wing are constant, and its shape is, too.
+pub(crate) fn is_still(wing: &Wing) -> bool {
+    let is_constant = |law: &AngleLaw| matches!(law, AngleLaw::Constant(_));
+    let AngleLaws { phi, theta, psi } = &wing.motion.angles;
+    [phi, theta, psi].into_iter().all(is_constant) && wing.deformation.is_none()
+}
+
 /// Phase and length of the start of wings whose angles are all constant.
 fn still_motion(case: &Case, setup: &FlightSetup) -> Built<()> {
     let wings = &setup.animal.wings;
-    let is_constant = |law: &AngleLaw| matches!(law, AngleLaw::Constant(_));
-    let is_still = |w: &Wing| {
-        let AngleLaws { phi, theta, psi } = &w.motion.angles;
-        [phi, theta, psi].into_iter().all(is_constant) && w.deformation.is_none()
-    };
     if wings.is_empty() || !wings.iter().all(is_still) || !case.joint.is_empty() {
         return Ok(());
     }

@@ -106,7 +106,7 @@ fn refused(case: &AirCase, error: &AirError) -> Fault {
     };
     Fault::new(
         key,
-        format!("{value}{unit} does not fit the other settings"),
+        format!("{value}{unit} does not fit {}", beside(case, key)),
         *allowed,
         match key {
             "air.loads" => {
@@ -120,12 +120,31 @@ fn refused(case: &AirCase, error: &AirError) -> Fault {
     )
 }
 
+/// What the value of `key` does not fit: the other key with its value, where it is one.
+fn beside(case: &AirCase, key: &str) -> String {
+    let leading = || {
+        let value = toml::Value::try_from(case.leading_edge);
+        value.map_or_else(
+            |_| "air.leading_edge".to_owned(),
+            |v| format!("air.leading_edge = {v}"),
+        )
+    };
+    match key {
+        "air.loads" => leading(),
+        "air.max_wake_rows" | "air.plane_wakes" if case.particles.is_some() => {
+            "air.particles".to_owned()
+        }
+        "air.max_wake_rows" if case.max_wake_rows == Some(1) => leading(),
+        _ => "the other settings".to_owned(),
+    }
+}
+
 /// The key of a case that a setting of the lattice comes from.
 pub(super) fn key_of(setting: &str) -> &'static str {
     match setting {
         "density" => "air.density_kg_m3",
         "shedding" => "air.shed",
-        "free_stream" => "air.stream_m_s",
+        "free_stream" | "stream" => "air.stream_m_s",
         "bound_core" => "air.bound_core",
         "wake_core" => "air.wake_core",
         "wake_overlap" => "air.wake_overlap",

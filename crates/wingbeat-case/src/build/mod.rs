@@ -16,6 +16,7 @@ mod joint;
 mod lattice;
 mod lengths;
 mod mirrored;
+mod model_keys;
 mod motion;
 mod names;
 mod numbers;
@@ -31,7 +32,7 @@ mod wind;
 mod wing;
 mod wingless;
 
-pub(crate) use effects::check as check_effects;
+pub(crate) use effects::{check as check_effects, is_still};
 pub(crate) use motion::radians;
 pub use names::column_name;
 pub(crate) use output::output;

@@ -97,6 +97,10 @@ fn of_lattice(error: &AirError) -> (String, &'static str) {
             "air.ground".to_owned(),
             "lower the ground, start higher, or leave the key out",
         ),
+        AirError::WindThroughPlane { .. } => (
+            "air.ground".to_owned(),
+            "turn the plane or the wind, or leave the key out",
+        ),
         AirError::Empty => (
             "air.model".to_owned(),
             "add a wing, set air.body = true, or fly without air",

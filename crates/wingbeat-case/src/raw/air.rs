@@ -27,7 +27,7 @@ pub struct AirCase {
     /// Change it to `blade_element` for speed, to `none` to see what inertia alone does.
     #[default(AirModel::VortexLattice)]
     pub model: AirModel,
-    /// Density of the air.
+    /// Density of the air; of derivatives, those of `air.derivatives.dimensionless` ask for it.
     ///
     /// Change it for another altitude or fluid.
     #[default = 1.225]

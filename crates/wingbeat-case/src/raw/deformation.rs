@@ -28,7 +28,8 @@ pub struct DeformationCase {
     #[schemars(extend("with" = "no surface"))]
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub twist: Vec<TwistCase>,
-    /// Height of the mean line over the local chord, positive towards -axis 3.
+    /// Height of the mean line over the local chord, positive towards -axis 3. The vortex lattice takes it; blade
+    /// elements leave it out beside twist and bending, and refuse it alone.
     ///
     /// Change it to what was measured; terms add up.
     #[schemars(extend("with" = "no surface"))]

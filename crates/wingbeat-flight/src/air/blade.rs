@@ -152,7 +152,6 @@ impl BladeAir {
             motion: *m,
             time: t,
             remembered: lag.and_then(Lag::since),
-            begins: lag.is_some_and(Lag::begins),
         }
     }
 
@@ -332,8 +331,6 @@ struct WindOn<'a> {
     time: f64,
     /// When the strips' memory was accepted \[s\], where they have one.
     remembered: Option<f64>,
-    /// Whether they remember nothing yet.
-    begins: bool,
 }
 
 impl LocalWind for WindOn<'_> {
@@ -363,10 +360,7 @@ impl LocalWind for WindOn<'_> {
             return [DVec3::ZERO; 2];
         }
         let [now, rate] = self.wind.at_once(self.time);
-        let before = match self.begins {
-            true => DVec3::ZERO,
-            false => self.remembered.map_or(now, |t| self.wind.at_once(t)[0]),
-        };
+        let before = self.remembered.map_or(now, |t| self.wind.at_once(t)[0]);
         [now - before, rate].map(|x| self.motion.r.transpose() * x)
     }
 

@@ -39,6 +39,18 @@ impl AirModel {
         }
     }
 
+    /// The value of the key `air.model` of a case, for messages; of a model that has none what it is called.
+    pub fn key_value(&self) -> &'static str {
+        match self {
+            Self::None => "none",
+            Self::BladeElement(_) => "blade_element",
+            Self::VortexLattice(_) => "vortex_lattice",
+            Self::Derivatives(_) => "derivatives",
+            Self::External(_) => "external",
+            Self::Own(_) => self.name(),
+        }
+    }
+
     /// Whether there is air.
     pub fn is_some(&self) -> bool {
         !matches!(self, Self::None)

@@ -1,11 +1,11 @@
-//! Cases that a trim writes, ensembles of noisy flights, and signals, under feedback.
+//! Cases that a trim writes, ensembles, and signals, under feedback.
 
 use std::fs;
 use std::process::{Command, Stdio};
 use std::thread::sleep;
 use std::time::Duration;
 
-use wingbeat::analysis::TrimProblem;
+use wingbeat::analysis::{TrimProblem, ensemble::member};
 use wingbeat::case::{LoadedCase, trimmed_case};
 use wingbeat::flight::Simulation;
 use wingbeat::math::DVec3;
@@ -69,6 +69,48 @@ fn behaves_members_of_a_noisy_flight_scatter() {
     // The first member is the case itself.
     let silent = fly(&["time.beats=2"]).setup;
     assert!(!ensemble(&Flight::from(silent), 2, 0).unwrap().is_noisy);
+}
+
+/// No air goes through a ground, a wall or the plane of symmetry: members of an ensemble have their wind along them.
+#[test]
+fn behaves_members_of_an_ensemble_fly_beside_grounds_and_walls() {
+    let cases = [
+        ("[0,0,1]", false),
+        ("[1,0,0]", false),
+        ("[0,1,0]", false),
+        ("[0.3,0.2,-2]", false),
+        ("[0,0,1]", true),
+        ("[2,0,1]", true),
+        ("[0,1,0]", true),
+    ];
+    for (normal, mirror) in cases {
+        let set = [
+            format!("air.ground.normal={normal}"),
+            "air.ground.point_m=[0.02,0.02,0.02]".to_owned(),
+            format!("air.mirror={mirror}"),
+            "time.steps_per_beat=20".to_owned(),
+            "wing.right.mesh.chordwise=2".to_owned(),
+            "wing.right.mesh.spanwise=4".to_owned(),
+        ];
+        let setup = LoadedCase::find("fruit-fly-hover", &set)
+            .unwrap_or_else(|e| panic!("{e}"))
+            .setup;
+        let mut streams = vec![];
+        for k in 0..5 {
+            let member = member(&setup, k, 5).unwrap();
+            streams.push(member.air.stream().unwrap());
+            let mut flight = Simulation::new(member)
+                .unwrap_or_else(|e| panic!("{normal}, mirror {mirror}, member {k}: {e}"));
+            flight
+                .step()
+                .unwrap_or_else(|e| panic!("{normal}, mirror {mirror}, member {k}: {e}"));
+        }
+        assert_eq!(streams[0], DVec3::ZERO);
+        assert!(
+            streams[1..].iter().all(|s| s.length() > 1e-7),
+            "{streams:?}"
+        );
+    }
 }
 
 /// A signal while the controller is laid out ends the program with the code that its help promises, and a sentence.

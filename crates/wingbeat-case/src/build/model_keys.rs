@@ -1,0 +1,57 @@
+//! Keys that the chosen model of the air does not take, where no single key tells.
+
+use super::fault::{Built, idle};
+use crate::error::Fault;
+use crate::raw::{AirCase, AirModel, Case, DerivativesCase};
+use crate::source::CaseSource;
+
+/// Where the model is chosen.
+const MODEL: &str = "air.model";
+
+/// Checks what the case says of the air and of the shape of its wings. Keys of the file stand by where the command
+/// line chose another model.
+pub(super) fn check(case: &Case, source: &CaseSource) -> Built<()> {
+    match case.air.model {
+        AirModel::Derivatives => density(&case.air, source),
+        AirModel::BladeElement => camber(case, source),
+        AirModel::VortexLattice | AirModel::External | AirModel::None => Ok(()),
+    }
+}
+
+fn stands_by(source: &CaseSource, key: &str) -> bool {
+    source.chooses(MODEL) && !source.touches(key)
+}
+
+/// Derivatives with dimensions hold the density; the default may stand, as resolved cases have it.
+fn density(air: &AirCase, source: &CaseSource) -> Built<()> {
+    const KEY: &str = "air.density_kg_m3";
+    let has_dimensions = |d: &DerivativesCase| d.dimensionless.is_none();
+    let changed = air.density_kg_m3 != AirCase::default().density_kg_m3 && source.gives(KEY);
+    match air.derivatives.as_ref().is_some_and(has_dimensions) && changed {
+        true if !stands_by(source, KEY) => Err(idle(
+            KEY,
+            "beside air.derivatives with dimensions, which hold the density: only air.derivatives.dimensionless asks for it",
+        )),
+        _ => Ok(()),
+    }
+}
+
+/// Blade elements take twist and bending.
+fn camber(case: &Case, source: &CaseSource) -> Built<()> {
+    for (name, wing) in &case.wing {
+        let Some(deformation) = &wing.deformation else {
+            continue;
+        };
+        let bends = !deformation.twist.is_empty() || !deformation.bending.is_empty();
+        let key = format!("wing.{name}.deformation.camber");
+        if !deformation.camber.is_empty() && !bends && !stands_by(source, &key) {
+            return Err(Fault::new(
+                key,
+                "blade elements do not take the camber of wings, and nothing else deforms this one",
+                "camber with air.model = \"vortex_lattice\"; deformation.twist and bending with blade elements",
+                "remove it, put camber into the coefficients (air.blade.own), or fly in the vortex lattice",
+            ));
+        }
+    }
+    Ok(())
+}

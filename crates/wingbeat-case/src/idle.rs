@@ -1,0 +1,78 @@
+//! Keys that change nothing in this flight and are no contradiction: they are named, not refused.
+
+use wingbeat_flight::AirModel;
+
+use crate::build::is_still;
+use crate::loaded::LoadedCase;
+use crate::raw::{ControllerCase, MotionCase, TargetCase};
+
+impl LoadedCase {
+    /// Which keys change nothing, in sentences.
+    pub fn idle_keys(&self) -> Vec<String> {
+        [self.idle_biases(), self.idle_motion(), self.idle_camber()].concat()
+    }
+
+    /// How the beat of wings starts whose angles are all constant, as those of wings on joints that springs or
+    /// moments move.
+    fn idle_motion(&self) -> Vec<String> {
+        let (wings, motion) = (&self.setup.animal.wings, &self.raw.motion);
+        if wings.is_empty() || !wings.iter().all(is_still) {
+            return vec![];
+        }
+        let plain = MotionCase::default();
+        let keys = [
+            ("phase", motion.phase != plain.phase),
+            ("start", motion.start != plain.start),
+            ("start_beats", motion.start_beats != plain.start_beats),
+        ];
+        let acts = keys.into_iter().filter(|k| k.1);
+        acts.map(|(key, _)| {
+            format!("motion.{key} changes nothing: no wing has angles that vary over the beat (wing.NAME.motion), and laws of joints have phases of their own")
+        })
+        .collect()
+    }
+
+    /// Camber that blade elements leave out.
+    fn idle_camber(&self) -> Vec<String> {
+        let blades = matches!(self.setup.air, AirModel::BladeElement(_));
+        let wings = self.raw.wing.iter().filter(|_| blades);
+        let has = wings.filter(|(_, w)| {
+            let deformation = w.deformation.as_ref();
+            deformation.is_some_and(|d| !d.camber.is_empty())
+        });
+        has.map(|(name, _)| {
+            format!("wing.{name}.deformation.camber changes nothing: blade elements take twist and bending of the wings; camber is in their coefficients, or fly in the vortex lattice")
+        })
+        .collect()
+    }
+
+    /// Biases of `control.sensors`: with `control.hold = "start"` the flight that is held is what the first look sees,
+    /// bias and all.
+    fn idle_biases(&self) -> Vec<String> {
+        let control = self.raw.control.as_ref();
+        let Some(control) = control.filter(|_| self.setup.feedback.is_some()) else {
+            return vec![];
+        };
+        let held_as_seen = control.hold == TargetCase::Start
+            && matches!(
+                control.controller,
+                ControllerCase::Regulator | ControllerCase::Stabiliser
+            );
+        let Some(sensors) = control.sensors.as_ref().filter(|_| held_as_seen) else {
+            return vec![];
+        };
+        let biases = [
+            ("velocity_bias_m_s", sensors.velocity_bias_m_s),
+            ("tilt_bias_deg", sensors.tilt_bias_deg),
+            ("rate_bias_deg_s", sensors.rate_bias_deg_s),
+        ];
+        let given = biases.iter().filter(|(_, bias)| *bias != [0.0; 3]);
+        given
+            .map(|(key, bias)| {
+                format!(
+                    "control.sensors.{key} = {bias:?} changes next to nothing: with control.hold = \"start\" the flight that is held is what the first look sees, bias and all; control.hold = \"trim\" holds one that is known"
+                )
+            })
+            .collect()
+    }
+}

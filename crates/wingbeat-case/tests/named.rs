@@ -1,0 +1,109 @@
+//! Keys that change nothing in a flight, or do not fit each other: by name.
+
+use wingbeat_case::LoadedCase;
+
+#[test]
+fn behaves_biases_that_the_flight_that_is_held_has_too_are_named() {
+    let said = |hold: &str, bias: &str| {
+        let set = [
+            format!("control.hold={hold}"),
+            format!("control.sensors={{{bias}}}"),
+        ];
+        let case = LoadedCase::find("fruit-fly-controlled", &set).unwrap();
+        case.idle_keys()
+    };
+    for key in ["velocity_bias_m_s", "tilt_bias_deg", "rate_bias_deg_s"] {
+        let bias = format!("{key}=[0,0.5,0]");
+        let [doubt] = &said("start", &bias)[..] else {
+            panic!("{key}")
+        };
+        assert!(
+            doubt.contains(key) && doubt.contains("control.hold"),
+            "{doubt}"
+        );
+        assert_eq!(said("trim", &bias), [""; 0]);
+    }
+    assert_eq!(said("start", "tilt_noise_deg=1"), [""; 0]);
+}
+
+/// Angles that do not vary have no phase and no start, whatever joints do; blade elements leave camber out.
+#[test]
+fn behaves_keys_that_change_nothing_in_this_flight_are_named() {
+    let said = |preset: &str, set: &[&str]| {
+        let set: Vec<String> = set.iter().map(|s| (*s).to_owned()).collect();
+        LoadedCase::find(preset, &set).unwrap().idle_keys()
+    };
+    let still =
+        "wing.right.motion={ phi.constant_deg = 0, theta.constant_deg = 0, psi.constant_deg = 0 }";
+    let hinge = "joint.hinge={ child = \"right\", kind = \"revolute\", axis = [0, 1, 0], element = [{ moment_newton_m = { sine = [1e-6] } }] }";
+    for (set, key) in [
+        ("motion.phase=0.3", "motion.phase"),
+        ("motion.start=impulsive", "motion.start"),
+        ("motion.start_beats=0.5", "motion.start_beats"),
+    ] {
+        let all = [&["motion={ frequency_hz = 200 }", still, hinge][..], &[set]].concat();
+        let [doubt] = &said("fruit-fly-blade", &all)[..] else {
+            panic!("{key}")
+        };
+        assert!(
+            doubt.starts_with(&format!("{key} changes nothing")),
+            "{doubt}"
+        );
+        assert_eq!(
+            said("fruit-fly-blade", &["motion.start=smooth", set]),
+            [""; 0]
+        );
+    }
+    let camber = "wing.right.deformation={ camber = [{ linear = [0, 0.1] }], twist = [{ linear_deg = [0, 5] }] }";
+    let [doubt] = &said("fruit-fly-blade", &[camber])[..] else {
+        panic!("camber")
+    };
+    assert!(
+        doubt.starts_with("wing.right.deformation.camber changes nothing"),
+        "{doubt}"
+    );
+    assert_eq!(said("fruit-fly-hover", &[camber]), [""; 0]);
+}
+
+#[test]
+fn refuses_camber_alone_in_blade_elements() {
+    let camber = "wing.right.deformation={ camber = [{ linear = [0, 0.1] }] }".to_owned();
+    let refused = LoadedCase::find("fruit-fly-blade", std::slice::from_ref(&camber))
+        .err()
+        .unwrap()
+        .to_string();
+    let key = "wing.right.deformation.camber";
+    assert!(
+        refused.contains(key) && refused.contains("do not take the camber"),
+        "{refused}"
+    );
+    assert!(LoadedCase::find("fruit-fly-hover", &[camber]).is_ok());
+}
+
+#[test]
+fn refuses_keys_of_the_lattice_by_what_they_do_not_fit() {
+    for (set, said) in [
+        (
+            ["air.leading_edge=vortex_lift", "air.loads=pressure"],
+            "pressure does not fit air.leading_edge = \"vortex_lift\"",
+        ),
+        (
+            [
+                "air.particles={after_rows=3,radius_m=1e-4}",
+                "air.max_wake_rows=30",
+            ],
+            "30 does not fit air.particles",
+        ),
+        (
+            ["air.leading_edge=suction", "air.max_wake_rows=1"],
+            "1 does not fit air.leading_edge = \"suction\"",
+        ),
+    ] {
+        let set = set.map(str::to_owned);
+        let refused = LoadedCase::find("fruit-fly-hover", &set)
+            .err()
+            .unwrap()
+            .to_string();
+        assert!(refused.lines().next().unwrap().contains(said), "{refused}");
+    }
+}
