@@ -6,12 +6,14 @@ use clap::builder::styling::{AnsiColor, Styles};
 use clap::{Args, Parser, Subcommand};
 use clap_complete::Shell;
 
-use super::help::MAX_WIDTH;
 use super::report::ReportArgs;
 use super::target::folder;
 use super::{
     analyse, campaign, check, ensemble, export, new, plot, run, show, velocity, verify, view,
 };
+
+/// Columns of the help at most.
+pub(crate) const MAX_WIDTH: usize = 100;
 
 /// Colours of help and errors, as cargo has them.
 pub(crate) const STYLES: Styles = Styles::styled()

@@ -10,15 +10,13 @@ use clap_complete::Shell;
 use wingbeat::case::{nearest, presets};
 use wingbeat::results::file::{Existing, NewFile, make_folder};
 
-use crate::command::cli::{Cli, ManArgs, STYLES};
+use crate::command::cli::{Cli, MAX_WIDTH, ManArgs, STYLES};
 use crate::command::failure::Failure;
 use crate::command::terminal::{self, say};
 
 /// Name of the program.
 const PROGRAM: &str = "wingbeat";
 
-/// Columns of the help at most.
-pub(crate) const MAX_WIDTH: usize = 100;
 /// Columns before the descriptions of commands.
 const INDENT: usize = 14;
 

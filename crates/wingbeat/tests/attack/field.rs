@@ -41,6 +41,7 @@ impl Field {
         fs::write(dir.join("case.toml"), QUICK).unwrap();
         fs::write(dir.join("mine.txt"), "mine").unwrap();
         fs::create_dir(dir.join("folder")).unwrap();
+        fs::write(dir.join("folder/mine.txt"), "mine").unwrap();
         flown(&dir, &["run", "case.toml", "--quiet", "--out", "r"]);
         Self {
             before: contents(&dir),
