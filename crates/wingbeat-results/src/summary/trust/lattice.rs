@@ -67,6 +67,7 @@ fn motion(setup: &FlightSetup, list: &mut Warnings) {
     }
     let by_motion = [
         setup.one_sided_leading_edges(),
+        setup.long_steps_one_way(),
         setup.tips_of_attached_wings(),
     ];
     for text in by_motion.into_iter().flatten() {
