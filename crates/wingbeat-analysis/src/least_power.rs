@@ -55,6 +55,10 @@ pub fn trim_within(setup: &FlightSetup, problem: &TrimProblem) -> Result<Trim, A
 /// To what the search determines the spare unknowns \[1, rad\].
 const RESOLUTION: f64 = 1e-5;
 
+/// By how much the search is kept inside the bounds of determined unknowns: more than it ends beyond its own limits, less
+/// than it resolves \[1, rad\].
+const MARGIN: f64 = 2e-6;
+
 /// Cost of a point without a trim, over that of the first.
 const LOST: f64 = 10.0;
 
@@ -134,7 +138,7 @@ impl<'a> Search<'a> {
             .iter()
             .chain(self.determined.iter().filter(asked));
         let is_reached = |b: &&Bound| {
-            let within = (10.0 * RESOLUTION).min(0.01 * (b.to - b.from));
+            let within = (3.0 * RESOLUTION).min(0.01 * (b.to - b.from));
             (found.value(b.unknown)).is_some_and(|x| b.is_reached(x, within))
         };
         bounds.filter(is_reached).map(|b| b.unknown).collect()
@@ -144,7 +148,9 @@ impl<'a> Search<'a> {
     /// bounds; where there is none, that at which the search ended.
     fn least(&self, start: &[f64], unit: f64) -> Vec<f64> {
         let cost = |x: &[f64], (): &mut ()| self.at(x).map_or(LOST, |f| f.power / unit);
-        let room = |k: usize| move |x: &[f64], (): &mut ()| self.at(x).map_or(-1.0, |f| f.room[k]);
+        let room = |k: usize| {
+            move |x: &[f64], (): &mut ()| self.at(x).map_or(-1.0, |f| f.room[k] - MARGIN)
+        };
         let constraints: Vec<_> = (0..=self.determined.len()).map(room).collect();
         let ranges: Vec<(f64, f64)> = self.spare.iter().map(|b| (b.from, b.to)).collect();
         let steps = ranges.iter().map(|(a, b)| (0.25 * (b - a)).min(FIRST_STEP));

@@ -23,7 +23,7 @@ mod numbers;
 mod sides;
 
 pub use doubts::jumping_rotation;
-pub(crate) use joints::slowest_on_springs;
+pub(crate) use joints::{chain, slowest_on_springs};
 pub use numbers::stroke_amplitude;
 pub use numbers::{Estimate, WingEstimate};
 

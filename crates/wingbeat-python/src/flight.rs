@@ -94,7 +94,7 @@ impl Flight {
             _ => return Ok(()),
         };
         let problem = format!("{problem}, and a wingbeat depends on those before it");
-        let remedy = "trim_with_wake(), which takes a memory along; without it air.model = \"blade_element\", no air.blade.unsteady, rigid wings";
+        let remedy = "air.model = \"blade_element\" without air.blade.unsteady and rigid wings; to trim such a flight trim_with_wake() takes the memory along";
         Err(refused(py, key, &problem, remedy))
     }
 }

@@ -191,7 +191,7 @@ STILL = FLY.set("motion.frequency_hz", 20.0)
         ([FLY, LIGHT, LOCUST.set("flight.mode", "tethered")], r"flight\[2\] \(locust-blade\): it is tethered", "flight.mode"),
         ([FLY.set("flight.held_beats", 3), FLY], r"flight\[0\] \(fruit-fly-blade\): its body is held", "flight.held_beats"),
         ([FLY, LIGHT, STILL, LOCUST, STILL], r"flight\[2\] \(fruit-fly-blade\): ", ""),
-        ([LOCUST, FLY.set("air.model", "vortex_lattice")], r"flight\[1\] \(fruit-fly-blade\): air.model = vortex", "air.model"),
+        ([LOCUST, FLY.set("air.model", "vortex_lattice")], r"flight\[1\] \(fruit-fly-blade\): air.model: the lattice has wakes", "air.model"),
     ],
 )
 def test_refuses_flights_by_number_and_name(flights, told, key):

@@ -279,7 +279,7 @@ fn exact_mass_properties_are_those_of_the_sheet() {
         DVec3::new(1.0, 0.5, 0.0),
         DMat3::from_diagonal(inertia),
     );
-    for (cols, middles) in [(6, 0), (2, 12)] {
+    for (cols, middles) in [(2, 0), (1, 6)] {
         let (sum, between) = sum_of(cols);
         assert_eq!(between, middles);
         assert!((sum.mass - exact.mass).abs() < 1e-15 * 10.0);

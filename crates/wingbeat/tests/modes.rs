@@ -327,7 +327,7 @@ fn behaves_wings_too_limp_to_fly_have_modes_and_are_doubted() {
     );
     assert!(out.contains("a sheet of 55 nodes"), "{out}");
     assert!(
-        err.contains("first frequency in vacuum times chord over speed 8.59e-5 is below"),
+        err.contains("first frequency in vacuum times chord over speed 8.60e-5 is below"),
         "{err}"
     );
     assert!(err.contains("did not agree after"), "{err}");

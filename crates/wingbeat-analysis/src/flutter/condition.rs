@@ -78,7 +78,8 @@ pub fn condition(
     let disturbance = Disturbance::new(&rig, (&state, &images), settings)?;
     let step = rig.setup.time.step;
     let sampling = Sampling::new(step, &steady, settings)?;
-    let slow_joint = slowest_on_springs(setup);
+    let length = sampling.length(step);
+    let slow = |wing: usize| slowest_on_springs(setup, wing).filter(|(_, t)| *t > length);
     let wings = (0..images.len()).filter(|&k| images[k].is_none());
     let stations: Vec<Stations> = wings.clone().map(|k| Stations::of(&rig, k)).collect();
     let flown = |part: f64| {
@@ -100,10 +101,8 @@ pub fn condition(
             steady: steady[k].clone(),
             nonlinearity: found.nonlinearity,
             disturbance: found.part * settings.disturbance,
-            length: sampling.length(step),
-            slow_joint: slow_joint
-                .clone()
-                .filter(|(_, t)| *t > sampling.length(step)),
+            length,
+            slow_joint: slow(steady[k].wing),
             response: identified.response,
         })
     };

@@ -7,6 +7,7 @@ use wingbeat_structure::NODE;
 use super::settings::FlutterSettings;
 use super::steady::{ElasticRig, SAME, SteadyWing, leading};
 use crate::AnalysisError;
+use crate::plausibility::chain;
 
 /// Stations along the span at which outputs are taken.
 const STATIONS: usize = 4;
@@ -104,8 +105,8 @@ fn check_antisymmetric(rig: &ElasticRig, image_of: &[Option<usize>]) -> Result<(
     }
 }
 
-/// Of each elastic wing in the steady state the wing before it that it is the mirror image of, deformed as it is, if
-/// there is one.
+/// Of each elastic wing in the steady state the wing before it that it is the mirror image of, deformed and damped as it
+/// is and on joints with the same springs, dampers and stops, if there is one.
 pub(crate) fn images(
     rig: &ElasticRig,
     state: &FlightState,
@@ -122,12 +123,20 @@ pub(crate) fn images(
         (0..at.len()).flat_map(node)
     };
     let side = |k: usize| rig.setup.animal.wings[rig.wing(k).wing()].side;
+    let damping = |k: usize| rig.wing(k).structure().damping();
+    let joints = |k: usize| {
+        let chain = chain(&rig.setup, rig.wing(k).wing());
+        let models = chain.into_iter().map(|j| j.model.elements.clone());
+        models.collect::<Vec<_>>()
+    };
     let is_image = |k: usize, other: usize| {
         let nodes = |k: usize| state.wings[k].structure.configuration.len();
         let sizes = [k, other].map(|k| rig.wing(k).structure().size());
         let mut numbers = shapes(k).zip(shapes(other)).enumerate();
         let mut frequencies = steady[k].vacuum.iter().zip(&steady[other].vacuum);
         side(k) != side(other)
+            && damping(k) == damping(other)
+            && joints(k) == joints(other)
             && nodes(k) == nodes(other)
             && (sizes[0] - sizes[1]).abs() < SAME * sizes[0]
             && numbers.all(|(n, (x, y))| (x - SIGNS[n % NODE] * y).abs() < SAME)

@@ -44,22 +44,50 @@ pub(super) fn doubts(setup: &FlightSetup, frequency: Option<f64>, list: &mut Dou
     }
 }
 
-/// The joint on whose springs what it carries, rigid and in a vacuum, vibrates most slowly, and the period \[s\]; none
-/// without springs.
-pub(crate) fn slowest_on_springs(setup: &FlightSetup) -> Option<(String, f64)> {
-    let of = |joint: &Joint| {
-        let elements = joint.model.elements.iter();
-        let periods = elements.filter_map(|element| match &element.law {
-            ElementLaw::Spring { stiffness, .. } | ElementLaw::Follow { stiffness, .. } => {
-                let inertia = inertia(setup, joint, element.direction)?;
-                Some(2.0 * PI * (inertia / stiffness).sqrt()).filter(|t| t.is_finite())
-            }
-            _ => None,
-        });
+/// The joints that carry a wing, from its own to that on the central body; none of a wing without a joint.
+pub(crate) fn chain(setup: &FlightSetup, wing: usize) -> Vec<&Joint> {
+    let mut found: Vec<&Joint> = vec![];
+    let mut body = Some(wing + 1);
+    while let Some(joint) = setup.joints.iter().find(|j| Some(j.child) == body) {
+        if found.iter().any(|j| std::ptr::eq(*j, joint)) {
+            break; // refused elsewhere
+        }
+        found.push(joint);
+        body = joint.parent;
+    }
+    found
+}
+
+/// The joint that carries a wing on whose springs what it carries vibrates most slowly, rigid and in a vacuum, and the
+/// period \[s\]; none without springs. The inertia of the wing and of the bodies between is counted about the joint that
+/// carries each: at least as much as that hangs on the spring.
+pub(crate) fn slowest_on_springs(setup: &FlightSetup, wing: usize) -> Option<(String, f64)> {
+    let chain = chain(setup, wing);
+    let of = |(place, joint): (usize, &&Joint)| {
+        let stiffness = |k: usize| -> f64 {
+            let elements = joint.model.elements.iter().filter(|e| e.direction == k);
+            let springs = elements.map(|element| match &element.law {
+                ElementLaw::Spring { stiffness, .. } | ElementLaw::Follow { stiffness, .. } => {
+                    *stiffness
+                }
+                _ => 0.0,
+            });
+            springs.sum()
+        };
+        let inertia = |k: usize| -> f64 {
+            let outward = chain[..=place].iter();
+            outward
+                .filter_map(|j| inertia_about(setup, j, joint, k))
+                .sum()
+        };
+        let directions = 0..joint.model.kind.directions();
+        let periods = directions
+            .map(|k| 2.0 * PI * (inertia(k) / stiffness(k)).sqrt())
+            .filter(|t| t.is_finite());
         let longest = periods.fold(0.0, f64::max);
         (longest > 0.0).then(|| (joint.name.clone(), longest))
     };
-    let all = setup.joints.iter().filter_map(of);
+    let all = chain.iter().enumerate().filter_map(of);
     all.max_by(|a, b| a.1.total_cmp(&b.1))
 }
 
@@ -84,8 +112,13 @@ fn beyond(joint: &Joint, q: f64, [lower, upper]: [f64; 2]) -> Option<String> {
 /// Moment of inertia \[kg m2\] of the child about the axis of free direction `k`, of one that turns; its mass
 /// \[kg\] of one that slides.
 fn inertia(setup: &FlightSetup, joint: &Joint, k: usize) -> Option<f64> {
+    inertia_about(setup, joint, joint, k)
+}
+
+/// The same of the child of `carried`, which stands as the child of `joint` does, in direction `k` of `joint`.
+fn inertia_about(setup: &FlightSetup, carried: &Joint, joint: &Joint, k: usize) -> Option<f64> {
     let system = system_of(setup).ok()?;
-    let mass = system.bodies().get(joint.child)?.mass;
+    let mass = system.bodies().get(carried.child)?.mass;
     let axis = match joint.model.kind {
         JointType::Prismatic { .. } => return Some(mass.mass).filter(|m| *m > 0.0),
         JointType::Revolute { axis } => axis,
@@ -94,7 +127,7 @@ fn inertia(setup: &FlightSetup, joint: &Joint, k: usize) -> Option<f64> {
         JointType::Weld => return None,
     };
     // Steiner, from the origin of the child to the joint.
-    let [a, s] = [joint.anchor_child, mass.first_moment].map(|x| x - x.dot(axis) * axis);
+    let [a, s] = [carried.anchor_child, mass.first_moment].map(|x| x - x.dot(axis) * axis);
     let about = axis.dot(mass.inertia * axis) - 2.0 * a.dot(s) + mass.mass * a.length_squared();
     Some(about).filter(|j| *j > 0.0)
 }

@@ -91,7 +91,9 @@ impl Kind {
     pub(super) fn needs(self) -> &'static str {
         match self {
             Self::Forces => "this flight has no air",
-            Self::Angles | Self::Lollipop => "no wing of this flight flaps",
+            Self::Angles | Self::Lollipop => {
+                "no wing flaps in this flight, or in no more of it than one step"
+            }
             Self::Beats => "this flight has no whole wingbeat",
             Self::Commands => "this flight has no feedback",
             Self::Bending => "no wing of this flight is elastic",

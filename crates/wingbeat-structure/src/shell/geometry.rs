@@ -114,7 +114,7 @@ fn roughness(x: [DVec2; 4]) -> [f64; 3] {
 
 /// A side is long if its square is more than this times that of the sides across \[1\]: no ratio of whole numbers, on
 /// which rounding would decide, lies on the border.
-const LONG: f64 = 2.5;
+const LONG: f64 = 10.0;
 
 /// Corners at the ends of the sides along the first natural coordinate and along the second.
 const SIDES: [[[usize; 2]; 2]; 2] = [[[0, 1], [3, 2]], [[0, 3], [1, 2]]];
