@@ -148,7 +148,7 @@ fn limit_frequencies_of_a_film_without_those_of_turning_nodes() {
     let exact = [2.0_f64, 5.0, 5.0, 8.0].map(|s| unit * s.sqrt());
     println!("{:?} {exact:?} {:?}", frequencies(&film), film.left_out);
     for (found, exact) in frequencies(&film).iter().zip(exact) {
-        assert!((found / exact - 1.0).abs() < 0.05, "{found} {exact}"); // 10 x 10 elements
+        assert!((found / exact - 1.0).abs() < 0.05, "{found} {exact}"); // 4.8 % less, 10 x 10 elements
     }
     assert!(film.left_out[0] > 0, "{:?}", film.left_out);
     // Of a solid sheet they are faster than what is asked for.
