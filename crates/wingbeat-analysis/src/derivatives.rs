@@ -1,65 +1,67 @@
 //! Control derivatives: mean loads by the means of steering, wing by wing.
 
-use wingbeat_flight::{FlightSetup, faster};
+use wingbeat_flight::FlightSetup;
 use wingbeat_math::{DMat3, DVec3};
-use wingbeat_model::motion::Adjustment;
-use wingbeat_model::{AngleLaw, Wing, WingMotion};
+use wingbeat_model::{AngleLaw, Wing};
 
 use crate::AnalysisError;
 use crate::beat::Beat;
 use crate::level::Level;
 use crate::mean::MeanLoad;
 use crate::progress;
+use crate::unknown::{Unknown, adjusted};
 
 /// A means of steering.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Control {
-    /// Relative change of the stroke amplitude \[1\].
-    StrokeAmplitude,
-    /// Mean stroke angle, positive forward \[rad\].
-    StrokeOffset,
-    /// Relative change of the frequency \[1\] (of all wings, and of the joints that are driven, only).
-    Frequency,
-    /// Stroke-plane pitch \[rad\].
-    StrokePlane,
-    /// Mean feathering angle \[rad\].
-    FeatheringOffset,
-    /// Lead of feathering \[wingbeats\].
-    FeatheringLead,
-    /// Mean deviation \[rad\].
-    DeviationOffset,
+    /// One that trims choose, too; the frequency (of all wings, and of the joints that are driven, only).
+    Trimmed(Unknown),
     /// Part of the beat that the first half stroke takes \[1\], of split-cycle strokes only.
     StrokeSplit,
 }
 
-/// All controls with their names.
-pub const CONTROL_NAMES: [(Control, &str); 8] = [
-    (Control::StrokeAmplitude, "stroke_amplitude"),
-    (Control::StrokeOffset, "stroke_offset"),
-    (Control::Frequency, "frequency"),
-    (Control::StrokePlane, "stroke_plane"),
-    (Control::FeatheringOffset, "feathering_offset"),
-    (Control::FeatheringLead, "feathering_lead"),
-    (Control::DeviationOffset, "deviation_offset"),
-    (Control::StrokeSplit, "stroke_split"),
-];
-
 impl Control {
-    /// The motion of `wing` with `x` of this control.
-    fn steered(self, wing: &Wing, x: f64) -> WingMotion {
-        let mut motion = wing.motion.clone();
-        let mut a = Adjustment::default();
+    /// All of them.
+    pub const ALL: [Self; 8] = [
+        Self::Trimmed(Unknown::StrokeAmplitude),
+        Self::Trimmed(Unknown::StrokeOffset),
+        Self::FREQUENCY,
+        Self::Trimmed(Unknown::StrokePlane),
+        Self::Trimmed(Unknown::FeatheringOffset),
+        Self::Trimmed(Unknown::FeatheringLead),
+        Self::Trimmed(Unknown::DeviationOffset),
+        Self::StrokeSplit,
+    ];
+
+    const FREQUENCY: Self = Self::Trimmed(Unknown::Frequency);
+
+    /// Name in reports.
+    pub fn name(self) -> &'static str {
         match self {
-            Self::StrokeAmplitude => a.stroke_amplitude = x,
-            Self::StrokeOffset => a.stroke_offset = x,
-            Self::Frequency => a.frequency = x,
-            Self::StrokePlane => a.stroke_plane = x,
-            Self::FeatheringOffset => a.feathering_offset = x,
-            Self::FeatheringLead => a.feathering_lead = x,
-            Self::DeviationOffset => a.deviation_offset = x,
-            Self::StrokeSplit => motion.angles.phi = motion.angles.phi.split_by(x),
+            Self::Trimmed(unknown) => unknown.name(),
+            Self::StrokeSplit => "stroke_split",
         }
-        motion.adjusted(wing.side, &a)
+    }
+
+    /// The flyer with `x` of this control of all wings, or of the wing `chosen`.
+    fn steered(self, setup: &FlightSetup, chosen: Option<usize>, x: f64) -> FlightSetup {
+        let mut all = match self {
+            Self::Trimmed(unknown) => adjusted(setup, &[unknown], [0.0; 2], &[x]).setup,
+            Self::StrokeSplit => {
+                let mut setup = setup.clone();
+                for wing in &mut setup.animal.wings {
+                    wing.motion.angles.phi = wing.motion.angles.phi.split_by(x);
+                }
+                setup
+            }
+        };
+        let wings = all.animal.wings.iter_mut().zip(&setup.animal.wings);
+        for (k, (wing, unsteered)) in wings.enumerate() {
+            if chosen.is_some_and(|c| c != k) {
+                wing.motion = unsteered.motion.clone();
+            }
+        }
+        all
     }
 
     /// Whether any of the wings answers to it.
@@ -95,30 +97,18 @@ pub fn control_derivatives(
     const STEP: f64 = 1e-4;
     let wings = setup.animal.wings.len();
     let mut list = vec![];
-    let had = CONTROL_NAMES
-        .iter()
-        .filter(|c| c.0.is_had(&setup.animal.wings));
-    let had: Vec<_> = had.copied().collect();
-    for (k, &(control, name)) in had.iter().enumerate() {
+    let had = Control::ALL.into_iter();
+    let had: Vec<_> = had.filter(|c| c.is_had(&setup.animal.wings)).collect();
+    for (k, &control) in had.iter().enumerate() {
+        let name = control.name();
         progress::task(&format!("derivatives by {name}"), k, had.len());
         let single = (0..wings)
             .map(Some)
-            .filter(|_| control != Control::Frequency);
+            .filter(|_| control != Control::FREQUENCY);
         for chosen in single.chain([None]) {
             let at = |x: f64| -> Result<MeanLoad, AnalysisError> {
-                let mut setup = setup.clone();
-                for (k, wing) in setup.animal.wings.iter_mut().enumerate() {
-                    if chosen.is_none_or(|c| c == k) {
-                        wing.motion = control.steered(wing, x);
-                    }
-                }
-                if control == Control::Frequency {
-                    for joint in &mut setup.joints {
-                        *joint = faster(joint, 1.0 + x);
-                    }
-                }
                 let level = Level::new(rotation, setup.gravity);
-                let beat = Beat::new(&setup, steps)?;
+                let beat = Beat::new(&control.steered(setup, chosen, x), steps)?;
                 beat.mean_load(&level, velocity, DVec3::ZERO)
             };
             let (plus, minus) = (at(STEP)?, at(-STEP)?);

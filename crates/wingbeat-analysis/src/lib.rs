@@ -71,7 +71,7 @@ pub mod wake;
 mod wing_modes;
 
 pub use beat::{Beat, Integration, State};
-pub use derivatives::{CONTROL_NAMES, Control, ControlDerivative, control_derivatives};
+pub use derivatives::{Control, ControlDerivative, control_derivatives};
 pub use eigen::{Eigenpair, eigen};
 pub use error::AnalysisError;
 pub use flutter::{Condition, FlutterSettings};

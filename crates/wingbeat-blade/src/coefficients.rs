@@ -111,26 +111,6 @@ impl Translation {
         }
         Ok(())
     }
-
-    /// Separated flow over a wing of aspect ratio `aspect_ratio` \[1\] whose section has the lift
-    /// slope `slope` [1/rad]: `C_L = K/2 sin 2 alpha`, `C_D = C_L tan alpha`,
-    /// `K = pi AR / (1 + sqrt((pi AR / a0)^2 + 1))` [Taha, Hajj & Beran 2014].
-    ///
-    /// # Errors
-    /// A number that is not above 0.
-    pub fn taha_2014(aspect_ratio: f64, slope: f64) -> Result<Self, BladeError> {
-        let positive = "a finite number above 0";
-        let ok = |x: f64| x.is_finite() && x > 0.0;
-        require(ok(aspect_ratio), "aspect_ratio", aspect_ratio, positive)?;
-        require(ok(slope), "slope", slope, positive)?;
-        let a = PI * aspect_ratio;
-        let k = a / (1.0 + ((a / slope).powi(2) + 1.0).sqrt());
-        Ok(Self::DoubleAngle {
-            lift: 0.5 * k,
-            drag_0: 0.0,
-            drag_90: k,
-        })
-    }
 }
 
 /// A published set of coefficients.

@@ -193,15 +193,6 @@ impl BladeWing {
         }
     }
 
-    /// Energy [J] of the air that the added mass moves, `sum m w^2/2` (and `J q^2/2`).
-    pub fn added_energy(&self, motion: &WingFrame) -> f64 {
-        let v = self.velocity_through_air(motion).z;
-        let (w, a) = (motion.rate, &self.added);
-        let quadratic = a.m * v * v + a.myy * w.x * w.x + (a.mxx + a.inertia) * w.y * w.y;
-        let mixed = a.my * v * w.x - a.mx * v * w.y - a.mxy * w.x * w.y;
-        0.5 * quadratic + mixed
-    }
-
     /// Velocity of the hinge through the undisturbed air, wing components.
     pub(crate) fn velocity_through_air(&self, motion: &WingFrame) -> DVec3 {
         motion.rotation.transpose() * (motion.velocity - self.settings.free_stream)

@@ -40,14 +40,15 @@ fn growth_of_a_vibration(mut method: Bdf, w: f64) -> f64 {
     (grown / 40.0).exp()
 }
 
-/// Roots of the characteristic polynomial of `y' = i w y`: of order four 1.0137 and 1.106 at 0.6 and 1. That of
+/// Roots of the characteristic polynomial of `y' = i w y`: of order four 1.0137 and 1.1056 at 0.6 and 1. That of
 /// order two damps all vibrations, the fastest as is asked.
 #[test]
 fn exact_growth_of_vibrations_by_bdf() {
     let method = Bdf::new(1.0, CONVERGENCE, vec![1.0; 2]);
-    for (w, grows) in [(0.6, 1.0137), (1.0, 1.106)] {
+    for (w, grows) in [(0.6, 1.0137418242), (1.0, 1.1055681762)] {
         let found = growth_of_a_vibration(method.clone(), w);
-        assert!((found - grows).abs() < 1e-3, "{w}: {found}");
+        // What passes leave; the other roots are gone after 40 steps.
+        assert!((found - grows).abs() < 3e-10, "{w}: {found}");
     }
     for w in [0.1_f64, 0.3, 0.6, 1.0, 2.0, 10.0] {
         // (4 - 3 i w) z^2 - (6 - i w) z + 2 = 0: z (4 - 3 i w) = 3 - i w / 2 +- sqrt(1 - w^2 / 4 + 3 i w).
@@ -58,7 +59,7 @@ fn exact_growth_of_vibrations_by_bdf() {
         let found = growth_of_a_vibration(method.clone().order_two(0.0), w);
         println!("{w}: {found} {expected}");
         assert!(
-            (found - expected).abs() < 1e-3 && found < 1.0,
+            (found - expected).abs() < 3e-10 && found < 1.0,
             "{w}: {found} {expected}"
         );
         let light = growth_of_a_vibration(method.clone().order_two(0.8), w);
@@ -68,6 +69,7 @@ fn exact_growth_of_vibrations_by_bdf() {
         let found = growth_of_a_vibration(method.clone().order_two(rho), 1e3);
         let expected = rho.max((1.0_f64 - 3.0 * rho).abs() / (3.0 - rho));
         println!("{rho}: {found} {expected}");
-        assert!((found / expected - 1.0).abs() < 0.05, "{rho}: {found}");
+        // Of an infinitely fast vibration; 1.5e-4 is found at this one.
+        assert!((found / expected - 1.0).abs() < 1e-3, "{rho}: {found}");
     }
 }

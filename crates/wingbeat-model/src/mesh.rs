@@ -175,15 +175,6 @@ impl QuadMesh {
         self.nodes.iter().fold([far, -far], fold)
     }
 
-    /// Euler characteristic `V - E + F` (2 for a sphere).
-    pub fn euler_characteristic(&self) -> i64 {
-        let edges = self.directed_edges();
-        let undirected = edges
-            .keys()
-            .filter(|&&(a, b)| a < b || !edges.contains_key(&(b, a)));
-        self.nodes.len() as i64 - undirected.count() as i64 + self.quads.len() as i64
-    }
-
     /// Finite nodes and panels with area.
     pub(crate) fn check_panels(&self, name: &str) -> Result<(), ModelError> {
         if let Some(row) = self.nodes.iter().position(|x| !x.is_finite()) {

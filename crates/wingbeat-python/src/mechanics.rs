@@ -4,8 +4,8 @@ use pyo3::PyTraverseError;
 use pyo3::gc::PyVisit;
 use pyo3::prelude::*;
 use wingbeat::analysis::{
-    AnalysisError, Bound as Limits, CONTROL_NAMES, ControlDerivative, LinearModel, Mode, ModeSet,
-    Power, STATE, TrimProblem, TrimRequest, UNKNOWNS, Unknown, floquet_of_trim, input_matrix,
+    AnalysisError, Bound as Limits, Control, ControlDerivative, LinearModel, Mode, ModeSet, Power,
+    STATE, TrimProblem, TrimRequest, UNKNOWNS, Unknown, floquet_of_trim, input_matrix,
     linear_model, power_of_trim, trimmed_controls,
 };
 use wingbeat::case::{LoadedCase, trimmed_case};
@@ -259,7 +259,7 @@ impl Trim {
     /// Names of the state of the averaged model, and of the controls.
     #[staticmethod]
     fn names() -> (Vec<&'static str>, Vec<&'static str>) {
-        (STATE.to_vec(), CONTROL_NAMES.iter().map(|c| c.1).collect())
+        (STATE.to_vec(), Control::ALL.map(Control::name).to_vec())
     }
 }
 

@@ -183,7 +183,7 @@ fn agrees_a_lumped_mass_between_nodes_with_one_at_a_node() {
 }
 
 #[test]
-fn exact_modes_in_blade_elements_have_the_added_mass_of_strips() {
+fn limit_modes_in_blade_elements_have_the_added_mass_of_strips() {
     let mut text = SLENDER.replace("joined = true\n", "");
     for key in [
         "shed = [\"trailing\"]\n",

@@ -15,13 +15,6 @@ pub struct SurfaceLoads {
     pub net_flux_residual: f64,
 }
 
-impl SurfaceLoads {
-    /// Moment about the point `p` [m, N] [N m], N components.
-    pub fn moment_about(&self, p: DVec3) -> DVec3 {
-        self.moment - p.cross(self.force)
-    }
-}
-
 /// Loads of one instant, panel by panel, in the inertial frame N.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct AirLoads {

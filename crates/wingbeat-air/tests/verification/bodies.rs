@@ -66,17 +66,18 @@ fn sphere_speed_error(n: usize) -> f64 {
 }
 
 #[test]
-fn exact_surface_velocity_of_a_sphere_in_a_stream() {
+fn order_surface_velocity_of_a_sphere_in_a_stream() {
     let [coarse, fine] = [4, 8].map(sphere_speed_error);
     println!(
         "sphere speed {coarse:.4} {fine:.4} order {:.2}",
         order(coarse, fine)
     );
+    // Flat panels: first order, with 0.052 on the finer mesh.
     assert!(fine < 0.06 && order(coarse, fine) > 0.8);
 }
 
 #[test]
-fn exact_no_drag_in_a_steady_stream_and_munk_moment() {
+fn order_munk_moment_and_no_drag_in_a_steady_stream() {
     let (a, b) = (2.0, 1.0);
     let axes = DVec3::new(a, b, b);
     let alpha = 0.4_f64;
@@ -96,18 +97,20 @@ fn exact_no_drag_in_a_steady_stream_and_munk_moment() {
         errors.push(run.loads.surfaces[0].moment.y / exact - 1.0);
     }
     println!("Munk moment errors {errors:.4?}");
+    // Flat panels: first order, -0.082 on the finer mesh.
     assert!(errors[1].abs() < 0.1 && order(errors[0], errors[1]) > 0.8);
 }
 
 #[test]
-fn exact_added_mass_of_a_sphere() {
+fn order_added_mass_of_a_sphere() {
     let errors = [4, 8].map(|n| {
         let force = accelerated(n, DVec3::ONE, DVec3::new(0.3, -0.2, 0.5));
         let exact = -0.5 * RHO * volume(DVec3::ONE) * DVec3::new(0.3, -0.2, 0.5);
         (force - exact).length() / exact.length()
     });
     println!("sphere added mass errors {errors:.4?}");
-    assert!(errors[1] < 0.05 && order(errors[0], errors[1]) > 0.8);
+    // 0.016 on the finer mesh, an order of 1.6.
+    assert!(errors[1] < 0.02 && order(errors[0], errors[1]) > 1.3);
 }
 
 #[test]
@@ -124,7 +127,7 @@ fn exact_no_force_on_an_accelerated_sphere_whose_circulation_rates_are_left_out(
 }
 
 #[test]
-fn exact_added_mass_of_a_spheroid() {
+fn limit_added_mass_of_a_spheroid() {
     let axes = DVec3::new(2.0, 1.0, 1.0);
     let k = spheroid_inertia(2.0, 1.0);
     for (direction, k) in [(DVec3::X, k[0]), (DVec3::Z, k[1])] {
@@ -149,7 +152,7 @@ fn circling(nodes: &[DVec3], t: f64) -> NodeMotion {
 /// A sphere on a circular path feels half its displaced mass times the centripetal acceleration:
 /// the pressure of a moving, not only an accelerated, body.
 #[test]
-fn exact_force_on_a_sphere_on_a_circle() {
+fn limit_force_on_a_sphere_on_a_circle() {
     let (lattice, nodes) = ellipsoid(6, DVec3::ONE, DVec3::new(0.2, 0.0, 0.1));
     let dt = 0.02;
     let run = fly(&lattice, |t| circling(&nodes, t), dt, 3, |_, _, _, _| {}).unwrap();
@@ -164,7 +167,7 @@ fn exact_force_on_a_sphere_on_a_circle() {
 /// inside are differences with the weights of the rate of the circulation. (A first-order difference leaves
 /// half a step's turn, 0.01, of the displaced mass times the acceleration.)
 #[test]
-fn exact_no_force_along_the_path_of_a_circling_sphere() {
+fn order_force_along_the_path_of_a_circling_sphere() {
     let (lattice, nodes) = ellipsoid(4, DVec3::ONE, DVec3::ZERO);
     let settings = AirSettings {
         rate: CirculationRate::BackwardSecond,
@@ -186,7 +189,7 @@ fn exact_no_force_along_the_path_of_a_circling_sphere() {
 /// Added moment of inertia of a prolate spheroid about an axis across, over its displaced mass [Lamb art. 115];
 /// with the fluid inside it would be 2.5 times as much.
 #[test]
-fn exact_added_moment_of_inertia_of_a_spheroid() {
+fn order_added_moment_of_inertia_of_a_spheroid() {
     let (a, b) = (2.0, 1.0);
     let axes = DVec3::new(a, b, b);
     let [alpha, beta] = spheroid_inertia(a, b).map(|k| 2.0 * k / (1.0 + k));
@@ -259,7 +262,7 @@ fn in_wind(n: usize, axes: DVec3, [stream, towed]: [DVec3; 2], wind: Wind) -> DV
 /// Pressures on a closed surface are those of the outer air alone: they have the force, and in a steady stream
 /// Cp = 1 - 9/4 sin^2 about a sphere, 1 at its nose.
 #[test]
-fn exact_pressures_on_a_sphere() {
+fn limit_pressures_on_a_sphere() {
     let total = |run: &Run| -> DVec3 {
         let loads = &run.loads;
         let pairs = loads.pressure_jump.iter().zip(&loads.panels.vector_area);
@@ -299,7 +302,7 @@ fn exact_pressures_on_a_sphere() {
 /// A weak shear across the stream lifts a sphere by half its displaced mass times `U x w` [Auton 1987, J. Fluid
 /// Mech. 183, 199], whatever the observer.
 #[test]
-fn exact_lift_of_a_sphere_in_a_shear() {
+fn order_lift_of_a_sphere_in_a_shear() {
     let shear = DMat3::from_cols(DVec3::ZERO, DVec3::ZERO, 0.01 * DVec3::X); // du/dz
     let wind = Wind {
         shear: Some(shear),
@@ -323,7 +326,7 @@ fn exact_lift_of_a_sphere_in_a_shear() {
 /// alone, `k w_t`, a sphere's 1/2, and nearly 1 of a body eight times as long as wide; so it is where the body
 /// is towed through it.
 #[test]
-fn exact_force_of_a_frozen_gust_on_bodies() {
+fn limit_force_of_a_frozen_gust_on_bodies() {
     let (u, rate) = (DVec3::new(-10.0, 0.0, 0.0), 2.0);
     let gust = |slowness: DVec3| Wind {
         gusts: vec![Gust {
@@ -354,7 +357,7 @@ fn exact_force_of_a_frozen_gust_on_bodies() {
 /// The null space is removed: no circulation on average, no net flux, no air goes through; a
 /// motion that blows the body up cannot be met and is reported as the net-flux residual.
 #[test]
-fn exact_net_flux_residual_is_zero_for_rigid_motion_and_the_rate_of_swelling_otherwise() {
+fn limit_net_flux_residual_is_zero_for_rigid_motion_and_the_rate_of_swelling_otherwise() {
     let (lattice, nodes) = ellipsoid(4, DVec3::ONE, DVec3::X);
     let swelling = |rate: f64| NodeMotion {
         position: nodes.clone(),
@@ -365,10 +368,10 @@ fn exact_net_flux_residual_is_zero_for_rigid_motion_and_the_rate_of_swelling_oth
         let loads = run.loads;
         let mean = loads.gamma.iter().sum::<f64>() / loads.gamma.len() as f64;
         assert!(mean.abs() < 1e-13 && loads.normal_velocity_residual < 1e-12); // roundings
-        // Swelling of the control points: they lie a little inside the unit sphere.
+        // Swelling of the control points: they lie a little inside the unit sphere, 3.3 % on this mesh.
         let residual = loads.surfaces[0].net_flux_residual;
         assert!(
-            (residual - rate).abs() < 0.1 * rate + 1e-12,
+            (residual - rate).abs() < 0.05 * rate + 1e-12,
             "{residual} {rate}"
         );
     }

@@ -304,7 +304,7 @@ fn behaves_suction_of_a_shedding_edge_stays_near_what_it_holds() {
 /// Thin-airfoil theory: the suction of a strip pulls with `pi rho c U^2 A0^2` per span, and edges with half the
 /// efficiency have half of it, none with none; nothing else changes.
 #[test]
-fn exact_suction_force_follows_from_its_parameter_and_goes_with_the_efficiency() {
+fn limit_suction_force_follows_from_its_parameter_and_goes_with_the_efficiency() {
     let pull = |threshold: f64, efficiency: f64| {
         let mut last = [0.0; 3];
         let small = |t: f64| [0.1 * t.min(1.0), if t < 1.0 { 0.1 } else { 0.0 }];
@@ -333,8 +333,8 @@ fn exact_suction_force_follows_from_its_parameter_and_goes_with_the_efficiency()
             whole[0]
         );
         println!("{half:?} {none:?}");
-        // Six panels along the chord.
-        assert!(threshold < 9.0 || (whole[0] / exact - 1.0).abs() < 0.1);
+        // Six panels along the chord: 1.3 % less where the wing is attached.
+        assert!(threshold < 9.0 || (whole[0] / exact - 1.0).abs() < 0.03);
         assert!(whole[0] > 0.0 && none[0].abs() < 1e-12 * none[1]);
         assert!((half[0] / whole[0] - 0.5).abs() < 1e-9);
         assert!((half[1] / whole[1] - 1.0).abs() < 1e-12 && half[2] == whole[2]);

@@ -112,7 +112,9 @@ impl Lamina {
 pub struct Section {
     /// Membrane stiffness A: tensions of strains \[N/m\], positive definite.
     pub membrane: DMat3,
-    /// Bending stiffness D: moments of curvatures \[N m\], positive definite, or zero for a membrane.
+    /// Bending stiffness D: moments of curvatures \[N m\], positive definite, or zero for a membrane, without stiffness
+    /// in shear, too: attitudes of its nodes have no stiffness but about the normal, and are to be held or joined to
+    /// beams.
     pub bending: DMat3,
     /// Stiffness of transverse shear \[N/m\], correction included.
     pub shear: f64,
@@ -127,16 +129,6 @@ pub struct Section {
 }
 
 impl Section {
-    /// The section without bending stiffness: attitudes of its nodes then have no stiffness but about the normal, and
-    /// are to be held or joined to beams.
-    pub fn without_bending(self) -> Self {
-        Self {
-            bending: DMat3::ZERO,
-            shear: 0.0,
-            ..self
-        }
-    }
-
     /// Refuses a stiffness that is not symmetric and positive definite (bending may vanish) and negative masses.
     pub(super) fn check(&self) -> Result<(), ShellError> {
         let definite = |m: DMat3| {

@@ -134,7 +134,7 @@ fn agrees_a_plate_clamped_at_its_leading_edge_with_one_clamped_at_its_root() {
 /// A stretched square film whose bending is a millionth of a solid sheet's, `omega = pi sqrt((i^2 + j^2) T / m)
 /// / a`: nodes that turn by themselves vibrate below, and are left out.
 #[test]
-fn exact_frequencies_of_a_film_without_those_of_turning_nodes() {
+fn limit_frequencies_of_a_film_without_those_of_turning_nodes() {
     let set = [
         "wing.right.structure.shell.clamped_perimeter=true",
         "wing.right.planform.rectangle.chord_m=6e-2",
@@ -148,7 +148,7 @@ fn exact_frequencies_of_a_film_without_those_of_turning_nodes() {
     let exact = [2.0_f64, 5.0, 5.0, 8.0].map(|s| unit * s.sqrt());
     println!("{:?} {exact:?} {:?}", frequencies(&film), film.left_out);
     for (found, exact) in frequencies(&film).iter().zip(exact) {
-        assert!((found / exact - 1.0).abs() < 0.05, "{found} {exact}"); // 10 x 10 elements
+        assert!((found / exact - 1.0).abs() < 0.05, "{found} {exact}"); // 4.8 % less, 10 x 10 elements
     }
     assert!(film.left_out[0] > 0, "{:?}", film.left_out);
     // Of a solid sheet they are faster than what is asked for.
@@ -185,7 +185,7 @@ fn limit_tension_that_nothing_holds_changes_no_frequency() {
 /// sqrt(1 / a^2 + 1 / b^2)` and so on, and flies: nothing loads it, and what is left unbalanced is measured by
 /// what holds it.
 #[test]
-fn exact_frequencies_of_a_film_under_tension_without_loads() {
+fn limit_frequencies_of_a_film_under_tension_without_loads() {
     let film = |chordwise: usize, spanwise: usize| {
         let text = format!(
             "format = 1\ngravity_m_s2 = [0, 0, 0]\n[time]\nstep_s = 1e-3\nsteps = 3\n[flight]\nmode = \"tethered\"\n\
