@@ -35,7 +35,7 @@ fn even_waves(width: f64, panels: usize) -> Vec<f64> {
 #[test]
 fn order_waves_along_a_strip_do_not_know_its_width() {
     let exact = [1.8751041, 4.6940911, 7.8547574].map(|b: f64| b * b);
-    for width in [0.4, 1.0, 4.0, 200.0] {
+    for width in [1.0, 4.0, 200.0] {
         let [coarse, fine] = [10, 20].map(|n| even_waves(width, n));
         for (k, exact) in exact.iter().enumerate() {
             let [a, b] = [&coarse, &fine].map(|w| w[k] / exact - 1.0);

@@ -228,6 +228,13 @@ fn conserves_momentum_and_energy_of_a_free_body_with_sheets_and_spars() {
     keeps_all(2_000, &spars_and_sheet());
 }
 
+/// Panels nine times as long as wide, whose mass follows the line along their long sides.
+#[test]
+fn conserves_momentum_and_energy_of_a_free_body_with_sheets_of_long_panels() {
+    let long = strings(&["wing.right.mesh.chordwise=3"]);
+    keeps_all(1_000, &[&spars_and_sheet()[..], &long].concat());
+}
+
 #[test]
 #[ignore = "half a minute; the same as above, longer"]
 fn conserves_momentum_and_energy_of_a_free_body_with_sheets_over_ten_thousand_steps() {
