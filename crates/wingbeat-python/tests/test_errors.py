@@ -219,7 +219,7 @@ def test_refuses_a_package_that_is_not_installed_by_its_name():
 def test_refuses_a_map_of_one_wingbeat_where_something_remembers(preset, keys, key):
     with pytest.raises(wingbeat.CaseError) as caught:
         Flight.preset(preset).set(keys).trim()
-    assert caught.value.key == key and caught.value.remedy.startswith("trim_with_wake()")
+    assert caught.value.key == key and "trim_with_wake()" in caught.value.remedy
 
 
 def test_refuses_numbers_without_a_case(blade, tmp_path):

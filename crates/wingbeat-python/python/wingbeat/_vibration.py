@@ -126,8 +126,22 @@ def flutter(core: _core.Flight, speeds: list[float], how: tuple[int, float, floa
 
     def condition(wing: str, speed: float, tip: Any, vacuum: Any, modes: Any, divergence: Any, rest: Any, slow: Any) -> FlutterCondition:
         growing = tuple(GrowingMode(*mode) for mode in modes)
+        growth, uncertainty = divergence or (None, None)
+        residual, nonlinearity, disturbance, length = rest
         return FlutterCondition(
-            wing, speed, tuple(tip[0]), tuple(tip[1]), tuple(vacuum), growing, *(divergence or (None, None)), *rest, slow
+            wing=wing,
+            speed_m_per_s=speed,
+            tip_m=tuple(tip[0]),
+            tip_turn_rad=tuple(tip[1]),
+            vacuum_hz=tuple(vacuum),
+            modes=growing,
+            divergence_growth_per_s=growth,
+            divergence_growth_uncertainty_per_s=uncertainty,
+            residual=residual,
+            nonlinearity=nonlinearity,
+            disturbance=disturbance,
+            response_s=length,
+            slow_joint=slow,
         )
 
     return Flutter(
