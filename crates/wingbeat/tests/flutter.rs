@@ -313,8 +313,8 @@ fn published_goland_in_strips_does_not_flutter_below_137_m_s_in_any_of_six_modes
     assert!(growing(&found).is_empty());
 }
 
-#[test]
-fn agrees_flutter_on_a_soft_hinge_of_six_modes_with_that_of_two() {
+/// Goland's wings in strips on hinges of this stiffness [N m/rad] along their spans.
+fn on_hinges(stiffness: &str, set: &[&str]) -> LoadedCase {
     let text = STRIPS.replace("motion.psi", "# motion.psi");
     let text = text
         + r#"
@@ -323,9 +323,36 @@ child = "right"
 kind = "revolute"
 axis = [0, 1, 0]
 [[joint.hinge-right.element]]
-stiffness_newton_m_per_rad = 3e5
-"#;
-    let hinged = LoadedCase::from_text("hinged", &text, std::path::Path::new("."), &[]).unwrap();
+stiffness_newton_m_per_rad = "#
+        + stiffness;
+    let set: Vec<String> = set.iter().map(|s| (*s).to_owned()).collect();
+    LoadedCase::from_text("hinged", &text, std::path::Path::new("."), &set).unwrap()
+}
+
+/// What moves on a hinge with a period `2 pi sqrt(J / k)` longer than the response is not found, and named.
+#[test]
+fn exact_periods_on_hinges_that_are_longer_than_the_response_are_named() {
+    let coarse = [
+        "wing.right.mesh.spanwise=8",
+        "wing.right.structure.beam.elements=6",
+    ];
+    let at = |stiffness: &str| {
+        let setup = on_hinges(stiffness, &coarse).setup;
+        let inertia = setup.animal.wings[0].mass.inertia.y_axis.y;
+        (alone(&setup, 80.0, &settings()), inertia)
+    };
+    let (stiff, _) = at("3e5");
+    assert_eq!(stiff.slow_joint, None);
+    let (soft, inertia) = at("1e2");
+    let (joint, period) = soft.slow_joint.expect("a slow joint");
+    assert!(joint.starts_with("hinge-"), "{joint}");
+    let exact = TAU * (inertia / 1e2).sqrt();
+    assert!((period / exact - 1.0).abs() < 1e-12 && period > soft.length);
+}
+
+#[test]
+fn agrees_flutter_on_a_soft_hinge_of_six_modes_with_that_of_two() {
+    let hinged = on_hinges("3e5", &[]);
     let onsets = |settings: &FlutterSettings| {
         let found = [70.0, 80.0, 90.0].map(|v| alone(&hinged.setup, v, settings));
         crossings(&found)

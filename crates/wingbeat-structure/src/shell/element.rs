@@ -28,7 +28,7 @@ pub struct Shell {
     rest: [f64; STRAINS],
     stiffness: Box<Stiffness>,
     tension: [f64; STRAINS],
-    /// Quarters of the mass about their corners, W components at rest.
+    /// The mass at the corners, and midway between those at the ends of long sides; W components at rest.
     lumps: Lumps,
     area: f64,
 }
