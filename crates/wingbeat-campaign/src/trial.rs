@@ -86,9 +86,34 @@ impl CampaignFile {
         self.trim_options(i)?;
         match self.case(i) {
             Ok(_) => Ok(()),
+            Err(IoError::Case(_)) if self.is_combination(i) => Ok(()),
             Err(IoError::Case(e)) => Err(self.places().traced(*e)),
             Err(e) => Err(e),
         }
+    }
+
+    /// Whether the case takes the values of every axis at point `i` by themselves, and what is drawn: what it then
+    /// refuses is their combination.
+    fn is_combination(&self, i: usize) -> bool {
+        let all = self.plan.overrides(i);
+        let drawn = self.plan.samplers.len();
+        let sizes = self.plan.axes.iter().map(|a| a.keys.len());
+        let mut rest = all.as_slice();
+        let groups = sizes.chain([drawn]).map(|size| {
+            let (group, left) = rest.split_at(size);
+            rest = left;
+            group
+        });
+        let groups: Vec<&[String]> = groups.filter(|g| !g.is_empty()).collect();
+        let is_taken = |group: &&[String]| {
+            let of_case = group.iter().filter(|o| !o.starts_with(TRIM)).cloned();
+            let overrides: Vec<String> = cases::set_of(&self.raw)
+                .into_iter()
+                .chain(of_case)
+                .collect();
+            cases::with(&self.base, &self.case_folder, &overrides).is_ok()
+        };
+        groups.len() > 1 && groups.iter().all(is_taken)
     }
 
     /// What is asked of the trim at point `i`; nothing where nothing is trimmed.

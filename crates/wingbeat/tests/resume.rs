@@ -333,6 +333,11 @@ fn refuses_a_second_writer() {
     assert!(done.status.success());
     let done = wingbeat(&dir, &["resume", "."]);
     assert!(String::from_utf8_lossy(&done.stdout).contains("has already finished"));
+    let done = wingbeat(&dir, &["resume", ".", "--json"]);
+    let line: serde_json::Value = serde_json::from_slice(&done.stdout).unwrap();
+    let written = fs::read(dir.join("summary.json")).unwrap();
+    let written: serde_json::Value = serde_json::from_slice(&written).unwrap();
+    assert_eq!(line["summary"], written);
 }
 
 /// No file may grow beyond `blocks` of 512 bytes: the system then answers as on a full disk.

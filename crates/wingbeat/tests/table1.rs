@@ -156,6 +156,28 @@ fn agrees_hawkmoth_eigenvalues_with_an_independent_calculation() {
     }
 }
 
+/// Commands of the pages, word for word.
+#[test]
+fn behaves_the_commands_of_every_page_do_what_they_say() {
+    let docs = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/table1");
+    let scratch = Scratch::new("table1-pages");
+    let mut count = 0;
+    for page in fs::read_dir(docs).unwrap() {
+        let page = page.unwrap().path();
+        if page.extension().is_none_or(|e| e != "md") {
+            continue;
+        }
+        let text = fs::read_to_string(page).unwrap();
+        for line in text.lines().filter_map(|l| l.strip_prefix("wingbeat ")) {
+            let command = line.split(" #").next().unwrap().replace('\'', "");
+            let args: Vec<&str> = command.split_whitespace().collect();
+            said(&scratch.0, &args);
+            count += 1;
+        }
+    }
+    assert!(count >= 2 * ROWS.len());
+}
+
 #[test]
 fn regress_every_row_has_a_page_with_a_figure() {
     let docs = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/table1");

@@ -73,7 +73,17 @@ impl Failure {
             )
             | Self::Flight(Error::Flight(FlightError::Setup { .. })) => REFUSED,
             Self::Analysis(_) | Self::Flight(Error::Flight(_)) => FAILED,
+            Self::Io(IoError::File { source, .. }) if is_full(source) => FAILED,
             Self::Option(_) | Self::Io(_) | Self::Flight(_) => REFUSED,
         }
     }
+}
+
+/// Whether something was written, and then there was no space for the rest.
+fn is_full(e: &std::io::Error) -> bool {
+    use std::io::ErrorKind::{FileTooLarge, QuotaExceeded, StorageFull, WriteZero};
+    matches!(
+        e.kind(),
+        FileTooLarge | QuotaExceeded | StorageFull | WriteZero
+    )
 }

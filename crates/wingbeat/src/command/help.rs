@@ -135,7 +135,8 @@ pub(crate) fn completions(shell: Shell) {
 fn with_files(script: &str) -> String {
     let names: Vec<&str> = presets::PRESETS.iter().map(|p| p.name).collect();
     let names = format!("({})", names.join(" "));
-    let both = format!(r#"_alternative "presets:preset:{names}" "files:file:_files""#);
+    // The blank keeps `_arguments` from giving its own options to the action.
+    let both = format!(r#" _alternative "presets:preset:{names}" "files:file:_files""#);
     script.replace(&format!(":{names}'"), &format!(":{both}'"))
 }
 
@@ -255,7 +256,7 @@ mod tests {
             );
         }
         let cases = zsh
-            .matches(r#"_alternative "presets:preset:(fruit-fly-hover"#)
+            .matches(r#": _alternative "presets:preset:(fruit-fly-hover"#)
             .count();
         assert_eq!(
             cases,

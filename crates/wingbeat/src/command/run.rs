@@ -8,7 +8,7 @@ use clap::Args;
 use wingbeat::case::{IoError, LoadedCase, presets};
 use wingbeat::draw::draw_run;
 use wingbeat::flight::{FlightError, Simulation};
-use wingbeat::results::{Outcome, RESULTS, RecordedFlight, ResultDir, saver};
+use wingbeat::results::{Outcome, RESULTS, RecordedFlight, ResultDir, Summary, saver};
 
 use crate::command::failure::{FAILED, Failure, INTERRUPTED};
 use crate::command::options::{CaseName, RunOptions};
@@ -153,7 +153,13 @@ fn go_back(
             // A kill at the very end may have left it; where nothing can be written it stays.
             let _ = saver::forget(dir.path());
         }
-        say!("{} has already finished.", dir.path().display());
+        if args.options.json {
+            let history = dir.join("history.csv");
+            let summary = Summary::read(&dir.case()?, &history, &saved.manifest.outcome)?;
+            say!("{}", summary.to_json_line(dir.path()));
+        } else {
+            say!("{} has already finished.", dir.path().display());
+        }
         return Ok(None);
     }
     let case = dir.case()?;

@@ -124,7 +124,8 @@ fn tell_numbers(report: &mut Report, rows: &[(String, f64, f64)]) {
         let difference = difference(*a, *b);
         let part = difference / a.abs();
         let part = match part.is_finite() {
-            true => format!("{}%", fixed(100.0 * part, 2)),
+            true if part.abs() < 1e4 => format!("{}%", fixed(100.0 * part, 2)),
+            true => format!("{:.2e}%", 100.0 * part),
             false => "-".to_owned(),
         };
         line!(

@@ -101,6 +101,32 @@ fn invariant_tables_do_not_tell_who_flew_what_and_reruns_fly_what_is_new() {
     );
 }
 
+/// Wings of this shape have no such root offset, and each value is one of the preset: the order of a list does not
+/// make a mistake of that.
+#[test]
+fn behaves_values_that_are_refused_together_alone_are_results() {
+    let scratch = Scratch::new("campaign-together");
+    let dir = &scratch.0;
+    write(
+        dir,
+        r#"case = "fruit-fly-blade"
+keep = ["lift_over_weight"]
+[set]
+"time.beats" = 1
+"time.steps_per_beat" = 40
+[parameter."wing.right.planform.beta.r2_hat"]
+list = [0.5, 0.6]
+[parameter."wing.right.planform.beta.root_offset_m"]
+list = [0.0, 0.0003]
+"#,
+    );
+    flown(dir, &["campaign", "run", "c.toml", "--out", "r", "--quiet"]);
+    let tables = merged(dir, "r");
+    assert_eq!(column(dir, "r", "success"), ["1", "0", "1", "1"]);
+    let failed = String::from_utf8(tables["failed.csv"].clone()).unwrap();
+    assert!(failed.contains("out of reach"), "{failed}");
+}
+
 /// Points that cannot be flown are results too: their reason, case and command stand in failed.csv.
 #[test]
 fn behaves_points_that_fail_are_told_and_may_be_tried_again() {
