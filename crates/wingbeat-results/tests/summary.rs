@@ -371,7 +371,7 @@ fn behaves_wings_that_push_the_body_down_are_named() {
             "fruit-fly-blade",
             &["time.beats=1", "motion.data=", &law],
         ));
-        let lift = summary.beats[0].lift_over_weight.unwrap();
+        let lift = summary.beats[0].mean.lift_over_weight.unwrap();
         assert_eq!(lift < 0.0, told, "{lift}");
         assert_eq!(says(&summary, "push the body down"), told);
         assert!(!told || summary.verdict >= Verdict::Amber);
