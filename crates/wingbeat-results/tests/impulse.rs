@@ -106,7 +106,7 @@ fn balances_impulse_budget(summary: &Summary) {
     println!("{budget:?}");
     let period = summary.time_s / summary.beats.len() as f64;
     let lift: f64 = summary.beats.iter().map(|b| two_lifts(b)[0]).sum();
-    let gained = budget.created_newton_s + budget.moved_newton_s + budget.converted_newton_s;
+    let gained = budget.created_newton_s + budget.moved_newton_s;
     let sum = gained - lift * period;
     // Roundings of parts that are some ten times as large as their sum.
     assert!((budget.residual_newton_s - sum).abs() < 1e-12 * lift * period);
