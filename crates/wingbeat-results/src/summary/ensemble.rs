@@ -234,8 +234,8 @@ mod tests {
         assert_eq!(e.members_are, Members::Independent);
         let fourth = e.beats[3].estimate.lift_newton;
         assert_eq!(fourth.mean, 2.0);
-        // 3 and 1: deviation sqrt 2, error of the mean of two 1, Student's factor of one degree of freedom 1.837.
-        assert!((fourth.standard_error.unwrap() - 1.837).abs() < 0.03);
+        // 3 and 1: deviation sqrt 2, error of the mean of two 1, Student's factor of one degree of freedom 1.8373.
+        assert!((fourth.standard_error.unwrap() - 1.8373).abs() < 1e-4);
         let all = e.means.clone().unwrap();
         assert_eq!((all.beat, all.estimate.lift_newton.mean), (4, 3.0));
         assert_eq!(all.estimate.lift_over_weight.unwrap().mean, 1.5);
@@ -302,8 +302,8 @@ mod tests {
             .lift_newton
             .standard_error
             .unwrap();
-        // Deviation 1.41e-3, error of the mean of two 1e-3, Student's factor 1.837.
-        assert!((error - 1.837e-3).abs() < 3e-5, "{error:e}");
+        // Deviation 1.41e-3, error of the mean of two 1e-3, Student's factor 1.8373.
+        assert!((error - 1.8373e-3).abs() < 1e-7, "{error:e}");
         let said = e.remark();
         assert!(
             said.contains("noise of its own") && said.contains("NOT steady"),

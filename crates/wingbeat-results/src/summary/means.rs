@@ -95,8 +95,11 @@ impl Change {
     }
 }
 
-/// Error of the mean of two values or more as they show it themselves: without what few of them hide, so that a
-/// change is felt rather too soon. Correlation r of neighbours makes n values `n (1 - r) / (1 + r)`.
+/// Error of the mean of two values or more as they show it themselves, where [`Estimate`] has what it is likely to be.
+/// There the correlation that few values hide is added, and Student's factor, lest an error be too small; here either
+/// would hide the drift that is looked for, so both are left out and a change is felt rather too soon. Correlation r of
+/// neighbours makes n values `n (1 - r) / (1 + r)`, the limit of many in [`Estimate`]'s formula: of the two or three
+/// values of a half its sum of lags says no more.
 fn shown_error(values: &[f64]) -> f64 {
     let n = values.len() as f64;
     let (mean, square) = moments(values);
