@@ -119,7 +119,7 @@ fn exact_history_holds_every_number_of_the_last_record() {
         ),
         (18, 18, 12)
     );
-    let bodies = results::columns::body_names(&case.setup.animal);
+    let bodies = results::columns::column_stems(&case.setup.animal);
     assert_eq!(bodies, ["body", "wing_left", "wing_right"]);
     let columns = results::columns::Columns::of(&case.setup, record).unwrap();
     let names: Vec<String> = columns.iter().map(|c| c.name.clone()).collect();
