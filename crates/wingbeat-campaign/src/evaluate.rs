@@ -10,7 +10,7 @@ use wingbeat_flight::{FlightSetup, Record};
 use wingbeat_math::{larger, smaller};
 use wingbeat_results::Summary;
 use wingbeat_results::columns::Columns;
-use wingbeat_results::summary::{BeatMeans, Estimate};
+use wingbeat_results::summary::{BeatMeans, Estimate, PerBeat};
 
 use crate::number::{ModeNumber, Modes, Number, Of, Source, TrimNumber};
 
@@ -49,18 +49,19 @@ impl Flown {
         let last = &means[means.len().saturating_sub(beats)..];
         let columns = self.columns(numbers)?;
         for (number, value) in numbers.iter().zip(values) {
-            let mean = |of: fn(&BeatMeans) -> f64| {
-                last.iter().map(of).sum::<f64>() / last.len().max(1) as f64
+            let each = |of: fn(&PerBeat) -> Option<f64>| {
+                last.iter().map(move |b| of(&b.mean).unwrap_or(f64::NAN))
             };
+            let mean = |of| each(of).sum::<f64>() / last.len().max(1) as f64;
             match &number.source {
                 Source::Beat(of) => *value = mean(*of),
                 Source::Error(of) => {
-                    let each: Vec<f64> = last.iter().map(*of).collect();
+                    let each: Vec<f64> = each(*of).collect();
                     *value = Estimate::of(&each).standard_error.unwrap_or(f64::NAN);
                 }
                 Source::Efficiency => {
-                    let useful = mean(|b| b.thrust_newton) * self.airspeed(last);
-                    *value = efficiency(useful, mean(|b| b.power_watt));
+                    let useful = mean(|m| Some(m.thrust_newton)) * self.airspeed(last);
+                    *value = efficiency(useful, mean(|m| Some(m.power_watt)));
                 }
                 Source::Column(of, name) => {
                     *value = match columns.get(&name[..]) {
@@ -68,7 +69,7 @@ impl Flown {
                         None => f64::NAN,
                     };
                 }
-                Source::Summary(of) => *value = of(&self.summary),
+                Source::Summary(of) => *value = of(&self.summary).unwrap_or(f64::NAN),
                 _ => {}
             }
         }

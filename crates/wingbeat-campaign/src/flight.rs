@@ -7,6 +7,7 @@ use std::path::Path;
 use wingbeat_case::{IoError, LoadedCase};
 use wingbeat_draw::draw_run;
 use wingbeat_flight::{FlightError, Simulation};
+use wingbeat_results::directory::remove_directory;
 use wingbeat_results::history::is_locked;
 use wingbeat_results::{Outcome, RecordedFlight, Records, ResultDir, Summary, saver};
 
@@ -84,7 +85,7 @@ pub fn in_directory(path: &Path, case: &LoadedCase, watch: Watch) -> Result<Flow
         Some(flight) => fly(flight, watch)?,
         None if is_finished(path) => {}
         None => {
-            remove(path)?;
+            remove_directory(path)?;
             let flight = begin(case)?;
             let dir = ResultDir::create(path)?;
             fly(RecordedFlight::begin(dir, case, flight, 1)?, watch)?;
@@ -154,17 +155,6 @@ fn fly(mut flight: RecordedFlight, watch: Watch) -> Result<(), Halt> {
             Err(Halt::Diverged(why))
         }
         Err(halt) => Err(halt),
-    }
-}
-
-/// Removes a directory that may not be there.
-///
-/// # Errors
-/// A directory that cannot be removed.
-pub fn remove(path: &Path) -> Result<(), IoError> {
-    match fs::remove_dir_all(path) {
-        Err(e) if e.kind() != std::io::ErrorKind::NotFound => Err(IoError::write(path)(e)),
-        _ => Ok(()),
     }
 }
 

@@ -16,6 +16,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, SystemTime};
 
 use wingbeat_case::IoError;
+use wingbeat_results::directory::remove_file;
 use wingbeat_results::manifest::sha256;
 
 use crate::process::{Process, start_of};
@@ -125,11 +126,7 @@ impl Leases {
     /// # Errors
     /// A file that cannot be removed.
     pub fn undo(&self, block: usize) -> Result<(), IoError> {
-        let path = done_file(&self.folder, block);
-        match fs::remove_file(&path) {
-            Err(e) if e.kind() != ErrorKind::NotFound => Err(IoError::write(&path)(e)),
-            _ => Ok(()),
-        }
+        remove_file(&done_file(&self.folder, block)).map(drop)
     }
 
     /// Takes a block.

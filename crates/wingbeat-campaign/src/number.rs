@@ -7,7 +7,7 @@ use wingbeat_case::nearest;
 use wingbeat_flight::FlightSetup;
 use wingbeat_results::Summary;
 use wingbeat_results::columns::Columns;
-use wingbeat_results::summary::BeatMeans;
+use wingbeat_results::summary::PerBeat;
 
 use crate::raw::Task;
 
@@ -31,15 +31,15 @@ pub struct Number {
 #[derive(Clone, Debug)]
 pub enum Source {
     /// Of the means of wingbeats, averaged over the last ones.
-    Beat(fn(&BeatMeans) -> f64),
+    Beat(fn(&PerBeat) -> Option<f64>),
     /// Standard error of such a mean.
-    Error(fn(&BeatMeans) -> f64),
+    Error(fn(&PerBeat) -> Option<f64>),
     /// Thrust times airspeed over power.
     Efficiency,
     /// Of a column of the history.
     Column(Of, String),
     /// Of the summary.
-    Summary(fn(&Summary) -> f64),
+    Summary(fn(&Summary) -> Option<f64>),
     /// Of the trim.
     Trim(TrimNumber),
     /// Of the modes.
@@ -134,118 +134,10 @@ impl Source {
     }
 }
 
-type Entry<T> = (&'static str, &'static str, &'static str, fn(&T) -> f64);
+/// A number of the power: name, unit, meaning.
+type Entry = (&'static str, &'static str, &'static str, fn(&Power) -> f64);
 
-/// Means of wingbeats: name, unit, meaning.
-const BEATS: [Entry<BeatMeans>; 9] = [
-    ("lift_newton", "N", "mean air force against gravity", |b| {
-        b.lift_newton
-    }),
-    (
-        "lift_over_weight",
-        "1",
-        "mean air force against gravity over the weight",
-        |b| b.lift_over_weight.unwrap_or(f64::NAN),
-    ),
-    (
-        "thrust_newton",
-        "N",
-        "mean air force along n1, forward",
-        |b| b.thrust_newton,
-    ),
-    (
-        "power_watt",
-        "W",
-        "mean power of actuators and of prescribed deformation",
-        |b| b.power_watt,
-    ),
-    (
-        "positive_power_watt",
-        "W",
-        "mean of its positive part, joint by joint: what actuators give that get nothing back",
-        |b| b.positive_power_watt.unwrap_or(f64::NAN),
-    ),
-    (
-        "lift_coefficient",
-        "1",
-        "mean air force against gravity over the mean dynamic pressure on the wings",
-        |b| b.lift_coefficient.unwrap_or(f64::NAN),
-    ),
-    (
-        "thrust_coefficient",
-        "1",
-        "the same of the air force along n1",
-        |b| b.thrust_coefficient.unwrap_or(f64::NAN),
-    ),
-    (
-        "inviscid_lift_newton",
-        "N",
-        "mean inviscid air force against gravity; none without a lattice",
-        |b| b.inviscid_lift_newton.unwrap_or(f64::NAN),
-    ),
-    (
-        "lift_by_impulse_newton",
-        "N",
-        "the same by the rate of the vortex impulse; with vortex particles it depends on the origin",
-        |b| b.lift_by_impulse_newton.unwrap_or(f64::NAN),
-    ),
-];
-
-const SUMMARY: [Entry<Summary>; 18] = [
-    ("steps", "1", "steps made", |s| s.steps as f64),
-    ("time_s", "s", "time flown", |s| s.time_s),
-    ("mass_kg", "kg", "mass of the animal", |s| s.mass_kg),
-    ("forward_m", "m", "way along n1", |s| s.displacement_m[0]),
-    ("right_m", "m", "way along n2", |s| s.displacement_m[1]),
-    ("down_m", "m", "way along n3", |s| s.displacement_m[2]),
-    ("pitch_deg", "deg", "turn in pitch", |s| s.turn_deg[0]),
-    ("yaw_deg", "deg", "turn in yaw", |s| s.turn_deg[1]),
-    ("roll_deg", "deg", "turn in roll", |s| s.turn_deg[2]),
-    (
-        "energy_residual_relative",
-        "1",
-        "largest energy residual over what is in play",
-        |s| s.energy_residual_relative,
-    ),
-    (
-        "joint_residual_relative",
-        "1",
-        "what passive joints lose or gain beside their springs and dampers, over what is in play",
-        |s| s.joint_residual_relative,
-    ),
-    (
-        "momentum_residual_relative",
-        "1",
-        "largest momentum residual over what is in play",
-        |s| s.momentum_residual_relative,
-    ),
-    (
-        "violation_position_m",
-        "m",
-        "largest violation of a connection",
-        |s| s.violation_position_m,
-    ),
-    ("corrector_passes_mean", "1", "mean corrector passes", |s| {
-        s.corrector_passes_mean
-    }),
-    ("wake_rings", "1", "wake rings at the end", |s| {
-        s.wake_rings as f64
-    }),
-    ("wake_particles", "1", "vortex particles at the end", |s| {
-        s.wake_particles as f64
-    }),
-    (
-        "verdict",
-        "1",
-        "how far the flight can be trusted: 0 green, 1 amber, 2 red",
-        |s| f64::from(s.verdict.level()),
-    ),
-    ("warnings", "1", "how many warnings the summary has", |s| {
-        s.warnings.len() as f64
-    }),
-];
-
-const POWERS: [Entry<Power>; 8] = [
+const POWERS: [Entry; 8] = [
     (
         "aerodynamic_watt",
         "W",
@@ -314,10 +206,15 @@ pub fn registry(setup: &FlightSetup) -> Result<Vec<Number>, AnalysisError> {
             source,
         });
     };
-    for (name, unit, about, of) in BEATS {
-        put(name.to_owned(), unit, about, Source::Beat(of));
-        let error = format!("standard error (of three wingbeats or more): {about}");
-        put(format!("error.{name}"), unit, &error, Source::Error(of));
+    for q in PerBeat::QUANTITIES {
+        put(q.name.to_owned(), q.unit, q.about, Source::Beat(q.of));
+        let about = format!("standard error (of three wingbeats or more): {}", q.about);
+        put(
+            format!("error.{}", q.name),
+            q.unit,
+            &about,
+            Source::Error(q.of),
+        );
     }
     put(
         EFFICIENCY.0.to_owned(),
@@ -339,8 +236,9 @@ pub fn registry(setup: &FlightSetup) -> Result<Vec<Number>, AnalysisError> {
             put(name, c.unit, &about, Source::Column(of, c.name.clone()));
         }
     }
-    for (name, unit, about, of) in SUMMARY {
-        put(format!("summary.{name}"), unit, about, Source::Summary(of));
+    for q in Summary::NUMBERS {
+        let name = format!("summary.{}", q.name);
+        put(name, q.unit, q.about, Source::Summary(q.of));
     }
     of_trim(&mut put);
     modes_and_derivatives(&mut put);

@@ -8,12 +8,13 @@ use std::time::{Duration, Instant};
 use wingbeat_analysis::{AnalysisError, Trim, power_of_trim};
 use wingbeat_case::{IoError, LoadedCase, trimmed_case};
 use wingbeat_flight::FlightError;
+use wingbeat_results::directory::{remove_directory, remove_file};
 use wingbeat_results::saver;
 use wingbeat_results::summary::Verdict;
 
 use crate::campaign::Campaign;
 use crate::evaluate;
-use crate::flight::{self, Halt, in_directory, in_memory};
+use crate::flight::{Halt, in_directory, in_memory};
 use crate::raw::{FRAMES_EVERY, FileKind, HISTORY_EVERY, Task};
 use crate::store::{PointResult, Reason, Store};
 use crate::trimming;
@@ -109,7 +110,7 @@ pub fn fly(
         Err(Halt::Diverged(words)) => failed(Reason::Diverged, words),
     };
     if let Some(work) = work.filter(|w| !campaign.raw().retention.failed && w.exists()) {
-        let _ = flight::remove(&work); // at worst it stays
+        let _ = remove_directory(&work); // at worst it stays
     }
     done
 }
@@ -246,7 +247,7 @@ impl Point<'_> {
             return Ok(());
         };
         if !self.campaign.keeps_files(self.i) {
-            return flight::remove(work);
+            return remove_directory(work).map(drop);
         }
         let kept = KEPT
             .iter()
@@ -259,13 +260,13 @@ impl Point<'_> {
             let (name, path) = (entry.file_name(), entry.path());
             if !name.to_str().is_some_and(|n| names.contains(&n)) {
                 match path.is_dir() {
-                    true => flight::remove(&path)?,
-                    false => fs::remove_file(&path).map_err(IoError::write(&path))?,
-                }
+                    true => remove_directory(&path)?,
+                    false => remove_file(&path)?,
+                };
             }
         }
         let place = store.path("files").join(hash);
-        flight::remove(&place)?;
+        remove_directory(&place)?;
         store.make(&store.path("files"))?;
         fs::rename(work, &place).map_err(IoError::write(&place))
     }

@@ -21,6 +21,7 @@ use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
 use wingbeat_case::IoError;
+use wingbeat_results::directory::{remove_file, write_whole};
 use wingbeat_results::manifest::sha256;
 use wingbeat_results::summary::Verdict;
 
@@ -177,20 +178,13 @@ impl Store {
     /// # Errors
     /// A file that cannot be written.
     pub fn write(&self, path: &Path, content: &[u8]) -> Result<(), IoError> {
-        let folder = path.parent().unwrap_or(&self.root);
-        let name = path.file_name().and_then(|n| n.to_str()).unwrap_or("file");
-        let part = folder.join(format!(".{name}.{}.part", std::process::id()));
-        let write = || fs::write(&part, content).and_then(|()| fs::rename(&part, path));
-        let written = match write() {
-            Err(e) if e.kind() == ErrorKind::NotFound => {
-                fs::create_dir_all(folder).and_then(|()| write())
+        match write_whole(path, content) {
+            Err(IoError::File { source, .. }) if source.kind() == ErrorKind::NotFound => {
+                self.make(path.parent().unwrap_or(&self.root))?;
+                write_whole(path, content)
             }
-            other => other,
-        };
-        written.map_err(|e| {
-            let _ = fs::remove_file(&part); // nothing more can be done about a leftover
-            IoError::write(path)(e)
-        })
+            written => written,
+        }
     }
 
     fn place(&self, hash: &str, ending: &str) -> PathBuf {
@@ -247,11 +241,7 @@ impl Store {
     /// # Errors
     /// A file that cannot be removed.
     pub fn forget(&self, hash: &str) -> Result<(), IoError> {
-        let path = self.place(hash, "ok");
-        match fs::remove_file(&path) {
-            Err(e) if e.kind() != ErrorKind::NotFound => Err(IoError::write(&path)(e)),
-            _ => Ok(()),
-        }
+        remove_file(&self.place(hash, "ok")).map(drop)
     }
 
     /// Forgets the result of a point that failed; whether there was one.
@@ -259,15 +249,11 @@ impl Store {
     /// # Errors
     /// A file that cannot be removed.
     pub fn forget_failure(&self, hash: &str) -> Result<bool, IoError> {
-        let path = self.place(hash, "failed");
-        match fs::remove_file(&path) {
-            Err(e) if e.kind() == ErrorKind::NotFound => Ok(false),
-            removed => {
-                removed.map_err(IoError::write(&path))?;
-                let _ = fs::remove_file(self.path("attempts").join(hash)); // there may be none
-                Ok(true)
-            }
+        let failed = remove_file(&self.place(hash, "failed"))?;
+        if failed {
+            let _ = fs::remove_file(self.path("attempts").join(hash)); // there may be none
         }
+        Ok(failed)
     }
 
     /// All points that are done by their hashes, and whether they failed; damage is not looked for.

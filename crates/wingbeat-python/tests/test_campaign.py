@@ -24,7 +24,7 @@ import pytest
 
 import wingbeat
 from wingbeat import CaseError, Flight, campaign
-from wingbeat.campaign import _identity, _names
+from wingbeat.campaign import _identity, _names, _task
 
 FREQUENCIES = np.linspace(180.0, 220.0, 24)
 POINTS = {"motion.frequency_hz": FREQUENCIES, "time.beats": 1}
@@ -276,6 +276,9 @@ def test_agrees_units_with_those_of_all_keys_and_of_all_numbers_of_campaigns(tmp
     said = subprocess.run([sys.executable, "-m", "wingbeat", "campaign", "numbers", file], check=True, capture_output=True, text=True)
     numbers = [line.split(maxsplit=1) for line in said.stdout.splitlines()]
     assert len(numbers) > 300
+    names = [name for name, _ in numbers]
+    assert tuple(names[: 2 * len(campaign.BEATS) : 2]) == campaign.BEATS  # beside each its error
+    assert tuple(name.removeprefix("summary.") for name in names if name.startswith("summary.")) == campaign.SUMMARY
     for name, rest in numbers:
         unit = rest[:10].strip()
         if not name.startswith("stability.derivative."):  # whose names have no unit
@@ -294,7 +297,7 @@ def written(unit: str) -> str:
 def test_exact_names_are_those_of_runs_and_trims(blade):
     run, trim = blade.fly(), blade.trim()
     assert set(campaign.BEATS) == set(run.beats) - {"beat"}
-    numbers = {k for k, v in run.summary.items() if isinstance(v, (int, float)) and not isinstance(v, bool)}
+    numbers = {k for k, v in _task.of_summary(run.summary).items() if isinstance(v, (int, float)) and not isinstance(v, bool)}
     assert set(campaign.SUMMARY) == numbers
     assert all(isinstance(getattr(trim.power(), name), float) for name in campaign.POWER)
     assert all(isinstance(getattr(trim, name), (int, float)) for name in campaign.ATTITUDE)

@@ -1,9 +1,28 @@
 //! The arrays of numbers in a frame, read back.
 
+use std::path::Path;
+
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
 
+use wingbeat_case::IoError;
+
 use crate::vtp::check_sum;
+
+/// What a file of a frame holds, by `parse`.
+///
+/// # Errors
+/// A file that cannot be read or is damaged.
+pub(super) fn read<T>(
+    path: &Path,
+    parse: impl FnOnce(&str) -> Result<T, String>,
+) -> Result<T, IoError> {
+    let text = std::fs::read_to_string(path).map_err(IoError::read(path))?;
+    parse(&text).map_err(|problem| IoError::Damaged {
+        path: path.to_owned(),
+        problem: format!("{problem}; fly the case.toml of this result again with `wingbeat run`"),
+    })
+}
 
 /// The arrays of a frame whose checksum is right, by their names.
 pub(super) fn arrays(text: &str) -> Result<Vec<(&str, Words)>, String> {

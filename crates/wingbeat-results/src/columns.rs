@@ -93,7 +93,7 @@ struct Shape {
 }
 
 /// Names of the bodies in column names: `body`, then `wing_NAME`, then `segment_NAME`.
-pub fn body_names(animal: &Animal) -> Vec<String> {
+pub fn column_stems(animal: &Animal) -> Vec<String> {
     bodies(animal).into_iter().map(|s| s.name).collect()
 }
 

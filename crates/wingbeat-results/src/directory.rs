@@ -9,7 +9,8 @@ use wingbeat_case::IoError;
 use crate::Outcome;
 use crate::history::is_abandoned;
 use crate::vtp::is_frame;
-pub use crate::whole::write_whole;
+pub use crate::whole::{remove_directory, remove_file, write_whole};
+use crate::whole::{target_name, was_there};
 
 /// Files a run and its exports may have; `--overwrite` removes these, the frames and the figures, and
 /// nothing else. The manifest comes first and goes last: where it is, there is a run.
@@ -139,8 +140,9 @@ impl ResultDir {
             clear(&path.join(styled), is_figure).map_err(make(path))?;
         }
         clear(&path.join(FIGURES), is_figure).map_err(make(path))?;
+        remove_half_written(path)?;
         for entry in ENTRIES {
-            absent(fs::remove_file(path.join(entry))).map_err(make(path))?;
+            was_there(fs::remove_file(path.join(entry))).map_err(make(path))?;
         }
         Ok(Self {
             path: path.to_owned(),
@@ -250,6 +252,21 @@ impl ResultDir {
     }
 }
 
+/// Removes what processes that died left of files of a run that they were writing.
+///
+/// # Errors
+/// A file that cannot be removed.
+pub(crate) fn remove_half_written(run: &Path) -> Result<(), IoError> {
+    for entry in fs::read_dir(run).into_iter().flatten().flatten() {
+        let name = entry.file_name();
+        let target = name.to_str().map(|name| (name, target_name(name)));
+        if target.is_some_and(|(name, target)| name != target && ENTRIES.contains(&target)) {
+            remove_file(&entry.path())?;
+        }
+    }
+    Ok(())
+}
+
 /// Whether this is the place of a file that a run writes or has written.
 pub(crate) fn belongs_to_run(path: &Path) -> bool {
     run_around(path).is_some_and(|(_, inside)| {
@@ -311,7 +328,7 @@ fn resolved(path: &Path) -> PathBuf {
 /// Name of a figure, whole or half-written: `forces.svg`.
 fn is_figure(name: &str) -> bool {
     let known = |stem: &str| FIGURE_NAMES.contains(&stem);
-    let name = name.trim_end_matches(".part").rsplit_once('.');
+    let name = target_name(name).rsplit_once('.');
     name.is_some_and(|(stem, end)| {
         known(stem) && ["svg", "png", "pdf", "gif", "mp4"].contains(&end)
     })
@@ -326,19 +343,12 @@ fn clear(folder: &Path, ours: impl Fn(&str) -> bool) -> std::io::Result<()> {
         let entry = entry?;
         let own = entry.file_name().to_str().is_some_and(&ours);
         if own && !entry.file_type()?.is_dir() {
-            absent(fs::remove_file(entry.path()))?;
+            was_there(fs::remove_file(entry.path()))?;
         }
     }
     match fs::remove_dir(folder) {
         Err(e) if e.kind() == ErrorKind::DirectoryNotEmpty => Ok(()),
-        removed => absent(removed),
-    }
-}
-
-fn absent(result: std::io::Result<()>) -> std::io::Result<()> {
-    match result {
-        Err(e) if e.kind() == ErrorKind::NotFound => Ok(()),
-        other => other,
+        removed => was_there(removed).map(drop),
     }
 }
 

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::io::Read as _;
 use std::path::{Path, PathBuf};
 
-use super::arrays::{arrays, groups};
+use super::arrays::{self, arrays, groups};
 use super::particles::Cloud;
 use super::vtp::{RIGHT_HANDED, frame_name, indexed};
 use wingbeat_case::IoError;
@@ -142,13 +142,7 @@ impl Mesh {
     /// # Errors
     /// A file that cannot be read or is damaged.
     pub fn read(path: &Path) -> Result<Self, IoError> {
-        let text = std::fs::read_to_string(path).map_err(IoError::read(path))?;
-        Self::parse(&text).map_err(|problem| IoError::Damaged {
-            path: path.to_owned(),
-            problem: format!(
-                "{problem}; fly the case.toml of this result again with `wingbeat run`"
-            ),
-        })
+        arrays::read(path, Self::parse)
     }
 
     /// The mesh, if it has the array that surfaces or wakes are known by.

@@ -6,7 +6,7 @@ use std::path::Path;
 use wingbeat_flight::Snapshot;
 use wingbeat_math::DVec3;
 
-use super::arrays::{arrays, groups};
+use super::arrays::{self, arrays, groups};
 use super::poses::picture;
 use super::vtp::{array, begin, end};
 use wingbeat_case::IoError;
@@ -100,13 +100,7 @@ impl Cloud {
     /// # Errors
     /// A file that cannot be read or is damaged.
     pub fn read(path: &Path) -> Result<Self, IoError> {
-        let text = std::fs::read_to_string(path).map_err(IoError::read(path))?;
-        Self::parse(&text).map_err(|problem| IoError::Damaged {
-            path: path.to_owned(),
-            problem: format!(
-                "{problem}; fly the case.toml of this result again with `wingbeat run`"
-            ),
-        })
+        arrays::read(path, Self::parse)
     }
 
     /// From the text of a `.vtp` file.

@@ -7,7 +7,7 @@ use wingbeat_math::{DMat3, DVec3, EulerSequence};
 use wingbeat_model::{Animal, BodyPart, DeformingMesh, Wing, WingMotion};
 
 use self::bent::Bent;
-use super::columns::body_names;
+use super::columns::column_stems;
 
 /// Column of the time.
 const TIME: usize = 1;
@@ -91,7 +91,7 @@ impl Poses {
         let others =
             others.flat_map(|(i, s)| s.parts.iter().map(move |p| Surface::part(p, first + i)));
         let place = |body: &String| names.iter().position(|n| *n == format!("{body}_x_m"));
-        let places: Option<Vec<usize>> = body_names(animal).iter().map(place).collect();
+        let places: Option<Vec<usize>> = column_stems(animal).iter().map(place).collect();
         Some(Self {
             surfaces: wings.chain(own).chain(others).collect(),
             wings: animal.wings.len(),

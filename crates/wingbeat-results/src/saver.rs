@@ -11,7 +11,7 @@ use super::checkpoint::{self, FILE, Header};
 use super::history::hash_start;
 use super::manifest::{Manifest, Outcome, hexadecimal, sha256};
 use super::vtp::{frame_name, is_frame};
-use super::whole::write_safely;
+use super::whole::{remove_file, write_safely};
 use wingbeat_case::{IoError, SaveSettings};
 
 /// The first checkpoint by time comes sooner; a run that was killed before it is flown from its start.
@@ -251,9 +251,5 @@ pub(crate) fn write(dir: &Path, header: &Header, state: &FlightState) -> Result<
 /// # Errors
 /// A file that cannot be removed.
 pub fn forget(dir: &Path) -> Result<(), IoError> {
-    let path = dir.join(FILE);
-    match fs::remove_file(&path) {
-        Err(e) if e.kind() != std::io::ErrorKind::NotFound => Err(IoError::write(&path)(e)),
-        _ => Ok(()),
-    }
+    remove_file(&dir.join(FILE)).map(drop)
 }

@@ -16,6 +16,7 @@ use wingbeat_math::DVec3;
 
 use super::manifest::sha256;
 use super::poses::picture;
+use super::whole::target_name;
 
 /// What a frame says of its circulations. Frames without it are of older versions, in which those of surfaces
 /// (not of wakes) are left-handed: positive when their lift is along the panel normal.
@@ -234,7 +235,7 @@ pub fn frame_name(stem: &str, step: usize) -> String {
 /// Name of a frame, whole or half-written: `wakes_000012.vtp`.
 pub(crate) fn is_frame(name: &str) -> bool {
     let stem = |n: &str| n.strip_suffix(".vtp").map(str::to_owned);
-    let number = stem(name.trim_end_matches(".part")).and_then(|stem| {
+    let number = stem(target_name(name)).and_then(|stem| {
         let (what, number) = stem.split_once('_')?;
         ["surfaces", "wakes", "particles"]
             .contains(&what)

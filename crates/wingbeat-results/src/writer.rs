@@ -5,6 +5,7 @@ use std::time::{Duration, Instant};
 use wingbeat_flight::{AirModel, FlightState, Record, Snapshot};
 
 use super::checkpoint::Header;
+use super::directory::remove_half_written;
 use super::framer::Framer;
 use super::history::HistoryWriter;
 use super::manifest::{Manifest, Outcome, sha256};
@@ -114,6 +115,7 @@ impl RunWriter {
         // A manifest never promises more of the history than there is.
         dir.write("manifest.json", manifest.to_json().as_bytes())?;
         history.cut()?;
+        remove_half_written(dir.path())?;
         let steps = saver::go_back(dir.path(), header.step)?;
         let step = case.setup.time.step;
         let writer = Self {

@@ -305,12 +305,12 @@ fn behaves_histories_of_older_versions_are_read() {
     );
     summary.joint_residual_relative = integrated;
     for (counted, integrated) in summary.beats.iter_mut().zip(&whole.beats) {
-        let power = integrated.power_watt;
-        assert!((counted.power_watt / power - 1.0).abs() < 1e-4);
-        counted.power_watt = power;
+        let power = integrated.mean.power_watt;
+        assert!((counted.mean.power_watt / power - 1.0).abs() < 1e-4);
+        counted.mean.power_watt = power;
     }
     for beat in &mut whole.beats {
-        [beat.lift_coefficient, beat.thrust_coefficient] = [None; 2]; // not in the file
+        [beat.mean.lift_coefficient, beat.mean.thrust_coefficient] = [None; 2]; // not in the file
     }
     assert_eq!(summary, whole);
 }

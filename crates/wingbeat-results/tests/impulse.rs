@@ -27,11 +27,11 @@ fn agrees_lift_by_all_loads_with_that_by_impulse_in_attached_hover() {
             let [lift, impulse] = two_lifts(beat);
             println!(
                 "{loads}: {:.3e} N, inviscid {lift:.3e} N, by impulse {impulse:.3e} N",
-                beat.lift_newton
+                beat.mean.lift_newton
             );
             assert!((impulse / lift - 1.0).abs() < 0.03); // 0.1 to 0.6 % here, 1 to 2 % with wakes from tips
             if loads == "pressure" {
-                assert!(beat.lift_newton < 0.85 * lift, "the test is void");
+                assert!(beat.mean.lift_newton < 0.85 * lift, "the test is void");
             }
         }
         assert!(says(&summary, says_more), "{:?}", summary.warnings);
@@ -63,10 +63,13 @@ fn agrees_lift_with_that_by_impulse_of_a_wing_that_sheds_all_around_in_hover() {
 #[test]
 fn behaves_air_without_vortices_has_no_inviscid_lift() {
     let summary = flown(&preset("fruit-fly-blade", &[]));
-    let lifts = |b: &BeatMeans| [b.inviscid_lift_newton, b.lift_by_impulse_newton];
+    let lifts = |b: &BeatMeans| [b.mean.inviscid_lift_newton, b.mean.lift_by_impulse_newton];
     assert!(summary.beats.iter().all(|b| lifts(b) == [None; 2]));
     let means = summary.means.expect("five beats");
-    assert!(means.inviscid_lift_newton.is_none() && means.lift_by_impulse_newton.is_none());
+    assert!(
+        means.estimate.inviscid_lift_newton.is_none()
+            && means.estimate.lift_by_impulse_newton.is_none()
+    );
 }
 
 /// Vortex lift is a law of forces on an attached lattice: the inviscid force is that of attached flow, the one
@@ -78,7 +81,7 @@ fn agrees_lift_with_that_by_impulse_beside_vortex_lift() {
     for beat in &summary.beats[1..] {
         let [lift, impulse] = two_lifts(beat);
         assert!((impulse / lift - 1.0).abs() < 0.03, "{impulse} {lift}"); // as attached hover
-        assert!(beat.lift_newton < 0.85 * lift, "the test is void");
+        assert!(beat.mean.lift_newton < 0.85 * lift, "the test is void");
     }
     assert!(says(
         &summary,
@@ -90,7 +93,11 @@ fn agrees_lift_with_that_by_impulse_beside_vortex_lift() {
 
 /// The inviscid lift of a beat in the lattice \[N\], and the same by impulse.
 fn two_lifts(beat: &BeatMeans) -> [f64; 2] {
-    [beat.inviscid_lift_newton, beat.lift_by_impulse_newton].map(|lift| lift.expect("a lattice"))
+    [
+        beat.mean.inviscid_lift_newton,
+        beat.mean.lift_by_impulse_newton,
+    ]
+    .map(|lift| lift.expect("a lattice"))
 }
 
 /// The residual is what the account and the force have in sum, and small.
@@ -99,7 +106,7 @@ fn balances_impulse_budget(summary: &Summary) {
     println!("{budget:?}");
     let period = summary.time_s / summary.beats.len() as f64;
     let lift: f64 = summary.beats.iter().map(|b| two_lifts(b)[0]).sum();
-    let gained = budget.created_newton_s + budget.moved_newton_s + budget.converted_newton_s;
+    let gained = budget.created_newton_s + budget.moved_newton_s;
     let sum = gained - lift * period;
     // Roundings of parts that are some ten times as large as their sum.
     assert!((budget.residual_newton_s - sum).abs() < 1e-12 * lift * period);

@@ -27,7 +27,7 @@ pub(crate) fn main() -> Result<(), Box<dyn std::error::Error>> {
     );
     let summary = Summary::read(&case, &history, &read.manifest()?.outcome)?;
     for (computed, theirs) in run.beats().iter().zip(&summary.beats) {
-        let lift = theirs.lift_over_weight.ok_or("no weight")?;
+        let lift = theirs.mean.lift_over_weight.ok_or("no weight")?;
         println!(
             "beat {}: {:.6} weights in memory, {lift:.6} on disk",
             computed.beat, computed.lift_over_weight

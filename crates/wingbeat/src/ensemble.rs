@@ -21,7 +21,7 @@ use crate::value::Flight;
 /// let found = wingbeat::ensemble(&flight, 3, 0)?;
 /// assert_eq!((found.members, found.beats.len()), (3, 2));
 /// assert!(found.beats[1].spread < 1e-4); // blade elements forget
-/// assert_eq!(found.beats[1].lift_newton.standard_error, None); // and members that have not parted are one flight
+/// assert_eq!(found.beats[1].estimate.lift_newton.standard_error, None); // and members that have not parted are one flight
 /// # Ok::<(), wingbeat::Error>(())
 /// ```
 ///

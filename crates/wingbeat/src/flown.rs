@@ -59,15 +59,15 @@ pub struct Beat {
 }
 
 impl From<&BeatMeans> for Beat {
-    fn from(means: &BeatMeans) -> Self {
+    fn from(BeatMeans { beat, mean }: &BeatMeans) -> Self {
         Self {
-            beat: means.beat,
-            lift_over_weight: means.lift_over_weight.unwrap_or(f64::NAN),
-            thrust_newton: means.thrust_newton,
-            power_watt: means.power_watt,
-            positive_power_watt: means.positive_power_watt.unwrap_or(f64::NAN),
-            lift_coefficient: means.lift_coefficient.unwrap_or(f64::NAN),
-            thrust_coefficient: means.thrust_coefficient.unwrap_or(f64::NAN),
+            beat: *beat,
+            lift_over_weight: mean.lift_over_weight.unwrap_or(f64::NAN),
+            thrust_newton: mean.thrust_newton,
+            power_watt: mean.power_watt,
+            positive_power_watt: mean.positive_power_watt.unwrap_or(f64::NAN),
+            lift_coefficient: mean.lift_coefficient.unwrap_or(f64::NAN),
+            thrust_coefficient: mean.thrust_coefficient.unwrap_or(f64::NAN),
         }
     }
 }

@@ -61,12 +61,12 @@ fn quantities(setup: &FlightSetup, history: &History, beats: &[BeatMeans]) -> Ve
             "weight" => "force upward / weight".to_owned(),
             _ => format!("force upward [{unit}]"),
         };
-        let means = mean(&|b| b.lift_newton * factor);
+        let means = mean(&|b| b.mean.lift_newton * factor);
         list.push((label, scaled(&up, factor), means));
     }
     let power = driving_power(history);
     let (scale, prefix) = prefix(&power);
-    let means = mean(&|b| b.power_watt / scale);
+    let means = mean(&|b| b.mean.power_watt / scale);
     let label = format!("{} [{prefix}W]", driving_power_name(history));
     list.push((label, scaled(&power, 1.0 / scale), means));
     list

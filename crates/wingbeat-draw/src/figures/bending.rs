@@ -2,7 +2,7 @@
 
 use wingbeat_flight::FlightSetup;
 use wingbeat_results::History;
-use wingbeat_results::columns::body_names;
+use wingbeat_results::columns::column_stems;
 
 use super::measure::{Kept, Line, Measure, Measured, Unit};
 use super::units::length_floor;
@@ -22,7 +22,7 @@ const ROUNDING: f64 = 1e-12;
 pub(super) fn bending(setup: &FlightSetup, history: &History) -> Option<Measured> {
     let wings = &setup.animal.wings;
     let last = wings.iter().rposition(|w| w.structure.is_some())?;
-    let wing = &body_names(&setup.animal)[last + 1];
+    let wing = &column_stems(&setup.animal)[last + 1];
     let lines = |of: &dyn Fn(&str) -> String| {
         let line = |[name, label]: [&str; 2]| Line::new(label, history.column(&of(name)).to_vec());
         SECTIONS.map(line).into_iter().collect::<Vec<_>>()

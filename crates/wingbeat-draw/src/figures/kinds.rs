@@ -9,7 +9,7 @@ use super::part::Part;
 use super::units::{length_floor, scaled};
 use super::wing_angles::wing_angles;
 use wingbeat_results::History;
-use wingbeat_results::columns::body_names;
+use wingbeat_results::columns::column_stems;
 use wingbeat_results::summary::{air_force, down, driving_power, driving_power_name};
 
 /// Relative changes of strokes that are rounding \[1\].
@@ -109,7 +109,7 @@ pub(super) fn from_start(values: &[f64]) -> Vec<f64> {
 }
 
 fn angles(setup: &FlightSetup, history: &History) -> Measured {
-    let names = body_names(&setup.animal);
+    let names = column_stems(&setup.animal);
     let (mut feathers, mut joints) = (false, false);
     let panels = (0..setup.animal.wings.len()).map(|k| {
         let found = wing_angles(setup, history, k);
@@ -139,7 +139,7 @@ fn angles(setup: &FlightSetup, history: &History) -> Measured {
 
 /// Commands of amplitude, mean stroke angle and stroke plane, wing by wing.
 fn commands(setup: &FlightSetup, history: &History) -> Measured {
-    let names = body_names(&setup.animal);
+    let names = column_stems(&setup.animal);
     let wings = &names[1..][..setup.animal.wings.len()];
     let lines = |what: &str| {
         let line = |wing: &String| {

@@ -15,7 +15,7 @@ use super::style::Look;
 use super::ticks;
 use super::units::prefix;
 use wingbeat_results::History;
-use wingbeat_results::columns::body_names;
+use wingbeat_results::columns::column_stems;
 use wingbeat_results::poses::Poses;
 use wingbeat_results::summary::down;
 
@@ -84,7 +84,7 @@ fn chord(setup: &FlightSetup, history: &History, poses: &Poses, k: usize) -> Cho
     let stroke = poses.pose(&row, 0).1 * DMat3::from_rotation_y(wing.motion.stroke_plane_pitch);
     let turned_to = stroke.transpose() * poses.pose(&row, number).1;
     let section = Section::of(wing, &poses.shape(&row, number - 1), turned_to);
-    let name = &body_names(&setup.animal)[number];
+    let name = &column_stems(&setup.animal)[number];
     let force = |c: usize| history.column(&format!("air_{name}_force_n{c}_newton"));
     let force = [1, 2, 3].map(|c| force(c).get(k).copied().unwrap_or(0.0));
     let force = section.flat(stroke.transpose() * DVec3::from_array(force));

@@ -5,7 +5,7 @@ use wingbeat_model::Wing;
 
 use super::units::scaled;
 use wingbeat_results::History;
-use wingbeat_results::columns::body_names;
+use wingbeat_results::columns::column_stems;
 
 /// Number of the wing that stands for all: the last one that beats, so no fixed tail; the last one where none does.
 pub(super) fn reference_number(setup: &FlightSetup) -> Option<usize> {
@@ -39,7 +39,7 @@ pub(crate) fn stroke_columns(setup: &FlightSetup, names: &[String]) -> Vec<Optio
 /// downstroke; nothing for a motion without a period.
 fn stroking(setup: &FlightSetup) -> Vec<(String, f64)> {
     let wings = setup.animal.wings.iter().map(|w| w.side.sign());
-    let names = body_names(&setup.animal).into_iter().skip(1);
+    let names = column_stems(&setup.animal).into_iter().skip(1);
     let list = names.zip(wings).collect();
     setup.time.period.map_or(vec![], |_| list)
 }

@@ -4,7 +4,7 @@ use wingbeat_flight::FlightSetup;
 
 use wingbeat_case::column_name;
 use wingbeat_results::History;
-use wingbeat_results::columns::body_names;
+use wingbeat_results::columns::column_stems;
 
 /// How far the axis of a joint may be from that of feathering, as a sine \[1\].
 const ASKEW: f64 = 1e-9;
@@ -21,7 +21,7 @@ pub(super) struct WingAngles {
 
 /// The angles of wing number `wing`, from 0.
 pub(super) fn wing_angles(setup: &FlightSetup, history: &History, wing: usize) -> WingAngles {
-    let name = &body_names(&setup.animal)[wing + 1];
+    let name = &column_stems(&setup.animal)[wing + 1];
     let prescribed = |k: &str| {
         history
             .column(&format!("{name}_prescribed_{k}_rad"))

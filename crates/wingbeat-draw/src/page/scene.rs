@@ -13,7 +13,7 @@ use crate::figures;
 use wingbeat_case::IoError;
 use wingbeat_case::LoadedCase;
 use wingbeat_results::ResultDir;
-use wingbeat_results::columns::body_names;
+use wingbeat_results::columns::column_stems;
 use wingbeat_results::frames::{self, Frame, JoinedEdges, Mesh};
 use wingbeat_results::particles::Cloud;
 use wingbeat_results::poses::{Poses, picture};
@@ -317,7 +317,10 @@ fn force_columns(case: &LoadedCase, names: &[String]) -> Vec<Option<usize>> {
         let name = format!("air_{b}_force_n1_newton");
         names.iter().position(|n| *n == name)
     };
-    let list: Vec<Option<usize>> = body_names(&case.setup.animal).iter().map(column).collect();
+    let list: Vec<Option<usize>> = column_stems(&case.setup.animal)
+        .iter()
+        .map(column)
+        .collect();
     match case.setup.air.is_some() {
         true => list,
         false => vec![],

@@ -8,38 +8,16 @@ use serde::{Deserialize, Serialize};
 use wingbeat_flight::{AirModel, FlightSetup, Record};
 use wingbeat_math::DVec3;
 
+use super::per_beat::PerBeat;
+
 /// Means over one wingbeat.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct BeatMeans {
     /// Number of the beat, from 1.
     pub beat: usize,
-    /// Mean air force against gravity \[N\].
-    pub lift_newton: f64,
-    /// The same over the weight; none without gravity \[1\].
-    pub lift_over_weight: Option<f64>,
-    /// Mean air force along n1 (forward) \[N\].
-    pub thrust_newton: f64,
-    /// Mean power that hinge actuators and prescribed deformation give \[W\].
-    pub power_watt: f64,
-    /// The positive part of it, joint by joint: what actuators give that get nothing back when wings are slowed
-    /// down \[W\]; none in a summary of an older version.
-    #[serde(default)]
-    pub positive_power_watt: Option<f64>,
-    /// Mean lift over the mean dynamic pressure on the wings, `1/2 rho int U^2 dA`, U the velocity of the feathering
-    /// axes through the undisturbed air \[1\]; none without wings that move through air of a known density, and in a
-    /// summary of an older version.
-    #[serde(default)]
-    pub lift_coefficient: Option<f64>,
-    /// The same of the force along n1 \[1\].
-    #[serde(default)]
-    pub thrust_coefficient: Option<f64>,
-    /// Mean inviscid air force against gravity, with the suction that pressures lack, without friction \[N\]; none
-    /// without a lattice.
-    #[serde(default)]
-    pub inviscid_lift_newton: Option<f64>,
-    /// The same by another way, the rate of the vortex impulse \[N\]. With vortex particles it depends on the origin.
-    #[serde(default)]
-    pub lift_by_impulse_newton: Option<f64>,
+    /// The means.
+    #[serde(flatten)]
+    pub mean: PerBeat,
 }
 
 impl BeatMeans {
@@ -53,8 +31,7 @@ impl BeatMeans {
         let coefficient = |force: f64| (dynamic > 0.0).then(|| force / dynamic);
         let has_lattice = matches!(setup.air, AirModel::VortexLattice(_));
         let of_lattice = |impulse: DVec3| has_lattice.then(|| mean(impulse).dot(down(setup)));
-        Self {
-            beat,
+        let mean = PerBeat {
             lift_newton,
             lift_over_weight: over_weight(setup, lift_newton),
             thrust_newton: force.x,
@@ -64,7 +41,8 @@ impl BeatMeans {
             thrust_coefficient: coefficient(force.x),
             inviscid_lift_newton: of_lattice(from.inviscid_impulse - to.inviscid_impulse),
             lift_by_impulse_newton: of_lattice(to.vortex_impulse - from.vortex_impulse),
-        }
+        };
+        Self { beat, mean }
     }
 }
 
@@ -157,7 +135,7 @@ mod tests {
         };
         assert_eq!(means(1).len(), 2);
         assert_eq!(means(1), means(4));
-        for beat in means(1) {
+        for beat in means(1).into_iter().map(|b| b.mean) {
             let lift = beat.lift_over_weight.unwrap();
             assert!((lift - 0.5).abs() < 1e-14, "{lift}"); // some roundings
             assert!((beat.thrust_newton - 1.0).abs() < 1e-14);

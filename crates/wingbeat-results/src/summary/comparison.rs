@@ -3,7 +3,6 @@
 use serde::Serialize;
 
 use super::estimate::Estimate;
-use super::means::ManyBeats;
 use super::numbers::Summary;
 
 /// A difference is beyond the errors from so many of its standard errors on.
@@ -48,25 +47,9 @@ impl Summary {
         let (Some(a), Some(b)) = (&self.means, &other.means) else {
             return vec![];
         };
-        let mut rows = vec![];
-        if let (Some(x), Some(y)) = (a.lift_over_weight, b.lift_over_weight) {
-            rows.push(MeanDifference::between("lift over weight", x, y));
-        }
-        let mut row = |what, of: fn(&ManyBeats) -> Estimate| {
-            rows.push(MeanDifference::between(what, of(a), of(b)));
-        };
-        row("lift [N]", |m| m.lift_newton);
-        row("forward force [N]", |m| m.thrust_newton);
-        row("power [W]", |m| m.power_watt);
-        let mut where_known = |what, of: fn(&ManyBeats) -> Option<Estimate>| {
-            if let (Some(x), Some(y)) = (of(a), of(b)) {
-                rows.push(MeanDifference::between(what, x, y));
-            }
-        };
-        where_known("positive power [W]", |m| m.positive_power_watt);
-        where_known("lift coefficient [1]", |m| m.lift_coefficient);
-        where_known("thrust coefficient [1]", |m| m.thrust_coefficient);
-        rows
+        let rows = a.estimate.beside(&b.estimate).into_iter();
+        rows.map(|(what, x, y)| MeanDifference::between(what, x, y))
+            .collect()
     }
 }
 

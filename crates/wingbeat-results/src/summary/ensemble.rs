@@ -8,6 +8,7 @@ use serde::{Deserialize, Serialize};
 use super::beats::BeatMeans;
 use super::estimate::{Estimate, FEWEST, moments};
 use super::means::{LEFT_OUT, ManyBeats};
+use super::per_beat::PerBeat;
 use super::words::steadiness;
 
 /// Members have parted with the beat in which their forces scatter by this part of what those of the beats of a member
@@ -22,20 +23,9 @@ const NO_GROWTH: f64 = 2.0;
 pub struct EnsembleBeat {
     /// Number of the beat, from 1.
     pub beat: usize,
-    /// Air force against gravity \[N\].
-    pub lift_newton: Estimate,
-    /// The same over the weight; none without gravity.
-    pub lift_over_weight: Option<Estimate>,
-    /// Air force along n1 (forward) \[N\].
-    pub thrust_newton: Estimate,
-    /// Power of hinge actuators and prescribed deformation \[W\].
-    pub power_watt: Estimate,
-    /// The positive part of it, joint by joint \[W\].
-    pub positive_power_watt: Option<Estimate>,
-    /// Lift over the dynamic pressure on the wings, see [`BeatMeans::lift_coefficient`] \[1\].
-    pub lift_coefficient: Option<Estimate>,
-    /// The same of the force along n1 \[1\].
-    pub thrust_coefficient: Option<Estimate>,
+    /// The means over the members with their errors.
+    #[serde(flatten)]
+    pub estimate: PerBeat<Estimate>,
     /// Standard deviation of the lift over the members, over the mean of its magnitudes: how far the members have
     /// parted \[1\].
     pub spread: f64,
@@ -117,7 +107,7 @@ impl Ensemble {
     /// What the errors of its means are, in a sentence.
     fn errors(&self) -> String {
         let errors = match &self.means {
-            Some(means) if means.lift_newton.standard_error.is_some() => {
+            Some(means) if means.estimate.lift_newton.standard_error.is_some() => {
                 "the error is that of the beats of one flight"
             }
             _ => "of so few beats the mean has no error",
@@ -140,25 +130,14 @@ impl Ensemble {
 
 /// A beat as the mean over the members.
 fn mean_of(members: &[Vec<BeatMeans>], beat: usize) -> BeatMeans {
-    let mean = |of: fn(&BeatMeans) -> f64| {
-        members.iter().map(|m| of(&m[beat])).sum::<f64>() / members.len() as f64
-    };
-    let where_known = |of: fn(&BeatMeans) -> Option<f64>| {
-        let values: Option<Vec<f64>> = members.iter().map(|m| of(&m[beat])).collect();
-        values.map(|values| values.iter().sum::<f64>() / members.len() as f64)
-    };
     BeatMeans {
         beat: members[0][beat].beat,
-        lift_newton: mean(|b| b.lift_newton),
-        lift_over_weight: where_known(|b| b.lift_over_weight),
-        thrust_newton: mean(|b| b.thrust_newton),
-        power_watt: mean(|b| b.power_watt),
-        positive_power_watt: where_known(|b| b.positive_power_watt),
-        lift_coefficient: where_known(|b| b.lift_coefficient),
-        thrust_coefficient: where_known(|b| b.thrust_coefficient),
-        inviscid_lift_newton: where_known(|b| b.inviscid_lift_newton),
-        lift_by_impulse_newton: where_known(|b| b.lift_by_impulse_newton),
+        mean: PerBeat::joined(members.iter().map(|m| &m[beat].mean), mean),
     }
+}
+
+fn mean(values: &[f64]) -> f64 {
+    values.iter().sum::<f64>() / values.len() as f64
 }
 
 /// Index of the first beat behind the one, after those left out, in which the forces of members scatter as
@@ -188,46 +167,31 @@ fn scatter(members: &[Vec<BeatMeans>], beat: usize) -> f64 {
 
 /// Variance of the force (lift, thrust) over beats, at least two \[N2\].
 fn variance(beats: &[BeatMeans]) -> f64 {
-    let parts: [fn(&BeatMeans) -> f64; 2] = [|b| b.lift_newton, |b| b.thrust_newton];
+    let parts: [fn(&BeatMeans) -> f64; 2] = [|b| b.mean.lift_newton, |b| b.mean.thrust_newton];
     let square = |of| moments(&beats.iter().map(of).collect::<Vec<f64>>()).1;
     parts.map(square).iter().sum::<f64>() / (beats.len() - 1) as f64
 }
 
 /// Beats `from` up to `to`, that excluded, as one.
 fn over(members: &[Vec<BeatMeans>], [from, to]: [usize; 2], are: Members) -> EnsembleBeat {
-    let mean = |x: &[f64]| x.iter().sum::<f64>() / x.len() as f64;
-    let of_members = |f: &dyn Fn(&BeatMeans) -> f64| -> Vec<f64> {
-        let member = |m: &Vec<BeatMeans>| mean(&m[from..to].iter().map(f).collect::<Vec<_>>());
-        members.iter().map(member).collect()
+    let of_member = |m: &Vec<BeatMeans>| PerBeat::joined(m[from..to].iter().map(|b| &b.mean), mean);
+    let of_members: Vec<PerBeat> = members.iter().map(of_member).collect();
+    let of_beats: Vec<PerBeat> = (from..to).map(|k| mean_of(members, k).mean).collect();
+    let without_error = |values: &[f64]| Estimate {
+        mean: mean(values),
+        standard_error: None,
     };
-    let of_beats = |f: &dyn Fn(&BeatMeans) -> f64| -> Vec<f64> {
-        let beat = |k| mean(&members.iter().map(|m| f(&m[k])).collect::<Vec<_>>());
-        (from..to).map(beat).collect()
+    let estimate = match are {
+        Members::Independent => PerBeat::joined(&of_members, Estimate::of_independent),
+        Members::OneFlight => PerBeat::joined(&of_beats, Estimate::of),
+        Members::Deterministic => PerBeat::joined(&of_beats, without_error),
     };
-    let estimate = |f: &dyn Fn(&BeatMeans) -> f64| match are {
-        Members::Independent => Estimate::of_independent(&of_members(f)),
-        Members::OneFlight => Estimate::of(&of_beats(f)),
-        Members::Deterministic => Estimate {
-            mean: mean(&of_beats(f)),
-            standard_error: None,
-        },
-    };
-    let lift = of_members(&|b| b.lift_newton);
+    let lift: Vec<f64> = of_members.iter().map(|m| m.lift_newton).collect();
     let size = lift.iter().map(|x| x.abs()).sum::<f64>() / lift.len() as f64;
     let deviation = (moments(&lift).1 / (lift.len() - 1) as f64).sqrt();
-    let where_known = |f: fn(&BeatMeans) -> Option<f64>| {
-        let known = members.iter().flatten().all(|b| f(b).is_some());
-        known.then(|| estimate(&|b| f(b).unwrap_or(f64::NAN)))
-    };
     EnsembleBeat {
         beat: members[0][from].beat,
-        lift_newton: estimate(&|b| b.lift_newton),
-        lift_over_weight: where_known(|b| b.lift_over_weight),
-        thrust_newton: estimate(&|b| b.thrust_newton),
-        power_watt: estimate(&|b| b.power_watt),
-        positive_power_watt: where_known(|b| b.positive_power_watt),
-        lift_coefficient: where_known(|b| b.lift_coefficient),
-        thrust_coefficient: where_known(|b| b.thrust_coefficient),
+        estimate,
         spread: if size > 0.0 { deviation / size } else { 0.0 },
     }
 }
@@ -239,15 +203,17 @@ mod tests {
     fn member(lift: &[f64]) -> Vec<BeatMeans> {
         let beat = |(k, x): (usize, &f64)| BeatMeans {
             beat: k + 1,
-            lift_newton: *x,
-            lift_over_weight: Some(x / 2.0),
-            thrust_newton: 0.0,
-            power_watt: 1.0,
-            positive_power_watt: Some(2.0),
-            lift_coefficient: Some(*x),
-            thrust_coefficient: Some(0.0),
-            inviscid_lift_newton: Some(*x),
-            lift_by_impulse_newton: Some(*x),
+            mean: PerBeat {
+                lift_newton: *x,
+                lift_over_weight: Some(x / 2.0),
+                thrust_newton: 0.0,
+                power_watt: 1.0,
+                positive_power_watt: Some(2.0),
+                lift_coefficient: Some(*x),
+                thrust_coefficient: Some(0.0),
+                inviscid_lift_newton: Some(*x),
+                lift_by_impulse_newton: Some(*x),
+            },
         };
         lift.iter().enumerate().map(beat).collect()
     }
@@ -260,16 +226,19 @@ mod tests {
         ];
         let e = Ensemble::of(&members, false).unwrap();
         assert_eq!((e.members, e.beats.len()), (2, 5));
-        assert_eq!((e.beats[0].spread, e.beats[0].lift_newton.mean), (0.0, 1.0));
-        assert_eq!(e.beats[2].lift_newton.standard_error, None);
+        assert_eq!(
+            (e.beats[0].spread, e.beats[0].estimate.lift_newton.mean),
+            (0.0, 1.0)
+        );
+        assert_eq!(e.beats[2].estimate.lift_newton.standard_error, None);
         assert_eq!(e.members_are, Members::Independent);
-        let fourth = e.beats[3].lift_newton;
+        let fourth = e.beats[3].estimate.lift_newton;
         assert_eq!(fourth.mean, 2.0);
-        // 3 and 1: deviation sqrt 2, error of the mean of two 1, Student's factor of one degree of freedom 1.837.
-        assert!((fourth.standard_error.unwrap() - 1.837).abs() < 0.03);
+        // 3 and 1: deviation sqrt 2, error of the mean of two 1, Student's factor of one degree of freedom 1.8373.
+        assert!((fourth.standard_error.unwrap() - 1.8373).abs() < 1e-4);
         let all = e.means.clone().unwrap();
-        assert_eq!((all.beat, all.lift_newton.mean), (4, 3.0));
-        assert_eq!(all.lift_over_weight.unwrap().mean, 1.5);
+        assert_eq!((all.beat, all.estimate.lift_newton.mean), (4, 3.0));
+        assert_eq!(all.estimate.lift_over_weight.unwrap().mean, 1.5);
         assert!(e.remark().contains("parted by beat 4"), "{}", e.remark());
         assert_eq!(Ensemble::of(&members[..1], false), None);
         assert_eq!(Ensemble::of(&[vec![], vec![]], false), None);
@@ -289,18 +258,29 @@ mod tests {
         };
         let e = apart(10.0);
         assert_eq!(e.members_are, Members::OneFlight);
-        let error = e.means.as_ref().unwrap().lift_newton.standard_error;
+        let error = e
+            .means
+            .as_ref()
+            .unwrap()
+            .estimate
+            .lift_newton
+            .standard_error;
         assert!(error.is_some_and(|s| s > 0.03), "{error:?}");
         assert!(
             e.beats
                 .iter()
-                .all(|b| b.lift_newton.standard_error.is_none())
+                .all(|b| b.estimate.lift_newton.standard_error.is_none())
         );
         assert!(e.remark().contains("have not parted") && e.remark().contains("fly longer"));
         let same = apart(1.0);
         assert_eq!(same.members_are, Members::Deterministic);
         assert_eq!(
-            same.means.as_ref().unwrap().lift_newton.standard_error,
+            same.means
+                .as_ref()
+                .unwrap()
+                .estimate
+                .lift_newton
+                .standard_error,
             None
         );
         assert!(same.remark().contains("deterministic"));
@@ -313,16 +293,17 @@ mod tests {
         let members = [of(-1e-3), of(1e-3)];
         let e = Ensemble::of(&members, true).unwrap();
         assert_eq!(e.members_are, Members::Independent);
-        assert!((e.means.as_ref().unwrap().lift_newton.mean - 0.85).abs() < 1e-12);
+        assert!((e.means.as_ref().unwrap().estimate.lift_newton.mean - 0.85).abs() < 1e-12);
         let error = e
             .means
             .as_ref()
             .unwrap()
+            .estimate
             .lift_newton
             .standard_error
             .unwrap();
-        // Deviation 1.41e-3, error of the mean of two 1e-3, Student's factor 1.837.
-        assert!((error - 1.837e-3).abs() < 3e-5, "{error:e}");
+        // Deviation 1.41e-3, error of the mean of two 1e-3, Student's factor 1.8373.
+        assert!((error - 1.8373e-3).abs() < 1e-7, "{error:e}");
         let said = e.remark();
         assert!(
             said.contains("noise of its own") && said.contains("NOT steady"),

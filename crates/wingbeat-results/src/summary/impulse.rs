@@ -13,8 +13,6 @@ pub struct ImpulseBudget {
     pub created_newton_s: f64,
     /// Gained by free wakes as they moved \[N s\].
     pub moved_newton_s: f64,
-    /// Gained where rings became particles \[N s\].
-    pub converted_newton_s: f64,
     /// That of wakes when they were dropped \[N s\].
     pub cut_newton_s: f64,
     /// Taken by surfaces from wakes that they held back \[N s\].
@@ -53,7 +51,6 @@ impl ImpulseBudget {
         Some(Self {
             created_newton_s: along(|a| a.created),
             moved_newton_s: along(|a| a.moved),
-            converted_newton_s: along(|a| a.converted),
             cut_newton_s: along(|a| a.cut),
             absorbed_newton_s: along(|a| a.absorbed),
             residual_newton_s: residual.dot(down(setup)),

@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::beats::BeatMeans;
 use super::estimate::{Estimate, FEWEST, correlation, moments};
+use super::per_beat::PerBeat;
 
 /// Beats at the start that means over wingbeats leave out: the wake comes up.
 pub const LEFT_OUT: usize = 2;
@@ -19,30 +20,9 @@ const MUST_SHOW: f64 = 0.1;
 pub struct ManyBeats {
     /// First and last beat, from 1.
     pub beats: [usize; 2],
-    /// Air force against gravity \[N\].
-    pub lift_newton: Estimate,
-    /// The same over the weight; none without gravity.
-    pub lift_over_weight: Option<Estimate>,
-    /// Air force along n1 (forward) \[N\].
-    pub thrust_newton: Estimate,
-    /// Power of hinge actuators and prescribed deformation \[W\].
-    pub power_watt: Estimate,
-    /// The positive part of it, joint by joint \[W\].
-    #[serde(default)]
-    pub positive_power_watt: Option<Estimate>,
-    /// Lift over the dynamic pressure on the wings, see [`BeatMeans::lift_coefficient`] \[1\].
-    #[serde(default)]
-    pub lift_coefficient: Option<Estimate>,
-    /// The same of the force along n1 \[1\].
-    #[serde(default)]
-    pub thrust_coefficient: Option<Estimate>,
-    /// Inviscid air force against gravity, with the suction that pressures lack, without friction \[N\]; none without a
-    /// lattice.
-    #[serde(default)]
-    pub inviscid_lift_newton: Option<Estimate>,
-    /// The same by the rate of the vortex impulse \[N\].
-    #[serde(default)]
-    pub lift_by_impulse_newton: Option<Estimate>,
+    /// The means with their errors.
+    #[serde(flatten)]
+    pub estimate: PerBeat<Estimate>,
     /// Change of lift from the first half of these beats to the second, over the mean force \[1\].
     pub change_of_lift: f64,
     /// The same of the thrust \[1\].
@@ -66,32 +46,16 @@ impl ManyBeats {
     /// Of the wingbeats of a flight; none if there are fewer than five.
     pub fn of(beats: &[BeatMeans]) -> Option<Self> {
         let beats = beats.get(LEFT_OUT..).filter(|b| b.len() >= FEWEST)?;
-        let of = |value: fn(&BeatMeans) -> f64| {
-            Estimate::of(&beats.iter().map(value).collect::<Vec<f64>>())
-        };
-        let lift_newton = of(|b| b.lift_newton);
-        let where_known = |value: fn(&BeatMeans) -> Option<f64>| {
-            let values: Option<Vec<f64>> = beats.iter().map(value).collect();
-            values.map(|values| Estimate::of(&values))
-        };
-        let thrust_newton = of(|b| b.thrust_newton);
-        let size = lift_newton.mean.hypot(thrust_newton.mean);
-        let size = size.max(f64::MIN_POSITIVE);
-        let forces: [fn(&BeatMeans) -> f64; 2] = [|b| b.lift_newton, |b| b.thrust_newton];
+        let estimate = PerBeat::joined(beats.iter().map(|b| &b.mean), Estimate::of);
+        let [lift, thrust] = [estimate.lift_newton, estimate.thrust_newton];
+        let size = lift.mean.hypot(thrust.mean).max(f64::MIN_POSITIVE);
+        let forces: [fn(&BeatMeans) -> f64; 2] = [|b| b.mean.lift_newton, |b| b.mean.thrust_newton];
         let changes = forces.map(|of| Change::of(&beats.iter().map(of).collect::<Vec<_>>(), size));
         let changed = changes.iter().any(|c| c.is_felt());
         let hidden = changes.iter().any(|c| c.hidden > MUST_SHOW);
         Some(Self {
             beats: [beats[0].beat, beats[beats.len() - 1].beat],
-            lift_newton,
-            lift_over_weight: where_known(|b| b.lift_over_weight),
-            thrust_newton,
-            power_watt: of(|b| b.power_watt),
-            positive_power_watt: where_known(|b| b.positive_power_watt),
-            lift_coefficient: where_known(|b| b.lift_coefficient),
-            thrust_coefficient: where_known(|b| b.thrust_coefficient),
-            inviscid_lift_newton: where_known(|b| b.inviscid_lift_newton),
-            lift_by_impulse_newton: where_known(|b| b.lift_by_impulse_newton),
+            estimate,
             change_of_lift: changes[0].change,
             change_of_thrust: changes[1].change,
             is_steady: !changed && !hidden,
@@ -131,8 +95,11 @@ impl Change {
     }
 }
 
-/// Error of the mean of two values or more as they show it themselves: without what few of them hide, so that a
-/// change is felt rather too soon. Correlation r of neighbours makes n values `n (1 - r) / (1 + r)`.
+/// Error of the mean of two values or more as they show it themselves, where [`Estimate`] has what it is likely to be.
+/// There the correlation that few values hide is added, and Student's factor, lest an error be too small; here either
+/// would hide the drift that is looked for, so both are left out and a change is felt rather too soon. Correlation r of
+/// neighbours makes n values `n (1 - r) / (1 + r)`, the limit of many in [`Estimate`]'s formula: of the two or three
+/// values of a half its sum of lags says no more.
 fn shown_error(values: &[f64]) -> f64 {
     let n = values.len() as f64;
     let (mean, square) = moments(values);
@@ -153,15 +120,17 @@ mod tests {
     fn flown_with(lift: impl Fn(usize) -> f64, thrust: impl Fn(usize) -> f64) -> Option<ManyBeats> {
         let beat = |k: usize| BeatMeans {
             beat: k,
-            lift_newton: lift(k),
-            lift_over_weight: Some(lift(k) / 2.0),
-            thrust_newton: thrust(k),
-            power_watt: 3.0,
-            positive_power_watt: Some(4.0),
-            lift_coefficient: Some(lift(k)),
-            thrust_coefficient: Some(thrust(k)),
-            inviscid_lift_newton: Some(lift(k)),
-            lift_by_impulse_newton: Some(lift(k)),
+            mean: PerBeat {
+                lift_newton: lift(k),
+                lift_over_weight: Some(lift(k) / 2.0),
+                thrust_newton: thrust(k),
+                power_watt: 3.0,
+                positive_power_watt: Some(4.0),
+                lift_coefficient: Some(lift(k)),
+                thrust_coefficient: Some(thrust(k)),
+                inviscid_lift_newton: Some(lift(k)),
+                lift_by_impulse_newton: Some(lift(k)),
+            },
         };
         ManyBeats::of(&(1..=10).map(beat).collect::<Vec<_>>())
     }
@@ -170,8 +139,8 @@ mod tests {
     fn exact_means_leave_two_beats_out_and_drift_is_not_steady() {
         let same = flown(|k| if k < 3 { 9.0 } else { 2.0 }).unwrap();
         assert_eq!(same.beats, [3, 10]);
-        assert_eq!(same.lift_over_weight.unwrap().mean, 1.0);
-        assert_eq!(same.lift_newton.standard_error, Some(0.0));
+        assert_eq!(same.estimate.lift_over_weight.unwrap().mean, 1.0);
+        assert_eq!(same.estimate.lift_newton.standard_error, Some(0.0));
         assert!(same.is_steady && same.change_of_lift == 0.0);
         let falls = flown(|k| 10.0 - 0.5 * k as f64).unwrap();
         assert!(

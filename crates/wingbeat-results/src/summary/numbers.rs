@@ -88,65 +88,22 @@ impl Summary {
     pub fn beside(&self, other: &Self) -> Vec<(String, f64, f64)> {
         let mut rows = vec![];
         for (k, (a, b)) in self.beats.iter().zip(&other.beats).enumerate() {
-            let of = |what: &str| format!("{what}, beat {}", k + 1);
-            if let (Some(x), Some(y)) = (a.lift_over_weight, b.lift_over_weight) {
-                rows.push((of("lift over weight"), x, y));
-            }
-            rows.push((of("lift [N]"), a.lift_newton, b.lift_newton));
-            rows.push((of("forward force [N]"), a.thrust_newton, b.thrust_newton));
-            rows.push((of("power [W]"), a.power_watt, b.power_watt));
-            let mut where_known = |what, value: fn(&BeatMeans) -> Option<f64>| {
-                if let (Some(x), Some(y)) = (value(a), value(b)) {
-                    rows.push((of(what), x, y));
-                }
-            };
-            where_known("positive power [W]", |m| m.positive_power_watt);
-            where_known("lift coefficient [1]", |m| m.lift_coefficient);
-            where_known("thrust coefficient [1]", |m| m.thrust_coefficient);
+            let of_beat = |(what, x, y)| (format!("{what}, beat {}", k + 1), x, y);
+            rows.extend(a.mean.beside(&b.mean).into_iter().map(of_beat));
         }
         let moved = without_rounding([self.displacement_m, other.displacement_m], 0.0);
         let turned = without_rounding([self.turn_deg, other.turn_deg], 1.0);
-        let a = self.numbers(moved[0], turned[0]);
-        let b = other.numbers(moved[1], turned[1]);
-        rows.extend(
-            a.into_iter()
-                .zip(b)
-                .map(|((what, x), (_, y))| (what.to_owned(), x, y)),
-        );
+        let kept = |summary: &Self, k: usize| Self {
+            displacement_m: moved[k],
+            turn_deg: turned[k],
+            ..summary.clone()
+        };
+        let [a, b] = [kept(self, 0), kept(other, 1)];
+        rows.extend(Self::NUMBERS.into_iter().filter_map(|q| {
+            let label = q.label?.to_owned();
+            Some((label, (q.of)(&a)?, (q.of)(&b)?))
+        }));
         rows
-    }
-
-    fn numbers(
-        &self,
-        [x, y, z]: [f64; 3],
-        [pitch, yaw, roll]: [f64; 3],
-    ) -> [(&'static str, f64); 18] {
-        [
-            ("steps", self.steps as f64),
-            ("time [s]", self.time_s),
-            ("mass [kg]", self.mass_kg),
-            ("moved forward n1 [m]", x),
-            ("moved right n2 [m]", y),
-            ("moved down n3 [m]", z),
-            ("turned in pitch [deg]", pitch),
-            ("turned in yaw [deg]", yaw),
-            ("turned in roll [deg]", roll),
-            ("lift at the end [N]", self.final_lift_newton),
-            ("forward force at the end [N]", self.final_thrust_newton),
-            ("energy residual, relative", self.energy_residual_relative),
-            (
-                "momentum residual, relative",
-                self.momentum_residual_relative,
-            ),
-            ("constraint violation [m]", self.violation_position_m),
-            (
-                "constraint violation, orientation",
-                self.violation_orientation,
-            ),
-            ("corrector passes, mean", self.corrector_passes_mean),
-            ("wake rings", self.wake_rings as f64),
-            ("regularised events", self.regularised as f64),
-        ]
     }
 
     /// As JSON in one line, with the directory it belongs to.

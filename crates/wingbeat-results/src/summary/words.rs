@@ -78,14 +78,17 @@ impl Summary {
         }
         out.push_str("\n beat   lift/weight      lift       forward      power\n");
         for b in &self.beats {
-            let ratio = b.lift_over_weight.map_or("-".to_owned(), |r| fixed(r, 3));
+            let ratio = b
+                .mean
+                .lift_over_weight
+                .map_or("-".to_owned(), |r| fixed(r, 3));
             let _ = writeln!(
                 out,
                 "{:5}   {ratio:>11}   {}   {}   {}",
                 b.beat,
-                engineering(b.lift_newton, "N"),
-                engineering(b.thrust_newton, "N"),
-                engineering(b.power_watt, "W")
+                engineering(b.mean.lift_newton, "N"),
+                engineering(b.mean.thrust_newton, "N"),
+                engineering(b.mean.power_watt, "W")
             );
         }
         if let Some(means) = &self.means {
@@ -100,10 +103,13 @@ impl Summary {
     /// Power over the mass, of the mean or of the last beat; none where nothing is driven.
     fn specific_power(&self) -> Option<String> {
         let last = self.beats.last()?;
-        let of_last = |b: &BeatMeans| Some([b.power_watt, b.positive_power_watt?]);
+        let of_last = |b: &BeatMeans| Some([b.mean.power_watt, b.mean.positive_power_watt?]);
         let (powers, of) = match &self.means {
             Some(m) => (
-                [m.power_watt.mean, m.positive_power_watt?.mean],
+                [
+                    m.estimate.power_watt.mean,
+                    m.estimate.positive_power_watt?.mean,
+                ],
                 "the mean".to_owned(),
             ),
             None => (of_last(last)?, format!("beat {}", last.beat)),
@@ -120,8 +126,10 @@ impl Summary {
     fn coefficients(&self) -> Option<String> {
         let last = self.beats.last()?;
         let [lift, thrust] = match &self.means {
-            Some(m) => [m.lift_coefficient?, m.thrust_coefficient?].map(|c| c.mean),
-            None => [last.lift_coefficient?, last.thrust_coefficient?],
+            Some(m) => {
+                [m.estimate.lift_coefficient?, m.estimate.thrust_coefficient?].map(|c| c.mean)
+            }
+            None => [last.mean.lift_coefficient?, last.mean.thrust_coefficient?],
         };
         Some(format!(
             "Lift and force forward over the mean of 1/2 rho U^2 on the wings, U the speed of the feathering axes through the undisturbed air: coefficients {} and {}.",
@@ -191,18 +199,18 @@ const ENOUGH: usize = 6;
 /// Means over many wingbeats, below the table of all.
 fn mean_rows(means: &ManyBeats, out: &mut String) {
     let mut row = |name: &str, of: fn(&Estimate) -> f64| {
-        let ratio = means.lift_over_weight;
+        let ratio = means.estimate.lift_over_weight;
         let ratio = ratio.map_or("-".to_owned(), |r| fixed(of(&r), 3));
         let _ = writeln!(
             out,
             "{name}   {ratio:>11}   {}   {}   {}",
-            engineering(of(&means.lift_newton), "N"),
-            engineering(of(&means.thrust_newton), "N"),
-            engineering(of(&means.power_watt), "W")
+            engineering(of(&means.estimate.lift_newton), "N"),
+            engineering(of(&means.estimate.thrust_newton), "N"),
+            engineering(of(&means.estimate.power_watt), "W")
         );
     };
     row(" mean", |e| e.mean);
-    let has_errors = means.lift_newton.standard_error.is_some();
+    let has_errors = means.estimate.lift_newton.standard_error.is_some();
     if has_errors {
         row("   +-", |e| e.standard_error.unwrap_or(0.0));
     }

@@ -100,13 +100,13 @@ fn row(report: &mut Report, name: &str, b: &EnsembleBeat) {
         Some(error) => format!("{:.5} +- {error:.5}", e.mean),
         None => format!("{:.5}", e.mean),
     };
-    let lift = b.lift_over_weight.as_ref();
+    let lift = b.estimate.lift_over_weight.as_ref();
     line!(
         report,
         "  {name:<9}{:>24}{:>26}{:>26}{:>12.4}",
         lift.map_or_else(|| "-".to_owned(), ratio),
-        b.thrust_newton.in_words("N"),
-        b.power_watt.in_words("W"),
+        b.estimate.thrust_newton.in_words("N"),
+        b.estimate.power_watt.in_words("W"),
         100.0 * b.spread
     );
 }

@@ -109,7 +109,7 @@ list = [5, 200]
             .fly()
             .unwrap();
         let summary = run.summary();
-        let lift = summary.means.unwrap().lift_over_weight.unwrap();
+        let lift = summary.means.unwrap().estimate.lift_over_weight.unwrap();
         assert_eq!(own("lift_over_weight")[k], lift.mean);
         assert_eq!(
             own("error.lift_over_weight")[k],

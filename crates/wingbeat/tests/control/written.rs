@@ -60,7 +60,13 @@ fn behaves_members_of_a_noisy_flight_scatter() {
         found.beats[3]
     );
     let means = found.means.as_ref().unwrap();
-    assert!(means.lift_newton.standard_error.is_some_and(|e| e > 0.0));
+    assert!(
+        means
+            .estimate
+            .lift_newton
+            .standard_error
+            .is_some_and(|e| e > 0.0)
+    );
     assert!(
         found.remark().contains("noise of its own"),
         "{}",

@@ -8,8 +8,8 @@ from typing import Any
 from wingbeat.errors import CaseError
 
 BEATS = (
-    "lift_newton",
     "lift_over_weight",
+    "lift_newton",
     "thrust_newton",
     "power_watt",
     "positive_power_watt",
@@ -23,6 +23,12 @@ SUMMARY = (
     "steps",
     "time_s",
     "mass_kg",
+    "forward_m",
+    "right_m",
+    "down_m",
+    "pitch_deg",
+    "yaw_deg",
+    "roll_deg",
     "final_lift_newton",
     "final_thrust_newton",
     "energy_residual_relative",
@@ -33,13 +39,15 @@ SUMMARY = (
     "euler_regularity",
     "corrector_passes_most",
     "corrector_passes_mean",
-    "regularised",
-    "alternating_steps",
     "wake_rings",
     "wake_particles",
+    "regularised",
+    "alternating_steps",
     "net_flux_residual_m_s",
+    "verdict",
+    "warnings",
 )
-"""Numbers of the summary."""
+"""Numbers of the summary: way and turn from start to end by components; ``verdict``: 0 green, 1 amber, 2 red; how many ``warnings``."""
 POWER = (
     "aerodynamic_watt",
     "inertial_positive_watt",

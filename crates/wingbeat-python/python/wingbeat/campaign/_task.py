@@ -76,12 +76,23 @@ def _flown(flight: Flight, keep: Sequence[str], last: int | None) -> dict[str, A
     least = last or 1
     if count < least and any(name in _names.BEATS for name in keep):
         raise AnalysisError(f"{count} whole wingbeats were flown, means need {least} (time.beats)")
-    numbers = dict(run.summary)
+    numbers = of_summary(run.summary)
     for name in keep:
         if name in _names.BEATS:
             values = run.beats[name]
             numbers[name] = float(values[-(last or count) :].mean())
     return numbers
+
+
+def of_summary(summary: Mapping[str, Any]) -> dict[str, Any]:
+    """The summary with its vectors, its verdict and its warnings as numbers of their own."""
+    numbers = dict(summary)
+    numbers |= zip(("forward_m", "right_m", "down_m"), summary["displacement_m"], strict=True)
+    numbers |= zip(("pitch_deg", "yaw_deg", "roll_deg"), summary["turn_deg"], strict=True)
+    return numbers | {
+        "verdict": ("green", "amber", "red").index(summary["verdict"]),
+        "warnings": len(summary["warnings"]),
+    }
 
 
 def _trimmed(flight: Flight, options: dict[str, Any]) -> dict[str, Any]:

@@ -218,11 +218,13 @@ fn two_ways_to_the_lift(lattice: &AirSettings, beat: &BeatMeans, list: &mut Warn
         );
         return;
     }
-    let (Some(other), Some(inviscid)) = (beat.lift_by_impulse_newton, beat.inviscid_lift_newton)
-    else {
+    let (Some(other), Some(inviscid)) = (
+        beat.mean.lift_by_impulse_newton,
+        beat.mean.inviscid_lift_newton,
+    ) else {
         return;
     };
-    let lift = beat.lift_newton;
+    let lift = beat.mean.lift_newton;
     let loads = match lattice.loads {
         LoadMethod::Joukowski => "Joukowski's forces",
         LoadMethod::Pressure | LoadMethod::Polhamus => {

@@ -55,8 +55,8 @@ pub(crate) fn flown_crossings(setup: &FlightSetup, found: &[Crossing], list: &mu
 
 /// A mean lift of a beat beyond all animals, or wings that push down.
 fn lift(setup: &FlightSetup, summary: &Summary, list: &mut Warnings) {
-    let weights = |b: &BeatMeans| b.lift_over_weight.unwrap_or(0.0).abs();
-    let pushes_down = |b: &BeatMeans| b.lift_over_weight.is_some_and(|l| l < PUSHES_DOWN);
+    let weights = |b: &BeatMeans| b.mean.lift_over_weight.unwrap_or(0.0).abs();
+    let pushes_down = |b: &BeatMeans| b.mean.lift_over_weight.is_some_and(|l| l < PUSHES_DOWN);
     if !summary.beats.is_empty() && summary.beats.iter().all(pushes_down) {
         list.limit("The wings push the body down in every wingbeat: look at the signs and phases of their angles, the feathering (psi) first (`wingbeat check` helps).");
     }

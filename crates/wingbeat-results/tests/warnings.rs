@@ -1,0 +1,195 @@
+//! What summaries say of motions, wings and bodies that are not as they should be.
+
+use crate::flights::{flown, preset, says};
+use std::path::Path;
+use wingbeat_case::LoadedCase;
+use wingbeat_results::summary::Verdict;
+
+/// Wings that pass through each other are named by every air, and so is a lift that no animal has.
+#[test]
+fn behaves_impossible_motions_and_lifts_are_named_without_a_lattice() {
+    let summary = flown(&preset("hawkmoth-blade", &["time.beats=1"]));
+    let crosses = "wings `left` and `right` pass through each other in 21 % of the beat";
+    assert!(says(&summary, crosses), "{:?}", summary.warnings);
+    assert_eq!(summary.verdict, Verdict::Amber);
+    let sound = flown(&preset("fruit-fly-blade", &["time.beats=1"]));
+    assert!(!says(&sound, "impossible"), "{:?}", sound.warnings);
+    let set = [
+        "flight.mode=tethered",
+        "time.beats=1",
+        "motion.frequency_hz=800",
+    ];
+    let strong = flown(&preset("fruit-fly-blade", &set));
+    assert!(says(
+        &strong,
+        "weights in beat 1 is more than any animal carries"
+    ));
+}
+
+/// A stroke as a camera sees it, with noise of a degree, in fewer steps than samples; a fit of its harmonics is
+/// good again.
+#[test]
+fn behaves_noise_in_angles_is_named_and_a_fit_takes_it_out() {
+    let wave = |x: f64| 70.0 * (std::f64::consts::TAU * x).cos();
+    let noise = |k: usize| 1.2 * (1.0 + 7.1 * k as f64 * k as f64).sin(); // no harmonic of the beat
+    let rows = (0..200).map(|k| {
+        format!(
+            "[{}, {}]",
+            k as f64 / 200.0,
+            wave(k as f64 / 200.0) + noise(k)
+        )
+    });
+    let rows = rows.chain([format!("[1.0, {}]", 70.0 + noise(0))]);
+    let rows = rows.collect::<Vec<_>>().join(", ");
+    let table = |more: &str| format!("wing.right.motion.phi={{table={{rows_deg=[{rows}]{more}}}}}");
+    let held = "wing.right.motion.psi={fourier={sine_deg=[45.0]}}";
+    let fly = |phi: &str| flown(&preset("fruit-fly-blade", &[phi, held, "time.beats=0.1"]));
+    let noisy = fly(&table(""));
+    let text = "the samples of motion.phi scatter by some";
+    assert!(says(&noisy, text), "{:?}", noisy.warnings);
+    assert!(says(
+        &noisy,
+        "100 steps per wingbeat do not even follow (400 at least)"
+    ));
+    assert!(says(&noisy, "`harmonics = 1` in this table"));
+    assert!(noisy.verdict >= Verdict::Amber);
+    assert!(
+        noisy.warnings[0].starts_with("Angles that scatter"),
+        "{:?}",
+        noisy.warnings
+    );
+    assert!(!says(&noisy, "take smaller steps"), "{:?}", noisy.warnings);
+    let fitted = fly(&table(", harmonics=1"));
+    assert!(!says(&fitted, "scatter"), "{:?}", fitted.warnings);
+}
+
+/// Bodies without wings have no sections, strips or measured coefficients to speak of.
+#[test]
+fn behaves_notes_of_the_air_of_bodies_are_about_bodies() {
+    let flown = |air: &str| {
+        let text = format!(
+            "format = 1\n[time]\nstep_s = 1e-3\nsteps = 10\n[flight]\nmode = \"tethered\"\nvelocity_m_s = [1, 0, 0]\n\
+             [output]\nframes_every = 0\n[body.part.b]\nlength_m = 0.1\ndiameter_m = 0.02\nmass_kg = 0.01\n[air]\n{air}"
+        );
+        let base = Path::new("");
+        flown(&LoadedCase::from_text("body", &text, base, &[]).unwrap())
+    };
+    let lattice = flown("model = \"vortex_lattice\"");
+    assert!(says(&lattice, "bodies leave no wakes") && !says(&lattice, "sections"));
+    let drag = flown(
+        "model = \"blade_element\"\nblade.body_drag = { area_m2 = 3e-4, along = 0.4, across = 1 }",
+    );
+    assert!(says(&drag, "drag of the body alone") && !says(&drag, "coefficients"));
+}
+
+/// Leading edges that shed one sign more than the other while roots hold: with strokes unlike back and forth,
+/// not in hover.
+#[test]
+fn behaves_summaries_tell_of_leading_edges_that_shed_one_sign() {
+    let shed = r#"air.shed=["trailing", "tip", "leading"]"#;
+    for (name, told) in [("dragonfly", true), ("fruit-fly-tethered", false)] {
+        let summary = flown(&preset(name, &["time.beats=0.05", shed]));
+        let says = says(&summary, "is left over of one sign in every beat");
+        assert_eq!(says, told, "{name}: {:?}", summary.warnings);
+        assert!(!told || summary.verdict >= Verdict::Amber);
+    }
+}
+
+/// Wings whose roots are inside the trunk, with and without it in the air. What has left edges that shed by the
+/// step before alternates; where all motion is prescribed nothing is wrong with that.
+#[test]
+fn behaves_alternating_forces_of_prescribed_motion_are_no_fault() {
+    let text = r#"
+        format = 1
+        gravity_m_s2 = [0, 0, 0]
+        time = { step_s = 1.6666667e-3, steps = 90 }
+        flight = { mode = "tethered", pitch_deg = 20 }
+        air = { density_kg_m3 = 1.0, stream_m_s = [-10, 0, 0], body = false, leading_edge = "suction" }
+        body = { mass_kg = 0.1, inertia_about_centre_kg_m2 = [1e-4, 1e-4, 1e-4, 0, 0, 0] }
+        [wing.right]
+        hinge_m = [0, 0, 0]
+        mass_kg = 0.01
+        joined = true
+        planform.rectangle = { chord_m = 0.1, span_m = 0.05, axis_fraction = 0.25 }
+        mesh = { chordwise = 6, spanwise = 5 }
+    "#;
+    let case = LoadedCase::from_text("plate", text, Path::new(""), &[]).unwrap();
+    let summary = flown(&case);
+    assert!(
+        summary.alternating_steps > 6,
+        "{}",
+        summary.alternating_steps
+    );
+    assert!(says(&summary, "Forces alternate") && says(&summary, "read means"));
+    assert_eq!(summary.verdict, Verdict::Amber, "{:?}", summary.warnings); // for the one sign of what is shed
+}
+
+#[test]
+fn behaves_summaries_tell_of_wings_inside_parts_of_the_body() {
+    for (body, told) in [("true", true), ("false", false)] {
+        let body = format!("air.body={body}");
+        let summary = flown(&preset("bird-cruise", &["time.beats=0.05", &body]));
+        let says = says(
+            &summary,
+            "are inside the body part `trunk` in 100 % of the beat",
+        );
+        assert_eq!(says, told, "{:?}", summary.warnings);
+        // Two steps are red for their balances, too.
+        let is_reason = summary.verdict_reason.contains("cannot both be surfaces");
+        assert!(is_reason == told && summary.verdict == Verdict::Red);
+    }
+}
+
+/// Wings whose roots lie on a part of the body, with and without it in the air.
+#[test]
+fn behaves_summaries_tell_of_wings_on_bodies() {
+    for (body, told) in [("true", true), ("false", false)] {
+        let body = format!("air.body={body}");
+        let on_the_side = "wing.right.hinge_m=[0, 0.04, 0]";
+        let set = [
+            "time.beats=0.05",
+            "wing.right.joined=false",
+            on_the_side,
+            &body,
+        ];
+        let summary = flown(&preset("bird-cruise", &set));
+        let told_of = "panels of the body part `trunk` are 0.6 chords long";
+        assert_eq!(says(&summary, told_of), told, "{:?}", summary.warnings);
+    }
+}
+
+/// Wings that pass through each other: their forces mean nothing in a lattice.
+#[test]
+fn behaves_wings_that_cross_make_a_lattice_red() {
+    let set = [
+        "time.beats=0.05",
+        "air.model=vortex_lattice",
+        "air.body=false",
+    ];
+    let summary = flown(&preset("hawkmoth-blade", &set));
+    assert_eq!(summary.verdict, Verdict::Red);
+    let reason = &summary.verdict_reason;
+    assert!(
+        reason.contains("pass through each other in 21 %"),
+        "{reason}"
+    );
+    assert!(says(&summary, "have no meaning, nor have the means"));
+}
+
+/// Feathering against the stroke lifts, with the other sign it pushes down: 1.1 and -0.8 weights.
+#[test]
+fn behaves_wings_that_push_the_body_down_are_named() {
+    for (sine, told) in [(50, false), (-50, true)] {
+        let law = format!(
+            "wing.right.motion={{phi={{fourier={{cosine_deg=[70]}}}},psi={{fourier={{sine_deg=[{sine}]}}}}}}"
+        );
+        let summary = flown(&preset(
+            "fruit-fly-blade",
+            &["time.beats=1", "motion.data=", &law],
+        ));
+        let lift = summary.beats[0].mean.lift_over_weight.unwrap();
+        assert_eq!(lift < 0.0, told, "{lift}");
+        assert_eq!(says(&summary, "push the body down"), told);
+        assert!(!told || summary.verdict >= Verdict::Amber);
+    }
+}

@@ -1,0 +1,242 @@
+//! Exports are read by the programs they are made for: VTK, h5py, xarray, pyarrow and the Khronos
+//! glTF validator, which the test installs beside itself.
+
+mod animation;
+#[path = "../support/mod.rs"]
+mod support;
+
+use std::fs;
+use std::path::PathBuf;
+use std::process::Command;
+
+use wingbeat::math::DVec3;
+use wingbeat::results::frames::Mesh;
+
+use support::readers::{python, readers, store, works};
+use support::{Scratch, flown, required, wingbeat};
+
+const CASE: [&str; 15] = [
+    "run",
+    "fruit-fly-hover",
+    "--quiet",
+    "--out",
+    "run",
+    "--set",
+    "time.beats=0.5",
+    "--set",
+    "wing.right.mesh.spanwise=6",
+    "--set",
+    "wing.right.mesh.chordwise=3",
+    "--set",
+    "air.shed=[\"trailing\"]",
+    "--set=air.particles={after_rows=8,radius_m=2.5e-4}",
+    "--set=output.page=false",
+];
+
+/// The folder of the glTF validator.
+fn validator() -> Result<PathBuf, String> {
+    let store = store("node");
+    if !store.join("ready").is_file() {
+        fs::create_dir_all(&store).map_err(|e| e.to_string())?;
+        let install = [
+            "install",
+            "--silent",
+            "--no-audit",
+            "--no-fund",
+            "gltf-validator@2.0.0-dev.3.10",
+        ];
+        works(
+            Command::new("npm")
+                .args(install)
+                .arg("--prefix")
+                .arg(&store),
+        )?;
+        fs::write(store.join("ready"), "").map_err(|e| e.to_string())?;
+    }
+    Ok(store)
+}
+
+fn exported(scratch: &Scratch) -> PathBuf {
+    flown(&scratch.0, &CASE);
+    for format in ["hdf5", "vtkhdf", "parquet", "gltf"] {
+        flown(&scratch.0, &["export", "run", "--format", format]);
+    }
+    scratch.0.join("run")
+}
+
+#[test]
+fn agrees_real_readers_read_every_number_back() {
+    let scratch = Scratch::new("readers");
+    let run = exported(&scratch);
+    match python() {
+        Err(problem) => required(&format!("no Python with the readers: {problem}")),
+        Ok(python) => {
+            let read = works(
+                Command::new(python)
+                    .arg(readers().join("read.py"))
+                    .arg(&run),
+            );
+            let said = read.unwrap_or_else(|e| panic!("{e}"));
+            assert!(said.contains("21 rows, 11 frames: all equal"), "{said}");
+        }
+    }
+    match validator() {
+        Err(problem) => required(&format!("no glTF validator: {problem}")),
+        Ok(folder) => {
+            let mut node = Command::new("node");
+            node.arg(readers().join("validate.js"))
+                .arg(folder)
+                .arg(run.join("flight.glb"));
+            let said = works(&mut node).unwrap_or_else(|e| panic!("{e}"));
+            // Three bodies, ten frames with a wake, of which the last six have particles, too.
+            assert!(said.contains("\"drawCallCount\":19"), "{said}");
+        }
+    }
+}
+
+#[test]
+fn refuses_exports_of_what_is_not_there() {
+    let scratch = Scratch::new("no-export");
+    let refused = |args: &[&str], reason: &str| {
+        let out = wingbeat(&scratch.0, args);
+        let said = String::from_utf8_lossy(&out.stderr).into_owned();
+        assert_eq!(out.status.code(), Some(2), "{said}");
+        assert!(said.contains(reason), "{said}\ndoes not say: {reason}");
+    };
+    refused(
+        &["export", ".", "--format", "hdf5"],
+        "not a result directory of wingbeat",
+    );
+    let args = [
+        "run",
+        "fruit-fly-vacuum",
+        "--quiet",
+        "--out",
+        "run",
+        "--set",
+        "time.beats=0.1",
+    ];
+    flown(&scratch.0, &args);
+    refused(
+        &["export", "run", "--format", "vtkhdf"],
+        "there are no frames to export",
+    );
+    refused(
+        &["export", "run", "--format", "xlsx"],
+        "hdf5, vtkhdf, parquet, gltf",
+    );
+    let path = scratch.0.join("run/history.csv");
+    let text = fs::read_to_string(&path).unwrap();
+    fs::write(&path, text.replacen("0,", "zero,", 3)).unwrap();
+    refused(
+        &["export", "run", "--format", "parquet"],
+        "it was cut or changed",
+    );
+    assert!(!scratch.0.join("run/history.parquet").exists());
+    assert!(!scratch.0.join("run/history.parquet.part").exists());
+}
+
+/// Velocity that vortex filaments along the edges of the panels of a frame induce, each panel with its circulation,
+/// right-handed about its corners [m/s]; places and velocity in picture axes.
+fn induced(mesh: &Mesh, x: [f64; 3]) -> DVec3 {
+    let x = DVec3::from(x);
+    let filament = |a: DVec3, b: DVec3| {
+        let (r1, r2) = (x - a, x - b);
+        let cross = r1.cross(r2);
+        let along = (b - a).dot(r1.normalize() - r2.normalize());
+        let square = cross.length_squared().max(f64::MIN_POSITIVE);
+        cross * along / square / (4.0 * std::f64::consts::PI)
+    };
+    let gamma = mesh.cell("circulation_m2_per_s");
+    let ring = |(quad, gamma): (&[usize; 4], &f64)| -> DVec3 {
+        let corner = |k: usize| DVec3::from(mesh.points[quad[k % 4]]);
+        (0..4)
+            .map(|k| *gamma * filament(corner(k), corner(k + 1)))
+            .sum()
+    };
+    mesh.quads.iter().zip(gamma).map(ring).sum()
+}
+
+/// Circulations in files are those of one convention: Biot and Savart's law over surfaces and wakes gives the
+/// velocity of the air.
+#[test]
+fn agrees_the_velocity_of_exported_circulations_with_that_of_the_flight() {
+    let scratch = Scratch::new("circulations");
+    let run = [
+        "run",
+        "rectangular-wing",
+        "--quiet",
+        "--out=run",
+        "--set=time.steps=12",
+        "--set=output.keep_checkpoint=true",
+        "--set=output.frames_every=12",
+        "--set=output.page=false",
+    ];
+    flown(&scratch.0, &run);
+    let mesh =
+        |stem: &str| Mesh::read(&scratch.0.join(format!("run/frames/{stem}_000012.vtp"))).unwrap();
+    let frame = [mesh("surfaces"), mesh("wakes")];
+    let places = [
+        [0.2, 0.1, 0.05],
+        [0.0, 0.2, 0.3],
+        [-0.3, 0.6, -0.3],
+        [0.0, 0.0, -0.2],
+    ];
+    let stream = DVec3::new(-10.0, 0.0, 0.0);
+    for [x, y, z] in places {
+        let point = format!("--point={x},{y},{z}");
+        let out = wingbeat(&scratch.0, &["velocity", "run", "--json", &point]);
+        let said: serde_json::Value = serde_json::from_slice(&out.stdout).unwrap();
+        let of = |k: usize| said["points"][0]["velocity_m_s"][k].as_f64().unwrap();
+        let flown = DVec3::new(of(0), of(1), of(2)) - stream;
+        let sum: DVec3 = frame.iter().map(|m| induced(m, [x, -y, -z])).sum();
+        let computed = DVec3::new(sum.x, -sum.y, -sum.z);
+        // Measured 4e-8 of what is induced (cores smooth filaments near by); with the other sign of the
+        // surfaces it is its size.
+        let difference = (computed - flown).length() / flown.length();
+        println!("{x} {y} {z}: {difference:.1e} of {:.3}", flown.length());
+        assert!(difference < 1e-6, "{x} {y} {z}: {computed} {flown}");
+    }
+}
+
+/// A head of 0.84 mm whose middle lies 0.21 mm behind the nose, before a body held level, above a ground 5 mm below.
+#[test]
+fn exact_points_within_the_body_and_below_the_ground_are_not_in_the_air() {
+    let scratch = Scratch::new("in-air");
+    let run = [
+        "run",
+        "fruit-fly-tethered",
+        "--quiet",
+        "--out=run",
+        "--set=time.beats=0.05",
+        "--set=flight.pitch_deg=0",
+        "--set=air.ground={point_m=[0,0,5e-3],normal=[0,0,-1]}",
+        "--set=body.origin=as_given",
+        "--set=output.keep_checkpoint=true",
+        "--set=output.page=false",
+    ];
+    flown(&scratch.0, &run);
+    let points = [
+        ("-0.21e-3,0,0", 0),
+        ("-0.21e-3,0,0.40e-3", 0),
+        ("-0.21e-3,0,0.43e-3", 1),
+        ("-0.21e-3,0.43e-3,0", 1),
+        ("-1.945e-3,0,0.4e-3", 0),
+        ("0.1e-3,0,0", 1),
+        ("0,0,4.9e-3", 1),
+        ("0,0,5.1e-3", 0),
+    ];
+    let asked: Vec<String> = points.iter().map(|(x, _)| format!("--point={x}")).collect();
+    let args: Vec<&str> = asked.iter().map(String::as_str).collect();
+    let out = wingbeat(&scratch.0, &[&["velocity", "run"], &args[..]].concat());
+    let said = String::from_utf8_lossy(&out.stderr);
+    assert!(said.contains("warning: 4 of 8 points"), "{said}");
+    let table = String::from_utf8_lossy(&out.stdout);
+    let marks = table
+        .lines()
+        .skip(1)
+        .map(|row| row.rsplit(',').next().unwrap());
+    for ((point, wanted), found) in points.iter().zip(marks) {
+        assert_eq!(found, wanted.to_string(), "{point}: {table}");
+    }
+}
