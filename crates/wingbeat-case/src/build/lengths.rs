@@ -1,11 +1,11 @@
 //! Lengths of the air in metres or in mean chords, and the cores of vortices.
 
-use wingbeat_air::CoreModel;
+use wingbeat_air::{AIR_VISCOSITY, CoreModel};
 use wingbeat_model::Animal;
 
 use super::fault::Built;
 use crate::error::Fault;
-use crate::raw::{AIR, CoreCase};
+use crate::raw::CoreCase;
 
 /// The mean chord of all wings; of an animal without wings the mean width of the panels of its body.
 pub(super) struct Chord(Option<f64>);
@@ -72,11 +72,11 @@ impl Chord {
             },
             CoreCase::Algebraic(c) => CoreModel::Algebraic {
                 radius: radius("algebraic", c.radius_m, c.radius_chords)?,
-                viscosity: c.viscosity_m2_s.unwrap_or(AIR),
+                viscosity: c.viscosity_m2_s.unwrap_or(AIR_VISCOSITY),
             },
             CoreCase::LambOseen(c) => CoreModel::LambOseen {
                 radius: radius("lamb_oseen", c.radius_m, c.radius_chords)?,
-                viscosity: c.viscosity_m2_s.unwrap_or(AIR),
+                viscosity: c.viscosity_m2_s.unwrap_or(AIR_VISCOSITY),
             },
         })
     }
