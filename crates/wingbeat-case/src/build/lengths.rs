@@ -7,7 +7,8 @@ use super::fault::Built;
 use crate::error::Fault;
 use crate::raw::CoreCase;
 
-/// The mean chord of all wings; of an animal without wings the mean width of the panels of its body.
+/// The mean chord of all wings; of an animal without wings the mean width of the panels of its body, of
+/// several parts the smallest of their mean widths.
 pub(super) struct Chord(Option<f64>);
 
 impl Chord {
