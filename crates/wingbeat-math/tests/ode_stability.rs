@@ -4,6 +4,13 @@ use std::convert::Infallible;
 
 use wingbeat_math::ode::{Bdf, Convergence, Hamming, Multistep, StepError};
 
+const CONVERGENCE: Convergence = Convergence {
+    tolerance: 1e-13,
+    max_passes: 60,
+    relaxation: 1.0,
+    accelerated_from: None,
+};
+
 /// Largest growth factor per step of Hamming's method with `passes` passes on `y' = z y / h`, from
 /// a long run: the method is linear, so the ratio of late values is the dominant root.
 fn growth(z: [f64; 2], passes: usize) -> f64 {

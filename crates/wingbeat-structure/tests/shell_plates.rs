@@ -6,8 +6,8 @@ use std::f64::consts::PI;
 
 use plate::{CLAMPED, Plate, askew, rectangle};
 use wingbeat_math::{DMat3, DVec3};
-use wingbeat_structure::Lamina;
 use wingbeat_structure::shell::Section;
+use wingbeat_structure::{Element, Lamina};
 
 /// Simply supported on all sides, hard: deflection and the turn along the side are held.
 fn simply_supported(a: f64, b: f64) -> impl Fn(DVec3) -> [bool; 6] {
