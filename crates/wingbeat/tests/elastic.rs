@@ -262,7 +262,8 @@ fn invariant_a_saved_flight_goes_on_bit_for_bit() {
 /// As damaged checkpoints have them: every number of a wing is there once for each of its nodes.
 #[test]
 fn refuses_to_resume_with_short_elastic_wings() {
-    let setup = case(&beam(2e-4)).setup;
+    let blades = strings(&["air.model=\"blade_element\""]);
+    let setup = case(&[&blades[..], &beam(2e-4)].concat()).setup;
     let flight = Simulation::new(setup.clone()).unwrap();
     let cut = |s: &mut FlightState, kinds: [bool; 3]| {
         let wing = &mut s.wings[0].structure;

@@ -17,16 +17,16 @@ use crate::error::AnalysisError;
 const STEPS: usize = 60;
 
 /// Most steps per wingbeat that are worth it.
-const MOST_STEPS: usize = 10_000;
+const MAX_STEPS: usize = 10_000;
 
 /// Steps of a wingbeat on trial: with free joints, which may be stiff, no longer than those of the flight.
 fn steps(setup: &FlightSetup) -> Result<usize, AnalysisError> {
     let has_free_joints = system_of(setup).is_ok_and(|s| s.speeds() > 0);
     let own = setup.time.steps_per_beat().unwrap_or(0);
     match has_free_joints {
-        true if own > MOST_STEPS => Err(AnalysisError::not_covered(
+        true if own > MAX_STEPS => Err(AnalysisError::not_covered(
             format!(
-                "joints ask for the {own} steps per wingbeat of the flight, of at most {MOST_STEPS} on trial"
+                "joints ask for the {own} steps per wingbeat of the flight, of at most {MAX_STEPS} on trial"
             ),
             "lower time.steps_per_beat, or look at the lift of the flight itself",
         )),
