@@ -105,7 +105,7 @@ pub enum AirError {
     },
     /// A gust's table cannot be used.
     #[error(
-        "gust {gust}: row {row} of its table {problem}; give at least two rows of time and share, times rising"
+        "gusts[{gust}], table[{row}]: {problem}; give at least two rows of time and share, times rising"
     )]
     GustTable {
         /// Gust, counted from 0.

@@ -66,9 +66,9 @@ pub use lattice::Lattice;
 pub use loads::{AirLoads, SurfaceLoads};
 pub use response::NodeWash;
 pub use settings::{
-    AirSettings, CirculationRate, Convection, Friction, Gust, GustShape, LeadingEdge, LoadMethod,
-    NEUTRAL_WIDTH, NewestRow, ParticleSettings, SectionDrag, Spectrum, Turbulence, VortexLift,
-    VortexStreet, Wind,
+    AIR_VISCOSITY, AirSettings, CirculationRate, Convection, Friction, Gust, GustShape,
+    LeadingEdge, LoadMethod, NEUTRAL_WIDTH, NewestRow, ParticleSettings, SectionDrag, Spectrum,
+    Turbulence, VortexLift, VortexStreet, Wind,
 };
 pub use state::{AirState, ImpulseAccount, InnerFlow, Particles, WakeEvents, WakeSheet};
 pub use wake::Filaments;

@@ -8,7 +8,8 @@
 
 use std::f64::consts::PI;
 
-use faer::Mat;
+use faer::{Mat, c64};
+use wingbeat_math::root_mean_square;
 
 use crate::AnalysisError;
 use crate::eigen::eigen;
@@ -155,15 +156,12 @@ fn shares(samples: &[Vec<f64>], values: &[[f64; 2]]) -> Result<(Vec<f64>, f64), 
 
 /// Powers 0, 1, ... of a complex number.
 fn powers([re, im]: [f64; 2], count: usize) -> Vec<[f64; 2]> {
-    let next = |z: &[f64; 2]| Some([z[0] * re - z[1] * im, z[0] * im + z[1] * re]);
-    std::iter::successors(Some([1.0, 0.0]), next)
-        .take(count)
-        .collect()
+    let z = c64::new(re, im);
+    let all = std::iter::successors(Some(c64::new(1.0, 0.0)), |power| Some(power * z));
+    all.take(count).map(|power| [power.re, power.im]).collect()
 }
 
 /// Root mean square over all numbers.
 pub(crate) fn rms(samples: &[Vec<f64>]) -> f64 {
-    let count: usize = samples.iter().map(Vec::len).sum();
-    let sum: f64 = samples.iter().flatten().map(|x| x * x).sum();
-    (sum / count.max(1) as f64).sqrt()
+    root_mean_square(samples.iter().flatten().copied())
 }

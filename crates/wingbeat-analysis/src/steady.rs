@@ -12,7 +12,7 @@
 //! many controls as there are residuals.
 
 use wingbeat_flight::FlightSetup;
-use wingbeat_math::{DMat3, DVec3, EulerSequence, r3};
+use wingbeat_math::{DMat3, DVec3, EulerSequence, larger, r3};
 
 use crate::AnalysisError;
 use crate::unknown::{Bound, Unknown, check_unknowns};
@@ -284,7 +284,7 @@ impl Residuals {
             Self::All => (all, 0.0),
             Self::Symmetric => {
                 let lateral = (0..12).filter(|k| !SYMMETRIC.contains(k)).map(|k| all[k]);
-                let largest = lateral.fold(0.0, |m: f64, r| m.max(r.abs()));
+                let largest = lateral.fold(0.0, |m, r| larger(m, r.abs()));
                 (SYMMETRIC.map(|k| all[k]).to_vec(), largest)
             }
         }

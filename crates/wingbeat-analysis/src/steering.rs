@@ -270,7 +270,8 @@ impl<'a> SteeredBeats<'a> {
         })
     }
 
-    /// The same with actuators that lag ([`Timing::share`](crate::regulator::Timing::share)).
+    /// The same with actuators that lag ([`Timing::share`](crate::regulator::Timing::share)), for tests of what
+    /// regulators are laid out on.
     #[must_use]
     pub fn lagged(mut self, share: f64) -> Self {
         self.share = share;

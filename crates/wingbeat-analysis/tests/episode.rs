@@ -13,7 +13,7 @@ use wingbeat_analysis::episode::{
 };
 use wingbeat_analysis::{Beat, Perturbation, Trim};
 use wingbeat_dynamics::Formulation;
-use wingbeat_flight::Passage;
+use wingbeat_flight::{AirModel, Passage};
 use wingbeat_math::{DVec3, RotationLaw};
 use wingbeat_model::motion::Adjustment;
 use wingbeat_model::{Start as Beginning, WingMotion};
@@ -22,6 +22,20 @@ const STEPS: usize = 40;
 
 fn model(trim: &Trim) -> SharedModel {
     Arc::new(Mutex::new(Model::new(trim).expect("a model")))
+}
+
+/// In air that has no wind a gust would never come.
+#[test]
+fn refuses_gusts_where_none_blow() {
+    let mut trim = common::hovering(STEPS);
+    assert!(Course::new(Task::Gust, trim.clone()).is_ok());
+    trim.setup.air = AirModel::None;
+    assert!(Course::new(Task::Hover, trim.clone()).is_ok());
+    let refused = Course::new(Task::Gust, trim).map(drop).unwrap_err();
+    let said = refused.to_string();
+    for word in ["no air", "blade_element", "hover"] {
+        assert!(said.contains(word), "{said}");
+    }
 }
 
 /// The map of a beat has the wings' motions themselves blended and tabulated; the flyer blends commands. The

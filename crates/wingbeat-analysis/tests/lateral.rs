@@ -63,7 +63,7 @@ fn agrees_a_turn_flown_freely_with_its_circle() {
 }
 
 #[test]
-fn symmetry_turns_to_either_side_are_mirror_images() {
+fn invariant_turns_to_either_side_are_mirror_images() {
     let [right, left] = [5.0, -5.0].map(|rate| trimmed(&fly(), &turning(0.3, rate)));
     for unknown in &right.solution.unknowns {
         let [a, b] = [&right, &left].map(|t| t.solution.value(*unknown).unwrap());

@@ -152,7 +152,7 @@ fn invariant_averaged_modes_in_a_stream_are_those_of_flight_through_still_air() 
 /// the wings and the weight kept. All that is of the order of the slow motion counts: the added mass that rates
 /// of the velocity meet, the angular momentum of strokes that draw loops, the wings' own mass.
 #[test]
-fn converges_averaged_modes_of_heavy_bodies_to_floquets() {
+fn limit_averaged_modes_of_heavy_bodies_are_floquets() {
     let apart = |heavier: f64| {
         let mut setup = fly();
         setup.gravity /= heavier;

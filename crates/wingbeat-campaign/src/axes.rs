@@ -4,10 +4,11 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use wingbeat_case::{CaseError, Document};
+use wingbeat_math::to_twelve_digits;
 
 use crate::plan::{Axis, Place, Plan};
 use crate::raw::{Ends, Normal, Range, RawCampaign, Variation};
-use crate::sample::{MAX_SOBOL, MAX_SOBOL_KEYS, Sampler, cumulative, rounded};
+use crate::sample::{MAX_SOBOL, MAX_SOBOL_KEYS, Sampler, cumulative};
 use crate::value::Value;
 
 /// Points of a campaign at most.
@@ -199,7 +200,9 @@ impl Reader<'_> {
             k if logarithmic => from * (to / from).powf(k as f64 / last as f64),
             k => from + (to - from) * k as f64 / last as f64,
         };
-        Ok((0..=last).map(|k| Value::Number(rounded(at(k)))).collect())
+        Ok((0..=last)
+            .map(|k| Value::Number(to_twelve_digits(at(k))))
+            .collect())
     }
 
     /// An end of a range.

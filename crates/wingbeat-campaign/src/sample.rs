@@ -7,6 +7,7 @@
 
 use sha2::{Digest, Sha256};
 use statrs::function::erf::erfc_inv;
+use wingbeat_math::to_twelve_digits;
 
 use crate::raw::{Ends, Normal};
 
@@ -83,7 +84,7 @@ impl Sampler {
     /// Sample number `s`.
     pub fn value(&self, s: usize) -> f64 {
         let u = || fraction(random(self.seed, &self.key, "value", s));
-        rounded(match &self.law {
+        to_twelve_digits(match &self.law {
             Law::Uniform(ends) => between(ends, u()),
             Law::LogUniform(ends) => (ends.from.ln() + u() * (ends.to / ends.from).ln()).exp(),
             Law::Normal(normal) => quantile(normal, u()),
@@ -135,11 +136,6 @@ fn random(seed: u64, key: &str, what: &str, s: usize) -> u64 {
 /// Above 0 and below 1.
 fn fraction(bits: u64) -> f64 {
     ((bits >> 12) as f64 + 0.5) / (1_u64 << 52) as f64
-}
-
-/// To 12 significant digits: 0.1, not 0.1 and its rounding.
-pub fn rounded(x: f64) -> f64 {
-    format!("{x:.11e}").parse().unwrap_or(x)
 }
 
 #[cfg(test)]

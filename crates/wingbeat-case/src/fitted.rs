@@ -1,5 +1,6 @@
 //! What is left between measured angles and the series fitted to them.
 
+use wingbeat_math::root_mean_square;
 use wingbeat_model::motion::{Fourier, Scatter};
 
 use crate::build::radians;
@@ -105,7 +106,7 @@ fn better(rows: &[(f64, f64)], harmonics: usize, rms: f64) -> Option<f64> {
     let left = |part: f64| {
         let scaled: Vec<_> = rows.iter().map(|(x, q)| (part * x, *q)).collect();
         let (_, left) = Fourier::fitted("", &scaled, harmonics).ok()?;
-        Some(root_mean_square(&left))
+        Some(root_mean_square(left.iter().copied()))
     };
     let last = trials as i32;
     let parts = (-last..=last).map(|k| 1.0 + WITHIN * f64::from(k) / trials);
@@ -121,10 +122,6 @@ fn better(rows: &[(f64, f64)], harmonics: usize, rms: f64) -> Option<f64> {
         step *= 0.5;
     }
     (3.0 * least < rms).then_some(part)
-}
-
-fn root_mean_square(left: &[f64]) -> f64 {
-    (left.iter().map(|x| x * x).sum::<f64>() / left.len() as f64).sqrt()
 }
 
 impl LoadedCase {
@@ -164,7 +161,7 @@ fn left_of(
     beats_per_unit: Option<f64>,
 ) -> Option<FittedTable> {
     let (series, left) = Fourier::fitted("", rows, harmonics).ok()?;
-    let rms = root_mean_square(&left);
+    let rms = root_mean_square(left.iter().copied());
     let sizes = left.iter().map(|x| x.abs().to_degrees());
     let farthest = sizes.enumerate().max_by(|a, b| a.1.total_cmp(&b.1))?;
     let doubtful = beats_per_unit.filter(|_| rms.to_degrees() > NOISE_DEG);

@@ -1,6 +1,6 @@
 //! Measurements in a case that look like slips: of units, turns, lost frames, the order of points.
 
-use wingbeat_math::DVec3;
+use wingbeat_math::{DVec3, median};
 use wingbeat_model::motion::Fourier;
 use wingbeat_model::{Planform, Wing};
 
@@ -167,7 +167,7 @@ const UNITS: [(f64, &str); 4] = [
 fn extents(key: &str, surface: &SurfaceCase, wing: &Wing, scale: f64) -> Option<String> {
     let sizes = surface.nodes_m.iter().map(|rows| size(rows));
     let sizes: Vec<[f64; 3]> = sizes.collect::<Option<_>>()?;
-    let middle = |k: usize| scale * median(sizes.iter().map(|s| s[k]).collect());
+    let middle = |k: usize| scale * median(sizes.iter().map(|s| s[k]).collect()).unwrap_or(0.0);
     let mesh = &wing.mesh;
     let row = |i| (0..=mesh.cols).map(move |j| mesh.nodes[mesh.node(i, j)].to_array());
     let at_rest: Vec<Vec<[f64; 3]>> = (0..=mesh.rows).map(|i| row(i).collect()).collect();
@@ -206,12 +206,6 @@ fn size(rows: &[Vec<[f64; 3]>]) -> Option<[f64; 3]> {
         of[1] = f64::max(of[1], (at(a) - at(b)).length());
     }
     Some(of)
-}
-
-/// The middle one of some numbers.
-fn median(mut numbers: Vec<f64>) -> f64 {
-    numbers.sort_by(f64::total_cmp);
-    numbers.get(numbers.len() / 2).copied().unwrap_or(0.0)
 }
 
 /// A surface whose points run the other way than those of the wing at rest.

@@ -1,14 +1,14 @@
 //! From the raw case to the resolved one: keys that follow from others where the case leaves them
 //! out get their values, so that what comes after has nothing to decide.
 
-use wingbeat_air::AirSettings;
+use wingbeat_air::{AIR_VISCOSITY, AirSettings};
 use wingbeat_math::DVec3;
 
 use crate::data::find_data;
 use crate::error::Fault;
 use crate::raw::{
-    AIR, AirCase, AirModel, Case, CoreCase, Formulation, IntegratorCase, JointCase, JointKind,
-    Mode, MotionCase, SchemeCase, TimeCase,
+    AirCase, AirModel, Case, CoreCase, Formulation, IntegratorCase, JointCase, JointKind, Mode,
+    MotionCase, SchemeCase, TimeCase,
 };
 
 /// Steps per wingbeat where the case does not say.
@@ -63,7 +63,7 @@ pub(crate) fn air(case: &mut AirCase) {
     case.convection.decide(scheme.convection);
     case.ring_inset.decide(scheme.inset);
     if let CoreCase::LambOseen(core) | CoreCase::Algebraic(core) = &mut case.wake_core {
-        core.viscosity_m2_s.get_or_insert(AIR);
+        core.viscosity_m2_s.get_or_insert(AIR_VISCOSITY);
     }
     let has_radius = !matches!(case.wake_core, CoreCase::CutOff { .. });
     case.wake_overlap.decide(if has_radius { 1.0 } else { 0.0 });

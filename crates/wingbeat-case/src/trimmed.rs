@@ -116,9 +116,13 @@ pub fn wake_trimmed_case(case: &LoadedCase, trim: &WakeTrim) -> String {
             (held, released_into(&root))
         }
     };
-    // The hold and the free wingbeat that was trimmed.
-    raw.time.beats = Some(held + 1.0);
-    raw.time.steps = None;
+    // The hold and the free wingbeat that was trimmed, in its steps: of another frequency, they are no longer those
+    // that a case has in seconds.
+    raw.time = TimeCase {
+        steps_per_beat: time.steps_per_beat(),
+        beats: Some(held + 1.0),
+        ..TimeCase::default()
+    };
     raw.motion.start = case.raw.motion.start;
     if trim.is_orbit() {
         (raw.motion.start, raw.motion.start_beats) = (StartCase::Smooth, RISE);

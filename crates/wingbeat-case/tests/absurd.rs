@@ -66,6 +66,22 @@ fn refuses_a_scale_beyond_numbers_by_name() {
     }
 }
 
+/// Masses that are no numbers are the fault of the number that made them so.
+#[test]
+fn refuses_sizes_beyond_numbers_by_name() {
+    for (set, value) in [
+        ("body.length_m", "1e300"),
+        ("body.length_m", "1e-300"),
+        ("body.mass_kg", "1e308"),
+        ("body.part.thorax.length_m", "1e200"),
+        ("wing.right.mass_kg", "1e308"),
+    ] {
+        let said = refusal(&format!("{set}={value}"));
+        assert!(said.contains(&format!("{set} = {value}")), "{said}");
+        assert!(said.contains("beyond all numbers"), "{said}");
+    }
+}
+
 #[test]
 fn refuses_what_is_no_file() {
     let text = presets::find("fruit-fly-vacuum").unwrap().text;

@@ -159,6 +159,30 @@ fn behaves_implausible_motions_are_doubted() {
     }
 }
 
+/// Cores that do not spread say nothing of the air around them.
+#[test]
+fn exact_reynolds_number_beside_cores_that_stay_as_they_are_is_that_of_air() {
+    let reynolds = |set: &[String]| {
+        let case = LoadedCase::find("fruit-fly-hover", set).unwrap();
+        wingbeat_analysis::estimate(&case.setup).wings[0].reynolds
+    };
+    let still = "air.wake_core.algebraic.viscosity_m2_s=0".to_owned();
+    assert!(reynolds(&[]).is_some_and(f64::is_finite));
+    assert_eq!(reynolds(&[still]), reynolds(&[]));
+}
+
+/// Minutes of blade elements are no estimate.
+#[test]
+fn refuses_to_estimate_lift_in_a_million_steps() {
+    let set = ["time.steps_per_beat=1000000".to_owned()];
+    let case = LoadedCase::find("robobee", &set).unwrap();
+    let estimate = wingbeat_analysis::estimate(&case.setup);
+    let why = estimate.lift_left_out.unwrap();
+    for word in ["1000000 steps", "at most 10000", "time.steps_per_beat"] {
+        assert!(why.contains(word), "{why}");
+    }
+}
+
 /// Steps on trial that are too long for a stiff hinge have the lift of short ones.
 #[test]
 fn agrees_lift_beside_stiff_hinges_with_that_of_short_steps() {

@@ -98,7 +98,7 @@ fn exact_wing_by_its_nodes_is_that_of_its_planform() {
     refused(
         &with(&ragged).replace(mesh, ""),
         "nodes_m",
-        &["row 1", "4 nodes", "the first 5"],
+        &["nodes_m[1]", "4 nodes", "the first row 5"],
     );
     let flat = vec![rows[0].clone(), rows[0].clone()];
     refused(&with(&flat).replace(mesh, ""), "nodes_m", &["area"]);

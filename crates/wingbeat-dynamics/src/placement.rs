@@ -35,18 +35,16 @@ impl Placement {
 
     /// A frame at the same origin, turned by `law`.
     pub(crate) fn turned(&self, law: &MovingRotation) -> Self {
-        self.turned_by(law.c, law.w, law.w_dot)
-    }
-
-    /// A frame at the same origin, turned by `c` with the relative angular velocity `w` and its
-    /// derivative `w_dot`, components of the turned frame.
-    pub(crate) fn turned_by(&self, c: DMat3, w: DVec3, w_dot: DVec3) -> Self {
-        let back = c.transpose();
-        let seen = back * self.w;
+        let own = MovingRotation {
+            c: self.c,
+            w: self.w,
+            w_dot: self.w_dot,
+        };
+        let MovingRotation { c, w, w_dot } = own.then(law);
         Self {
-            c: self.c * c,
-            w: seen + w,
-            w_dot: back * self.w_dot - w.cross(seen) + w_dot,
+            c,
+            w,
+            w_dot,
             ..*self
         }
     }
@@ -86,20 +84,21 @@ pub(crate) fn carry(
 ) -> Placement {
     let rate = |a: DVec3, i: usize| u_dot.map_or(DVec3::ZERO, |u_dot| a * u_dot[i]);
     let about = |k: Placement, a: DVec3, i: usize| {
-        k.turned_by(DMat3::from_axis_angle(a, q[i]), a * u[i], rate(a, i))
+        k.turned(&MovingRotation {
+            c: DMat3::from_axis_angle(a, q[i]),
+            w: a * u[i],
+            w_dot: rate(a, i),
+        })
     };
     match freedom {
         JointType::Weld | JointType::PointOnLine { .. } => k,
         JointType::Revolute { axis } => about(k, axis, 0),
         JointType::Universal { axes: [a, b] } => about(about(k, a, 0), b, 1),
-        JointType::Spherical => {
-            let turn = DMat3::from_quat(DQuat::from_slice(q).normalize());
-            k.turned_by(
-                turn,
-                DVec3::from_slice(u),
-                u_dot.map_or(DVec3::ZERO, DVec3::from_slice),
-            )
-        }
+        JointType::Spherical => k.turned(&MovingRotation {
+            c: DMat3::from_quat(DQuat::from_slice(q).normalize()),
+            w: DVec3::from_slice(u),
+            w_dot: u_dot.map_or(DVec3::ZERO, DVec3::from_slice),
+        }),
         JointType::Prismatic { axis } => k.slid([axis * q[0], axis * u[0], rate(axis, 0)]),
     }
 }

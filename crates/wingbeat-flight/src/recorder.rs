@@ -5,7 +5,7 @@ use std::f64::consts::{PI, TAU};
 use wingbeat_air::{AirState, WakeSheet};
 use wingbeat_dynamics::{Body, BodyMotion, Budget};
 use wingbeat_math::ode::StepReport;
-use wingbeat_math::{DQuat, DVec3};
+use wingbeat_math::{DQuat, DVec3, larger};
 
 use crate::elastic::ElasticState;
 use crate::equations::{Equations, Scratch};
@@ -237,7 +237,7 @@ impl Sources<'_> {
         let surfaces = &self.scratch.air_scratch.loads.surfaces;
         surfaces
             .iter()
-            .fold(0.0, |m, s| m.max(s.net_flux_residual.abs()))
+            .fold(0.0, |m, s| larger(m, s.net_flux_residual.abs()))
     }
 }
 

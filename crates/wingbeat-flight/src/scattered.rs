@@ -1,5 +1,6 @@
 //! Measured angles whose samples scatter: wings that beat with the noise of a camera.
 
+use wingbeat_math::median;
 use wingbeat_model::motion::{PeriodicSpline, Scatter};
 use wingbeat_model::{AngleLaw, Wing};
 
@@ -75,11 +76,10 @@ fn of_wings<'a>(all: impl Iterator<Item = (&'a str, String)>) -> Vec<String> {
 /// The gap between the samples of a table, if there is one.
 fn say_gap(angle: &str, table: &PeriodicSpline) -> Option<String> {
     let rows: Vec<(f64, f64)> = table.rows().collect();
-    let mut apart: Vec<f64> = rows.windows(2).map(|two| two[1].0 - two[0].0).collect();
+    let apart: Vec<f64> = rows.windows(2).map(|two| two[1].0 - two[0].0).collect();
     let at = (0..apart.len()).max_by(|&a, &b| apart[a].total_cmp(&apart[b]))?;
     let gap = apart[at];
-    apart.sort_by(f64::total_cmp);
-    let usual = apart[apart.len() / 2];
+    let usual = median(apart)?;
     (gap > GAP[0].max(GAP[1] * usual)).then(|| {
         format!(
             "motion.{angle} has no samples from phase {:.3} to {:.3}, where others are {usual:.4} wingbeats apart: the spline crosses the gap as it happens to; give the samples that are missing, or fit the others by `harmonics`",

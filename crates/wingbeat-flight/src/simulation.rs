@@ -138,7 +138,11 @@ impl Simulation {
             ));
         }
         let mut flight = Self::new(setup)?;
-        check_fits(&state, &flight.stages, &flight.state.ledger)?;
+        check_fits(
+            &state,
+            &flight.stages,
+            (&flight.state.ledger, flight.feedback.is_some()),
+        )?;
         flight.state = state;
         let time = flight.newest_time();
         (flight.state.air.iter_mut()).for_each(|air| air.set_time(time));

@@ -29,6 +29,7 @@ pub mod series;
 mod small_lu;
 mod smoothstep;
 mod split_mix;
+mod statistics;
 
 pub use euler::{EulerMatrices, EulerSequence};
 pub use extremes::{larger, smaller};
@@ -46,3 +47,4 @@ pub use series::{DriftingFourier, interpolate, with_harmonics};
 pub use small_lu::{SingularMatrix, SmallLu, solve_small};
 pub use smoothstep::{smoothstep, smoothstep7};
 pub use split_mix::SplitMix64;
+pub use statistics::{median, root_mean_square, to_twelve_digits};

@@ -1,5 +1,6 @@
 //! Newton-Raphson for small systems of equations.
 
+use crate::extremes::larger;
 use crate::small_lu::{SingularMatrix, solve_small};
 
 /// When to stop.
@@ -54,7 +55,7 @@ pub fn newton(
     for iteration in 0..=settings.max_iterations {
         jacobian.fill(0.0);
         f(x, &mut residual, &mut jacobian);
-        let size = residual.iter().fold(0.0, |a: f64, r| a.max(r.abs()));
+        let size = residual.iter().fold(0.0, |a, r| larger(a, r.abs()));
         if size <= settings.tolerance {
             return Ok(iteration);
         }
@@ -89,6 +90,24 @@ mod tests {
         });
         assert!(n.unwrap() < 8); // quadratic convergence
         assert!((x[0] - 4.0).abs() < 1e-14 && (x[1] - 3.0).abs() < 1e-14); // (4, 3)
+    }
+
+    #[test]
+    fn refuses_residuals_that_are_no_numbers() {
+        let settings = NewtonSettings {
+            tolerance: 1e-12,
+            max_iterations: 5,
+        };
+        for k in 0..2 {
+            let e = newton(&mut [0.5, 0.5], settings, |_, r, j| {
+                r.fill(0.0);
+                r[k] = f64::NAN;
+                j.copy_from_slice(&[1.0, 0.0, 0.0, 1.0]);
+            });
+            assert!(
+                matches!(e, Err(NewtonError::NotConverged { residual, iterations: 0, .. }) if residual.is_nan())
+            );
+        }
     }
 
     #[test]

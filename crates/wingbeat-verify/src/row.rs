@@ -2,6 +2,8 @@
 
 use std::borrow::Cow;
 
+use wingbeat_math::root_mean_square;
+
 /// What a row says about us.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
 #[serde(rename_all = "snake_case")]
@@ -101,8 +103,7 @@ impl Comparison {
 
     /// Root of the mean square of the differences.
     pub fn rms_error(&self) -> f64 {
-        let squares = self.points.iter().map(|p| (p[2] - p[1]).powi(2));
-        (squares.sum::<f64>() / self.points.len() as f64).sqrt()
+        root_mean_square(self.points.iter().map(|p| p[2] - p[1]))
     }
 }
 

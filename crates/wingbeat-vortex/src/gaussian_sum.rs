@@ -267,7 +267,7 @@ mod tests {
 
     /// A long straight line of blobs is the vortex of Lamb and Oseen: strength, width and sense of rotation.
     #[test]
-    fn closed_form_line_of_blobs() {
+    fn exact_line_of_blobs() {
         let (radius, apart) = (0.3_f64, 0.05);
         let variance = radius * radius / (2.0 * LAMB_ALPHA);
         let blob = |k: i32| Blob {
@@ -299,7 +299,7 @@ mod tests {
 
     /// The mesh against the sum one by one, at the blobs and between them.
     #[test]
-    fn second_method_mesh() {
+    fn agrees_mesh_with_direct_sum() {
         let blobs = cloud(3000);
         let targets: Points = blobs.iter().map(|b| 0.99 * b.position).collect();
         let mut sum = GaussianSum::default();

@@ -23,6 +23,38 @@ fn rust_files(dir: &Path) -> Vec<PathBuf> {
     files
 }
 
+/// How names of tests may begin, by CONTRIBUTING.md.
+const EVIDENCE: [&str; 11] = [
+    "exact_",
+    "order_",
+    "conserves_",
+    "balances_",
+    "invariant_",
+    "limit_",
+    "agrees_",
+    "published_",
+    "regress_",
+    "refuses_",
+    "behaves_",
+];
+
+#[test]
+fn invariant_names_of_tests_say_which_evidence_they_are() {
+    let told = fs::read_to_string(root().join("CONTRIBUTING.md")).expect("CONTRIBUTING.md");
+    for kind in EVIDENCE {
+        assert!(told.contains(&format!("`{kind}`")), "{kind}");
+    }
+    for file in rust_files(&root().join("crates")) {
+        let text = fs::read_to_string(&file).expect("a source");
+        for test in text.split("#[test]\n").skip(1) {
+            let after = test.split("fn ").nth(1).unwrap_or("");
+            let name = after.split('(').next().unwrap_or("");
+            let says = EVIDENCE.iter().any(|kind| name.starts_with(kind));
+            assert!(says, "{}: {name}", file.display());
+        }
+    }
+}
+
 /// Own crates that the manifest of `name` names under `[dependencies]`.
 fn dependencies(name: &str) -> BTreeSet<String> {
     let manifest = root().join("crates").join(name).join("Cargo.toml");

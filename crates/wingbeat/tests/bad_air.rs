@@ -166,13 +166,7 @@ fn refuses_a_gust_table_that_goes_backwards() {
         "[2e-3, 0.0]]",
         "[0.5e-3, 0.0]]",
         "table",
-        &[
-            "air.gust[0].table",
-            "row 2",
-            "not later",
-            "allowed: ",
-            "try: ",
-        ],
+        &["air.gust[0].table[2]", "not later", "allowed: ", "try: "],
     );
 }
 

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use wingbeat::case::LoadedCase;
-use wingbeat::flight::{Record, Simulation};
+use wingbeat::flight::{FlightState, Record, Simulation};
 use wingbeat::verify::lab::foil::{CHORD, HEAVE, PlungingFoil, SPAN, SPEED};
 use wingbeat::verify::lab::series::{harmonic, mean};
 
@@ -257,6 +257,32 @@ fn invariant_a_saved_flight_goes_on_bit_for_bit() {
     ]
     .concat();
     goes_on(&set);
+}
+
+/// As damaged checkpoints have them: every number of a wing is there once for each of its nodes.
+#[test]
+fn refuses_to_resume_with_short_elastic_wings() {
+    let blades = strings(&["air.model=\"blade_element\""]);
+    let setup = case(&[&blades[..], &beam(2e-4)].concat()).setup;
+    let flight = Simulation::new(setup.clone()).unwrap();
+    let cut = |s: &mut FlightState, kinds: [bool; 3]| {
+        let wing = &mut s.wings[0].structure;
+        let all = [
+            &mut wing.velocity,
+            &mut wing.acceleration,
+            &mut wing.algorithmic,
+        ];
+        let cut = all.into_iter().zip(kinds).filter(|(_, cut)| *cut);
+        cut.for_each(|(v, _)| v.truncate(6));
+    };
+    for kinds in [[true; 3], [true, false, false], [false, false, true]] {
+        let mut state = flight.state().clone();
+        cut(&mut state, kinds);
+        let refused = Simulation::resume(setup.clone(), state).map(drop);
+        let said = refused.unwrap_err().to_string();
+        assert!(said.contains("elastic wing 0"), "{kinds:?}: {said}");
+        assert!(said.contains("resume with the case"), "{kinds:?}: {said}");
+    }
 }
 
 #[test]

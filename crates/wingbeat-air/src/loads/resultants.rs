@@ -5,7 +5,7 @@ use crate::lattice::Lattice;
 use crate::loads::values::{AirLoads, SurfaceLoads};
 use crate::state::AirState;
 use crate::wake::Filaments;
-use wingbeat_math::DVec3;
+use wingbeat_math::{DVec3, larger};
 
 /// Force and moment of every surface, and what the boundary condition leaves; `net_flux_residual` as
 /// [`SurfaceLoads::net_flux_residual`].
@@ -26,7 +26,7 @@ pub(crate) fn resultants(lattice: &Lattice, net_flux_residual: &[f64], out: &mut
             }
             let through =
                 (out.velocity[p] - out.panels.velocity[p]).dot(normal) + sum.net_flux_residual;
-            out.normal_velocity_residual = out.normal_velocity_residual.max(through.abs());
+            out.normal_velocity_residual = larger(out.normal_velocity_residual, through.abs());
         }
         out.surfaces.push(sum);
     }

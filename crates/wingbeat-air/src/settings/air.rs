@@ -9,6 +9,9 @@ use crate::settings::wind::Wind;
 use wingbeat_math::{DVec3, smoothstep};
 use wingbeat_vortex::{CoreModel, LAMB_ALPHA, Method};
 
+/// Kinematic viscosity of air at 20 degrees Celsius [m2/s].
+pub const AIR_VISCOSITY: f64 = 1.5e-5;
+
 /// Settings of the air. [`AirSettings::benchmark`] is the discretisation of the published
 /// benchmark, everything else is stated against it.
 #[derive(Clone, Debug, PartialEq)]

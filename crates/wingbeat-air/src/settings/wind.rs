@@ -215,7 +215,7 @@ impl Wind {
             require(
                 trace(shear).abs() <= 1e-9 * size,
                 "shear",
-                trace(shear),
+                format!("a diagonal that adds up to {:.4} 1/s", trace(shear)),
                 "a sum of 0 of the diagonal elements: air that flows apart everywhere loses its density",
             )?;
         }
@@ -259,10 +259,10 @@ fn check_table(gust: usize, rows: &[(f64, f64)]) -> Result<(), AirError> {
         return wrong(rows.len(), "a table needs at least two rows");
     }
     if let Some(k) = rows.iter().position(|r| !(r.0 + r.1).is_finite()) {
-        return wrong(k, "is not finite");
+        return wrong(k, "a number is not finite");
     }
     match rows.windows(2).position(|w| w[1].0 <= w[0].0) {
-        Some(k) => wrong(k + 1, "its time is not later than the one before"),
+        Some(k) => wrong(k + 1, "its time is not later than that of the row before"),
         None => Ok(()),
     }
 }

@@ -56,9 +56,9 @@ impl Model {
     /// Another one in a gust.
     fn in_gust(&self, trim: &Trim, gust: &Gust) -> Result<Self, AnalysisError> {
         let mut setup: FlightSetup = trim.setup.clone();
-        if let Some(wind) = setup.air.wind_mut() {
-            wind.gusts.push(gust.clone());
-        }
+        check_gusts_blow(&setup)?;
+        let winds = setup.air.wind_mut().into_iter();
+        winds.for_each(|wind| wind.gusts.push(gust.clone()));
         let h = trim.beat.period() / trim.beat.steps() as f64;
         Self::of(trim, self.steady.clone(), |law| {
             Ok(FreeFlight::at_any_time(&setup, law, h)?)
@@ -89,6 +89,23 @@ impl Model {
         let strokes = self.strokes.iter().zip(commands);
         strokes.for_each(|(stroke, command)| stroke.follow(*command));
         self.scratch.forget();
+    }
+}
+
+/// That the air of the flight has gusts.
+///
+/// # Errors
+/// Air without wind.
+pub(super) fn check_gusts_blow(setup: &FlightSetup) -> Result<(), AnalysisError> {
+    match setup.air.wind() {
+        Some(_) => Ok(()),
+        None => Err(AnalysisError::not_covered(
+            format!(
+                "a gust was asked for, and no gust blows in this air: {}",
+                setup.air.name()
+            ),
+            "fly in blade elements (air.model = \"blade_element\"), or another task: hover, recover, path",
+        )),
     }
 }
 

@@ -71,8 +71,11 @@ impl Course {
     /// Perfect sensors, default limits, one control per wingbeat, 100 wingbeats.
     ///
     /// # Errors
-    /// Numbers that are not finite; what bodies and air refuse.
+    /// Numbers that are not finite; what bodies and air refuse; gusts in air that has no wind.
     pub fn new(task: Task, trim: Trim) -> Result<Self, AnalysisError> {
+        if task == Task::Gust {
+            flyer::check_gusts_blow(&trim.setup)?;
+        }
         Ok(Self {
             task,
             interval: trim.beat.steps(),

@@ -1,5 +1,7 @@
 //! What came of many tumbles: how many recovered, how soon, how far away.
 
+use wingbeat_math::median;
+
 use super::Recovery;
 
 /// Recoveries from some tumbles.
@@ -56,9 +58,6 @@ impl<'a> Recoveries<'a> {
     /// Median of the farthest distances of those who recovered [m]; none where none did.
     pub fn strayed(&self) -> Option<f64> {
         let recovered = self.all.iter().filter(|r| r.beats.is_some());
-        let mut far: Vec<f64> = recovered.map(|r| r.strayed).collect();
-        far.sort_unstable_by(f64::total_cmp);
-        let n = far.len();
-        (n > 0).then(|| 0.5 * (far[(n - 1) / 2] + far[n / 2]))
+        median(recovered.map(|r| r.strayed).collect())
     }
 }

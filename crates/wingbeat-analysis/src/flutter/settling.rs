@@ -8,7 +8,7 @@
 use std::collections::VecDeque;
 
 use wingbeat_flight::{FlightSetup, FlightState, Simulation};
-use wingbeat_math::{DVec3, rotation_vector};
+use wingbeat_math::{DVec3, larger, rotation_vector};
 use wingbeat_structure::{Configuration, NODE};
 
 use crate::AnalysisError;
@@ -62,7 +62,7 @@ impl Settling {
         let (most, apart) = (self.most.max(self.steps(PERIODS)), self.steps(APART).max(1));
         let (mut steps, mut least, mut midway) = (0, self.least, f64::INFINITY);
         let mut shapes = VecDeque::new();
-        while steps < least || drift(flight.state(), self.speed) > STEADY {
+        while steps < least || !self.rests(flight.state()) {
             // Not while the air has still to answer: that the wing rests has not been looked at.
             if steps >= most.max(least) {
                 return Err(self.unsteady(flight.state(), steps, midway));
@@ -92,6 +92,11 @@ impl Settling {
 
     fn steps(&self, periods: f64) -> usize {
         (periods * self.period / self.setup.time.step) as usize
+    }
+
+    /// Whether its nodes rest; what is not a number does not.
+    fn rests(&self, state: &FlightState) -> bool {
+        drift(state, self.speed) <= STEADY
     }
 
     /// Where three shapes lead, from the last of them, wing by wing; none where one does not decay in a line.
@@ -155,7 +160,7 @@ pub(super) fn drift(state: &FlightState, speed: f64) -> f64 {
     let wings = state.wings.iter();
     let nodes = wings.flat_map(|w| w.structure.velocity.chunks_exact(NODE));
     let speeds = nodes.map(|node| DVec3::from_slice(node).length());
-    speeds.fold(0.0, f64::max) / speed
+    speeds.fold(0.0, larger) / speed
 }
 
 fn shapes_of(state: &FlightState) -> Vec<Configuration> {

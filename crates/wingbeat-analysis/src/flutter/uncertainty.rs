@@ -12,6 +12,8 @@
 //! dissipation), of a wing alone along its frequency, with loads in either direction: modes of few steps a
 //! period are neutral.
 
+use wingbeat_math::larger;
+
 use crate::AnalysisError;
 use crate::realisation::{Realisation, Vibration, realise};
 
@@ -39,7 +41,7 @@ pub(super) fn uncertainties(
         let moved = found.iter().map(|f| nearest(m, &f.vibrations));
         let size = m.growth.hypot(m.frequency);
         let stepped = size * (size * taken.flight).powi(2) / 12.0;
-        moved.fold(0.0, f64::max) + response.residual / (m.share * taken.length) + stepped
+        moved.fold(0.0, larger) + response.residual / (m.share * taken.length) + stepped
     };
     Ok(modes.iter().map(of).collect())
 }

@@ -9,19 +9,29 @@ use wingbeat_flight::{
 use wingbeat_math::DVec3;
 use wingbeat_model::Wing;
 
-use super::air::{density, stream};
+use super::air::stream;
 use crate::beat::steadied;
 use crate::error::AnalysisError;
 
 /// Steps per wingbeat with which the blade elements are flown at least.
 const STEPS: usize = 60;
 
+/// Most steps per wingbeat that are worth it.
+const MAX_STEPS: usize = 10_000;
+
 /// Steps of a wingbeat on trial: with free joints, which may be stiff, no longer than those of the flight.
-fn steps(setup: &FlightSetup) -> usize {
+fn steps(setup: &FlightSetup) -> Result<usize, AnalysisError> {
     let has_free_joints = system_of(setup).is_ok_and(|s| s.speeds() > 0);
+    let own = setup.time.steps_per_beat().unwrap_or(0);
     match has_free_joints {
-        true => STEPS.max(setup.time.steps_per_beat().unwrap_or(0)),
-        false => STEPS,
+        true if own > MAX_STEPS => Err(AnalysisError::not_covered(
+            format!(
+                "joints ask for the {own} steps per wingbeat of the flight, of at most {MAX_STEPS} on trial"
+            ),
+            "lower time.steps_per_beat, or look at the lift of the flight itself",
+        )),
+        true => Ok(STEPS.max(own)),
+        false => Ok(STEPS),
     }
 }
 
@@ -29,7 +39,7 @@ fn steps(setup: &FlightSetup) -> usize {
 /// where these cannot follow a measured surface.
 pub(super) fn lift_over_weight(setup: &FlightSetup) -> Result<Option<f64>, AnalysisError> {
     let weight = setup.animal.mass() * setup.gravity.length();
-    let (Some(period), Some(density)) = (setup.time.period, density(&setup.air)) else {
+    let (Some(period), Some(density)) = (setup.time.period, setup.air.density()) else {
         return Ok(None);
     };
     let wings = &setup.animal.wings;
@@ -57,7 +67,7 @@ pub(super) fn lift_over_weight(setup: &FlightSetup) -> Result<Option<f64>, Analy
     }
     tethered.feedback = None;
     tethered.mode = MotionMode::Tethered(held(setup));
-    let steps = steps(setup);
+    let steps = steps(setup)?;
     tethered.time = TimeGrid {
         step: period / steps as f64,
         steps: 2 * steps,

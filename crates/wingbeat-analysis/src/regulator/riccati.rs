@@ -1,6 +1,6 @@
 //! The discrete Riccati equation of the regulator.
 
-use wingbeat_math::solve_small;
+use wingbeat_math::{larger, solve_small};
 
 use crate::AnalysisError;
 use crate::departure::CONTROLS;
@@ -29,8 +29,8 @@ pub(super) fn riccati(
             let change = next
                 .iter()
                 .zip(&*gain)
-                .fold(0.0_f64, |m, (x, y)| m.max((x - y).abs()));
-            let size = next.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+                .fold(0.0_f64, |m, (x, y)| larger(m, (x - y).abs()));
+            let size = next.iter().fold(0.0_f64, |m, x| larger(m, x.abs()));
             stands &= change <= 1e-9 * size;
             *gain = next;
         }

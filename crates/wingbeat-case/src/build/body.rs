@@ -5,7 +5,7 @@ use wingbeat_model::build::{BodyMass, fit_body_length};
 use wingbeat_model::revolution::{Profile, Revolution};
 use wingbeat_model::{Animal, BodyPart, MassInput, QuadMesh};
 
-use super::fault::{Built, fault_at};
+use super::fault::{Built, beyond_numbers, fault_at};
 use super::numbers::{given_mass, symmetric, vector};
 use crate::error::Fault;
 use crate::raw::{BodyCase, OriginCase, PartCase, ProfileCase};
@@ -115,7 +115,10 @@ fn build_part(
         (None, Some(shape)) => BodyPart::revolution(name, shape, &mass),
         (None, None) => unreachable!("every part without nodes has a shape"),
     };
-    found.map_err(|e| fault_at(&path, part, &e))
+    found.map_err(|e| {
+        let of_body = beyond_numbers("body", body, &e);
+        of_body.unwrap_or_else(|| fault_at(&path, part, &e))
+    })
 }
 
 fn given_mesh(path: &str, nodes: &[[f64; 3]], part: &PartCase) -> Built<QuadMesh> {

@@ -1,8 +1,8 @@
 //! The settings of the vortex lattice.
 
 use wingbeat_air::{
-    AirError, AirSettings, CoreModel, EdgeKind, Friction, LeadingEdge, ParticleSettings,
-    SectionDrag, SheddingKinds, VortexLift,
+    AIR_VISCOSITY, AirError, AirSettings, CoreModel, EdgeKind, Friction, LeadingEdge,
+    ParticleSettings, SectionDrag, SheddingKinds, VortexLift,
 };
 use wingbeat_flight::AirOptions;
 use wingbeat_model::Animal;
@@ -13,7 +13,7 @@ use super::numbers::vector;
 use super::{deformation, wind};
 use crate::error::Fault;
 use crate::raw::{
-    AIR, AirCase, Case, CoreCase, FrictionCase, LeadingEdgeCase, ParticlesCase, SchemeCase,
+    AirCase, Case, CoreCase, FrictionCase, LeadingEdgeCase, ParticlesCase, SchemeCase,
     SectionDragCase,
 };
 
@@ -74,7 +74,7 @@ fn settings(case: &AirCase, chord: &Chord) -> Built<AirSettings> {
         plane_wakes: case.plane_wakes,
         clearance: length("clearance", case.clearance_m, case.clearance_chords)?.unwrap_or(0.0),
         particles: case.particles.as_ref().map(particles).transpose()?,
-        section_drag: section_drag(case.section_drag, viscosity(wake_core))?,
+        section_drag: section_drag(case.section_drag, wake_core.viscosity())?,
         summation: case.summation,
         tolerance: case.summation_tolerance,
         ..scheme(case.density_kg_m3, stream)
@@ -159,31 +159,18 @@ pub(super) fn key_of(setting: &str) -> &'static str {
         "summation" => "air.summation",
         "summation tolerance" => "air.summation_tolerance",
         "images" => "air.ground",
-        "shear" => "air.shear_1_s",
-        name if name.starts_with("gust") => "air.gust",
-        name if name.starts_with("vortex street") => "air.vortex_street",
         "particles leading_at_once" => "air.particles.leading_edge",
         name if name.starts_with("particles") => "air.particles",
         name if name.starts_with("section drag") => "air.section_drag",
         "loads" => "air.loads",
         name if name.starts_with("leading") => "air.leading_edge",
-        _ => "air",
-    }
-}
-
-/// Viscosity [m2/s] of the air in which these cores spread, if they do.
-fn viscosity(core: CoreModel) -> Option<f64> {
-    match core {
-        CoreModel::LambOseen { viscosity, .. } | CoreModel::Algebraic { viscosity, .. } => {
-            Some(viscosity).filter(|v| *v > 0.0)
-        }
-        CoreModel::CutOff { .. } | CoreModel::Vatistas { .. } | CoreModel::Scully { .. } => None,
+        name => wind::key_of(name).unwrap_or("air"),
     }
 }
 
 /// The core of the surfaces, which do not age: its viscosity is that of the wakes, which no case needs to give.
 fn bound_core(chord: &Chord, case: &CoreCase, wake_core: CoreModel) -> Built<CoreModel> {
-    let spreading = viscosity(wake_core).unwrap_or(0.0);
+    let spreading = wake_core.viscosity().unwrap_or(0.0);
     let mut case = case.clone();
     let (name, core) = match &mut case {
         CoreCase::LambOseen(core) => ("lamb_oseen", core),
@@ -192,10 +179,10 @@ fn bound_core(chord: &Chord, case: &CoreCase, wake_core: CoreModel) -> Built<Cor
     };
     let own = core.viscosity_m2_s.replace(spreading);
     // Resolved cases of older versions name that of air, whatever the wakes have.
-    let Some(own) = own.filter(|own| *own != spreading && *own != AIR) else {
+    let Some(own) = own.filter(|own| *own != spreading && *own != AIR_VISCOSITY) else {
         return chord.core("air.bound_core", &case);
     };
-    let (allowed, remedy) = match viscosity(wake_core) {
+    let (allowed, remedy) = match wake_core.viscosity() {
         Some(of_wakes) => (
             format!("the {of_wakes} of air.wake_core, or none"),
             "give the viscosity of the air in air.wake_core",

@@ -1,13 +1,14 @@
 //! Lengths of the air in metres or in mean chords, and the cores of vortices.
 
-use wingbeat_air::CoreModel;
+use wingbeat_air::{AIR_VISCOSITY, CoreModel};
 use wingbeat_model::Animal;
 
 use super::fault::Built;
 use crate::error::Fault;
-use crate::raw::{AIR, CoreCase};
+use crate::raw::CoreCase;
 
-/// The mean chord of all wings; of an animal without wings the mean width of the panels of its body.
+/// The mean chord of all wings; of an animal without wings the mean width of the panels of its body, of
+/// several parts the smallest of their mean widths.
 pub(super) struct Chord(Option<f64>);
 
 impl Chord {
@@ -72,11 +73,11 @@ impl Chord {
             },
             CoreCase::Algebraic(c) => CoreModel::Algebraic {
                 radius: radius("algebraic", c.radius_m, c.radius_chords)?,
-                viscosity: c.viscosity_m2_s.unwrap_or(AIR),
+                viscosity: c.viscosity_m2_s.unwrap_or(AIR_VISCOSITY),
             },
             CoreCase::LambOseen(c) => CoreModel::LambOseen {
                 radius: radius("lamb_oseen", c.radius_m, c.radius_chords)?,
-                viscosity: c.viscosity_m2_s.unwrap_or(AIR),
+                viscosity: c.viscosity_m2_s.unwrap_or(AIR_VISCOSITY),
             },
         })
     }

@@ -81,10 +81,6 @@ fn of_control(case: &Case) -> (String, &'static str) {
 fn of_lattice(error: &AirError) -> (String, &'static str) {
     match error {
         AirError::Setting { key, .. } => (lattice::key_of(key).to_owned(), "change this key"),
-        AirError::GustTable { gust, .. } => (
-            format!("air.gust[{gust}].table"),
-            "put the rows in the order of their times",
-        ),
         AirError::Asymmetric { .. } => (
             "air.mirror".to_owned(),
             "set it to false: both sides are computed; wings on joints that begin alike come apart by rounding where springs are stiffer than steps resolve (joint.NAME.element)",

@@ -1,6 +1,7 @@
 //! `[[control.waypoint]]`.
 
 use wingbeat_analysis::control::{Route, Waypoint};
+use wingbeat_math::to_twelve_digits;
 
 use super::fault::Built;
 use super::numbers::vector;
@@ -47,7 +48,7 @@ fn check(k: usize, control: &ControlCase, from: &Waypoint, to: &Waypoint, beat: 
         return Err(Fault::new(
             format!("control.waypoint[{k}].time_s"),
             "waypoints come one after the other, and a way takes a wingbeat or more",
-            format!("a number >= {}", rounded(from.time + beat)),
+            format!("a number >= {}", to_twelve_digits(from.time + beat)),
             "put them in the order of their times; a way of one wingbeat is a step",
         ));
     }
@@ -61,9 +62,4 @@ fn check(k: usize, control: &ControlCase, from: &Waypoint, to: &Waypoint, beat: 
         ));
     }
     Ok(())
-}
-
-/// A time without the rounding of its sum, which is below what [`check`] allows.
-fn rounded(time: f64) -> f64 {
-    format!("{time:.11e}").parse().unwrap_or(time)
 }

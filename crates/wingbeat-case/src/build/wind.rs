@@ -1,7 +1,9 @@
 //! `[[air.gust]]`, `[air.vortex_street]`, `air.shear_1_s` and `[air.ground]`.
 
-use wingbeat_air::{Gust, GustShape, NEUTRAL_WIDTH, Plane, Turbulence, VortexStreet, Wind};
-use wingbeat_math::{DMat3, DVec3, trace};
+use wingbeat_air::{
+    AirError, Gust, GustShape, NEUTRAL_WIDTH, Plane, Turbulence, VortexStreet, Wind,
+};
+use wingbeat_math::{DMat3, DVec3};
 
 use super::fault::Built;
 use super::numbers::vector;
@@ -17,29 +19,60 @@ const FASTEST: f64 = 1e3;
 /// What is added to the stream.
 pub(super) fn wind(case: &AirCase) -> Built<Wind> {
     let gusts: Built<Vec<Gust>> = case.gust.iter().enumerate().map(gust).collect();
-    Ok(Wind {
-        shear: case.shear_1_s.map(shear).transpose()?,
+    let wind = Wind {
+        shear: case.shear_1_s.map(shear),
         gusts: gusts?,
         street: case.vortex_street.as_ref().map(street).transpose()?,
-    })
+    };
+    wind.validate().map_err(|e| refused(case, &e))?;
+    Ok(wind)
 }
 
-fn shear(rows: [[f64; 3]; 3]) -> Built<DMat3> {
-    let [a, b, c] = rows.map(DVec3::from_array);
-    let shear = DMat3::from_cols(a, b, c).transpose();
-    let apart = trace(shear);
-    let size = rows.iter().flatten().fold(0.0_f64, |m, x| m.max(x.abs()));
-    match apart.abs() <= 1e-9 * size {
-        true => Ok(shear),
-        false => Err(Fault::new(
-            "air.shear_1_s",
-            format!(
-                "its diagonal adds up to {apart:.4} 1/s: air that flows apart everywhere loses its density"
-            ),
-            "rows whose diagonal elements add up to 0",
-            "let what flows apart along one axis come together along another",
-        )),
+/// What the air refuses of its wind, at the key it is about.
+fn refused(case: &AirCase, error: &AirError) -> Fault {
+    match error {
+        AirError::GustTable { gust, row, problem } => {
+            let table = format!("air.gust[{gust}].table");
+            let rows = case.gust[*gust].table.as_ref().map_or(0, Vec::len);
+            let key = match *row < rows {
+                true => format!("{table}[{row}]"),
+                false => table,
+            };
+            let allowed = "at least two rows of time and share, times rising";
+            Fault::new(
+                key,
+                *problem,
+                allowed,
+                "put the rows in the order of their times",
+            )
+        }
+        AirError::Setting {
+            key,
+            value,
+            allowed,
+        } => Fault::new(
+            key_of(key).unwrap_or("air"),
+            value,
+            *allowed,
+            "change this key",
+        ),
+        error => Fault::new("air", error.to_string(), "", "correct the air"),
     }
+}
+
+/// The key of a case that a setting of the wind comes from.
+pub(super) fn key_of(setting: &str) -> Option<&'static str> {
+    match setting {
+        "shear" => Some("air.shear_1_s"),
+        name if name.starts_with("gust") => Some("air.gust"),
+        name if name.starts_with("vortex street") => Some("air.vortex_street"),
+        _ => None,
+    }
+}
+
+fn shear(rows: [[f64; 3]; 3]) -> DMat3 {
+    let [a, b, c] = rows.map(DVec3::from_array);
+    DMat3::from_cols(a, b, c).transpose()
 }
 
 fn street(case: &VortexStreetCase) -> Built<VortexStreet> {
@@ -91,10 +124,7 @@ fn gust((k, case): (usize, &GustCase)) -> Built<Gust> {
     let path = format!("air.gust[{k}]");
     let shape = match (case.duration_s, &case.table, case.turbulence) {
         (Some(duration), None, None) => GustShape::OneMinusCosine { duration },
-        (None, Some(rows), None) => {
-            rising(&path, rows)?;
-            GustShape::Table(rows.clone())
-        }
+        (None, Some(rows), None) => GustShape::Table(rows.clone()),
         (None, None, Some(t)) => GustShape::Turbulence(turbulence(&path, t)?),
         _ => {
             return Err(Fault::new(
@@ -136,22 +166,6 @@ fn turbulence(path: &str, case: TurbulenceCase) -> Built<Turbulence> {
                 "length scale over speed, e.g. 0.1",
             )
         })
-}
-
-/// Checks that the times of a gust's table rise.
-fn rising(path: &str, rows: &[(f64, f64)]) -> Built<()> {
-    let Some(row) = rows.windows(2).position(|w| w[1].0 <= w[0].0) else {
-        return Ok(());
-    };
-    Err(Fault::new(
-        format!("{path}.table"),
-        format!(
-            "the time of row {} is not later than that of the row before",
-            row + 1
-        ),
-        "rows of time and share, counted from 0, times rising",
-        "put the rows in the order of their times",
-    ))
 }
 
 /// The plane of the ground, along which the stream goes.

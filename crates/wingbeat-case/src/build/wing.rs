@@ -287,24 +287,21 @@ fn mesh(source: &Source<'_>, side: Side) -> Built<GridMesh> {
 fn given_mesh(name: &str, rows: &[Vec<[f64; 3]>]) -> Built<GridMesh> {
     let key = format!("wing.{name}.planform.nodes_m");
     let in_row = rows.first().map_or(0, Vec::len);
-    let fault = |problem: String| {
+    let fault = |key: &str, problem: String| {
         let allowed = "at least two rows of at least two nodes [x, y, z], all rows alike, no panel without area";
         let remedy = "from the leading to the trailing edge, each row from the root to the tip";
-        Fault::new(&key, problem, allowed, remedy)
+        Fault::new(key, problem, allowed, remedy)
     };
     if let Some(row) = rows.iter().position(|row| row.len() != in_row) {
-        let problem = format!(
-            "row {row}, counted from 0, has {} nodes and the first {in_row}",
-            rows[row].len()
-        );
-        return Err(fault(problem));
+        let problem = format!("it has {} nodes, the first row {in_row}", rows[row].len());
+        return Err(fault(&format!("{key}[{row}]"), problem));
     }
     let mesh = GridMesh {
         rows: rows.len().saturating_sub(1),
         cols: in_row.saturating_sub(1),
         nodes: rows.iter().flatten().map(|&x| vector(x)).collect(),
     };
-    mesh.check(name).map_err(|e| fault(e.to_string()))?;
+    mesh.check(name).map_err(|e| fault(&key, e.to_string()))?;
     Ok(mesh)
 }
 

@@ -1,5 +1,7 @@
 //! The case of an insect as a commented file.
 
+use wingbeat_air::AIR_VISCOSITY;
+
 use super::number::number;
 use super::scaling::Insect;
 
@@ -59,8 +61,8 @@ description = \"Hovering {title}\"
 fn flight(insect: &Insect, air: InsectAir) -> String {
     let f = &insect.frequency;
     let (steps, start, air) = match air {
-        InsectAir::BladeElement => (200, "start = \"impulsive\"", BLADES),
-        InsectAir::Lattice => (40, "start = \"smooth\"", LATTICE),
+        InsectAir::BladeElement => (200, "start = \"impulsive\"", BLADES.to_owned()),
+        InsectAir::Lattice => (40, "start = \"smooth\"", lattice()),
     };
     let held = match start.contains("smooth") {
         true => {
@@ -99,7 +101,9 @@ coefficients = \"dickson-2008\"  # measured on a fruit fly's wing
 frames_every = 0
 ";
 
-const LATTICE: &str = "
+fn lattice() -> String {
+    format!(
+        "
 [air]
 model = \"vortex_lattice\"
 density_kg_m3 = 1.225
@@ -109,14 +113,16 @@ shed = [\"trailing\", \"tip\", \"leading\"]
 summation = \"single\"       # for more than ten beats \"auto\" with summation_tolerance = 1e-3
 # Vortex cores and the clearance are in mean chords; cores spread with age as viscosity makes them.
 # They are inputs of hover, not results: vary them before trusting a number.
-bound_core.algebraic = { radius_chords = 0.01 }
-wake_core.algebraic = { radius_chords = 0.07, viscosity_m2_s = 1.5e-5 }
+bound_core.algebraic = {{ radius_chords = 0.01 }}
+wake_core.algebraic = {{ radius_chords = 0.07, viscosity_m2_s = {AIR_VISCOSITY:e} }}
 wake_overlap = 1.0         # wake filaments have cores of at least this many times their length
 clearance_chords = 0.1     # wakes keep this distance from wings and body
 
 [output]
 frames_every = 2
-";
+"
+    )
+}
 
 /// An ellipsoid of revolution with the density of water.
 fn body_mass(insect: &Insect) -> f64 {

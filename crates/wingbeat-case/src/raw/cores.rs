@@ -3,9 +3,6 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// Kinematic viscosity of air at 20 degrees Celsius \[m2/s\].
-pub(crate) const AIR: f64 = 1.5e-5;
-
 /// Regularisation of a vortex filament.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]

@@ -40,7 +40,6 @@ pub use control::{
     ControlCase, ControllerCase, ObserverCase, SensorsCase, StiffnessCase, TargetCase,
     WaypointCase, WeightsCase,
 };
-pub(crate) use cores::AIR;
 pub use cores::{CoreCase, CutOffCase, LambOseenCase, RadiusCase};
 pub use deformation::{
     BendingCase, CamberCase, CourseCase, DeformationCase, SurfaceCase, TwistCase,

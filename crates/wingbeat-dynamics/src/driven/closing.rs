@@ -9,7 +9,7 @@
 //!
 //! The root is at rest. J is square where the loops leave nothing free and ask for nothing twice.
 
-use wingbeat_math::{DQuat, DVec3, MovingRotation};
+use wingbeat_math::{DQuat, DVec3, MovingRotation, larger};
 
 use crate::configuration::Configuration;
 use crate::error::quoted_once;
@@ -99,9 +99,9 @@ impl<'a> Closing<'a> {
             let step = self.solved(t, rows.iter().map(|r| r.1.value).collect())?;
             self.shift(&step);
             let sizes = step.iter().zip(&self.sizes).map(|(x, s)| (x / s).abs());
-            let size = sizes.fold(0.0, f64::max);
+            let size = sizes.fold(0.0, larger);
             moved += size;
-            if moved > JUMP {
+            if moved > JUMP || moved.is_nan() {
                 break;
             }
             if size <= TOLERANCE {

@@ -1,5 +1,7 @@
 //! Whether a saved state, perhaps read from a file, fits the flight that is to go on from it.
 
+use wingbeat_structure::State;
+
 use super::state::FlightState;
 use crate::elastic::ElasticState;
 use crate::error::FlightError;
@@ -10,14 +12,14 @@ use crate::stages::Stage;
 /// No flight counts so many steps or events.
 const MOST: u64 = 1 << 60;
 
-/// Whether `state` fits a flight of these `stages` that begins with the ledger `own`.
+/// Whether `state` fits a flight of these `stages` that begins with the ledger `own`, under feedback or not.
 ///
 /// # Errors
 /// What does not fit.
 pub(super) fn check_fits(
     state: &FlightState,
     stages: &[Stage],
-    own: &Ledger,
+    (own, has_feedback): (&Ledger, bool),
 ) -> Result<(), FlightError> {
     let Some(stage) = stages.get(state.stage) else {
         let value = format!("stage {}", state.stage);
@@ -54,6 +56,7 @@ pub(super) fn check_fits(
         );
     }
     check_wings(stage, &state.wings)?;
+    check_control(state, has_feedback)?;
     if state.carried.len() != stage.equations.carried.initial().len() {
         return misfit(
             format!("{} wings on free joints", state.carried.len()),
@@ -64,33 +67,47 @@ pub(super) fn check_fits(
     check_events(state)
 }
 
-/// Elastic wings have the nodes that the case gives them.
+/// Elastic wings have the nodes that the case gives them, and six numbers of each kind at every one.
 pub(super) fn check_wings(stage: &Stage, wings: &[ElasticState]) -> Result<(), FlightError> {
-    let nodes = |s: &ElasticState| {
-        let state = &s.structure;
-        let numbers = [&state.velocity, &state.acceleration, &state.algorithmic];
-        let same = numbers.iter().all(|v| v.len() == state.velocity.len());
-        (
-            same,
-            state.configuration.len(),
-            state.configuration.rotation.len(),
-        )
-    };
-    let own: Vec<_> = stage
-        .equations
-        .elastic
-        .initial()
-        .iter()
-        .map(nodes)
-        .collect();
-    let saved: Vec<_> = wings.iter().map(nodes).collect();
-    match own == saved {
-        true => Ok(()),
-        false => misfit(
-            format!("{} elastic wings", saved.len()),
-            "the case has others; resume with the case that was saved with it",
-        ),
+    let own = stage.equations.elastic.initial();
+    let as_saved = "the case has others; resume with the case that was saved with it";
+    if own.len() != wings.len() {
+        return misfit(format!("{} elastic wings", wings.len()), as_saved);
     }
+    for (k, (own, saved)) in own.iter().zip(wings).enumerate() {
+        let [own, saved] = [own, saved].map(|wing| lengths(&wing.structure));
+        if own != saved {
+            return misfit(
+                format!(
+                    "{saved:?} places, attitudes, velocities, accelerations of elastic wing {k}"
+                ),
+                as_saved,
+            );
+        }
+    }
+    Ok(())
+}
+
+/// Numbers of places, attitudes, velocities and both accelerations of a wing.
+fn lengths(state: &State) -> [usize; 5] {
+    let at = &state.configuration;
+    let of_nodes = [&state.velocity, &state.acceleration, &state.algorithmic];
+    let [v, a, own] = of_nodes.map(Vec::len);
+    [at.position.len(), at.rotation.len(), v, a, own]
+}
+
+/// What feedback remembers is saved where the case has feedback, and nowhere else.
+fn check_control(state: &FlightState, has_feedback: bool) -> Result<(), FlightError> {
+    let value = match (has_feedback, &state.control) {
+        (true, None) => "no memory of feedback",
+        (false, Some(_)) => "a memory of feedback",
+        _ => return Ok(()),
+    };
+    let problem = match has_feedback {
+        true => "the case has [control]; resume with the case that was saved with it",
+        false => "the case has no [control]; resume with the case that was saved with it",
+    };
+    misfit(value.into(), problem)
 }
 
 fn check_steps(state: &FlightState) -> Result<(), FlightError> {

@@ -34,14 +34,6 @@ impl SmoothTriangle {
         of_sine(x, self.shift, outer, self.amplitude * norm, self.mean)
     }
 
-    pub(crate) fn scaled(&self, factor: f64) -> Self {
-        Self {
-            amplitude: self.amplitude * factor,
-            mean: self.mean * factor,
-            ..*self
-        }
-    }
-
     pub(crate) fn check(&self, key: &str) -> Result<(), ModelError> {
         finite_all(key, self.amplitude, self.shift, self.mean)?;
         let k = self.shape;
@@ -76,14 +68,6 @@ impl SmoothSquare {
         of_sine(x, self.shift, outer, self.amplitude * norm, self.mean)
     }
 
-    pub(crate) fn scaled(&self, factor: f64) -> Self {
-        Self {
-            amplitude: self.amplitude * factor,
-            mean: self.mean * factor,
-            ..*self
-        }
-    }
-
     pub(crate) fn check(&self, key: &str) -> Result<(), ModelError> {
         finite_all(key, self.amplitude, self.shift, self.mean)?;
         let c = self.shape;
@@ -112,14 +96,6 @@ impl Oval {
         let (s, c) = (w * x + self.shift).sin_cos();
         let a = self.amplitude;
         [a * c + self.mean, -a * w * s, -a * w * w * c]
-    }
-
-    pub(crate) fn scaled(&self, factor: f64) -> Self {
-        Self {
-            amplitude: self.amplitude * factor,
-            mean: self.mean * factor,
-            ..*self
-        }
     }
 
     pub(crate) fn check(&self, key: &str) -> Result<(), ModelError> {

@@ -160,7 +160,7 @@ mod tests {
     use super::*;
 
     fn rms(left: &[f64]) -> f64 {
-        (left.iter().map(|x| x * x).sum::<f64>() / left.len() as f64).sqrt()
+        wingbeat_math::root_mean_square(left.iter().copied())
     }
 
     /// A series of three harmonics at uneven phases comes back to roundings; one harmonic more than it needs

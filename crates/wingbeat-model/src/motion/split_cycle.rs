@@ -42,14 +42,6 @@ impl SplitCycle {
         ]
     }
 
-    pub(crate) fn scaled(&self, factor: f64) -> Self {
-        Self {
-            amplitude: self.amplitude * factor,
-            mean: self.mean * factor,
-            ..*self
-        }
-    }
-
     pub(crate) fn check(&self, key: &str) -> Result<(), ModelError> {
         finite(&format!("{key}.amplitude"), self.amplitude)?;
         finite(&format!("{key}.shift"), self.shift)?;

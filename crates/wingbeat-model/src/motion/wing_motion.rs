@@ -49,15 +49,28 @@ impl AngleLaw {
 
     /// The law `factor * q(x)`.
     pub fn scaled(&self, factor: f64) -> Self {
-        match self {
-            AngleLaw::Constant(q) => AngleLaw::Constant(factor * q),
-            AngleLaw::Fourier(law) => AngleLaw::Fourier(law.scaled(factor)),
-            AngleLaw::SmoothTriangle(law) => AngleLaw::SmoothTriangle(law.scaled(factor)),
-            AngleLaw::SmoothSquare(law) => AngleLaw::SmoothSquare(law.scaled(factor)),
-            AngleLaw::Oval(law) => AngleLaw::Oval(law.scaled(factor)),
-            AngleLaw::SplitCycle(law) => AngleLaw::SplitCycle(law.scaled(factor)),
-            AngleLaw::Table(law) => AngleLaw::Table(law.scaled(factor)),
+        let mut scaled = self.clone();
+        match &mut scaled {
+            AngleLaw::Constant(q) => *q *= factor,
+            AngleLaw::Fourier(law) => *law = law.scaled(factor),
+            AngleLaw::Table(law) => *law = law.scaled(factor),
+            AngleLaw::SmoothTriangle(SmoothTriangle {
+                amplitude, mean, ..
+            })
+            | AngleLaw::SmoothSquare(SmoothSquare {
+                amplitude, mean, ..
+            })
+            | AngleLaw::Oval(Oval {
+                amplitude, mean, ..
+            })
+            | AngleLaw::SplitCycle(SplitCycle {
+                amplitude, mean, ..
+            }) => {
+                *amplitude *= factor;
+                *mean *= factor;
+            }
         }
+        scaled
     }
 
     fn check(&self, key: &str) -> Result<(), ModelError> {

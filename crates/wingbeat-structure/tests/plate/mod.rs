@@ -5,11 +5,25 @@
 use faer::{Mat, Side};
 use wingbeat_math::{DVec3, MassProperties, tilde};
 use wingbeat_structure::shell::Section;
-use wingbeat_structure::{Configuration, Element, ElementForces, Shell, ShellMesh};
+use wingbeat_structure::{Configuration, Element, ElementForces, Lamina, Shell, ShellMesh};
 
 /// Six numbers of a node held or not.
 pub const CLAMPED: [bool; 6] = [true; 6];
 pub const FREE: [bool; 6] = [false; 6];
+
+/// An orthotropic sheet with fibres askew.
+pub fn askew(thickness: f64) -> Lamina {
+    Lamina {
+        young: [1.0, 0.4],
+        poisson: 0.3,
+        shear: 0.2,
+        thickness,
+        density: 1.0,
+        added_mass: 0.5,
+        axis: DVec3::new(0.8, 0.6, 0.1),
+        prestress: [0.0; 3],
+    }
+}
 
 /// Shells on nodes of which some numbers are held.
 pub struct Plate {

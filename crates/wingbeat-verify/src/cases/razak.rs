@@ -7,7 +7,7 @@ use crate::lab::rig::{Edge, Fluid, Nose, Pose, Wing, forces};
 use crate::lab::series::{Table, interpolate};
 use crate::{Case, Comparison, Part, Row, VerifyError};
 use std::f64::consts::TAU;
-use wingbeat_math::{DVec3, r1, r2};
+use wingbeat_math::{DVec3, r1, r2, root_mean_square};
 
 pub(super) const CASES: &[Case] = &[Case {
     name: "razak-2014",
@@ -166,8 +166,7 @@ fn run(_quick: bool) -> Result<Vec<Row>, VerifyError> {
                 let finer = motion.coefficients(edge, [9, 12, 6], &phases)?;
                 for q in 0..2 {
                     let pairs = computed[q].iter().zip(&finer[q]);
-                    let squares: f64 = pairs.map(|(a, b)| (a - b) * (a - b)).sum();
-                    change[q] = (squares / phases.len() as f64).sqrt();
+                    change[q] = root_mean_square(pairs.map(|(a, b)| a - b));
                 }
             }
             for q in 0..2 {

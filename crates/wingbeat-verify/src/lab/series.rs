@@ -40,7 +40,7 @@ pub fn mean(x: &[f64]) -> f64 {
 
 /// Root of the mean square.
 pub fn rms(x: &[f64]) -> f64 {
-    (x.iter().map(|v| v * v).sum::<f64>() / x.len() as f64).sqrt()
+    wingbeat_math::root_mean_square(x.iter().copied())
 }
 
 /// Complex amplitude (a, b) of a cos(2 pi k x) + b sin(2 pi k x) over samples x(n / n_period) of whole

@@ -61,6 +61,23 @@ impl CoreModel {
         }
     }
 
+    /// Viscosity \[m^2/s\] by which the core spreads; none where it stays as it is.
+    ///
+    /// ```
+    /// use wingbeat_vortex::CoreModel;
+    /// let core = |viscosity| CoreModel::Algebraic { radius: 1e-4, viscosity };
+    /// assert_eq!(core(1.5e-5).viscosity(), Some(1.5e-5));
+    /// assert_eq!(core(0.0).viscosity(), None);
+    /// ```
+    pub fn viscosity(&self) -> Option<f64> {
+        match *self {
+            Self::LambOseen { viscosity, .. } | Self::Algebraic { viscosity, .. } => {
+                Some(viscosity).filter(|v| *v > 0.0)
+            }
+            Self::CutOff { .. } | Self::Vatistas { .. } | Self::Scully { .. } => None,
+        }
+    }
+
     /// Whether its numbers are finite and none is below 0.
     pub fn is_sound(&self) -> bool {
         let sound = |x: f64| x.is_finite() && x >= 0.0;

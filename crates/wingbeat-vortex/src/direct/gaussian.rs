@@ -130,7 +130,7 @@ mod tests {
 
     /// g against the series of its definition about zero, and against 1 / t^3 far off, where it is a point's.
     #[test]
-    fn closed_form_swirl() {
+    fn exact_swirl() {
         // Integral of the vorticity within t: 3 sqrt(2 / pi) sum (-z / 2)^n / (n! (2 n + 3)) / 3.
         let series = |z: f64| {
             let (mut term, mut sum) = (1.0, 0.0);

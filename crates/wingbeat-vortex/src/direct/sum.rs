@@ -42,7 +42,8 @@ impl DirectSum {
         Self::at_level(model, InstructionSet::best())
     }
 
-    /// As [`DirectSum::new`] with these instructions; None where the processor lacks them.
+    /// As [`DirectSum::new`] with these instructions, for tests and benches of them; None where the processor lacks
+    /// them.
     pub fn with_instructions(model: CoreModel, set: InstructionSet) -> Option<Self> {
         Some(Self::at_level(model, set.level()?))
     }

@@ -60,7 +60,7 @@ mod tests {
 
     /// B-splines add up to one and reproduce straight lines; rounding of single precision.
     #[test]
-    fn closed_form_partition_of_unity_and_first_moment() {
+    fn exact_partition_of_unity_and_first_moment() {
         for f in [0.0, 0.1, 0.5, 0.93] {
             let w = weights(f).map(f64::from);
             let moment: f64 = w
@@ -75,7 +75,7 @@ mod tests {
 
     /// The relation of two scales, term by term, at some places between nodes.
     #[test]
-    fn closed_form_refinement() {
+    fn exact_refinement() {
         let spline = |x: f64| {
             let u = x.floor();
             let k = 2.0 - u; // the spline at node 0 as seen from floor(u)
@@ -94,7 +94,7 @@ mod tests {
     /// The spline of twice the order at whole numbers is the convolution of two: their sums over nodes agree with
     /// the integral, here by the mean over many offsets.
     #[test]
-    fn second_method_transfer_is_the_mean_of_spreading_and_gathering() {
+    fn agrees_transfer_with_the_mean_of_spreading_and_gathering() {
         let phase = 0.9_f64;
         let count = 400;
         let mean = (0..count).map(|i| {

@@ -194,7 +194,7 @@ mod tests {
 
     /// Every lane against the sum that defines the transform; and back again.
     #[test]
-    fn closed_form_transform() {
+    fn exact_transform() {
         let n = 12;
         let value = |i: usize, l: usize| {
             let x = (7 * i + 3 * l) as f32;
@@ -221,7 +221,7 @@ mod tests {
     }
 
     #[test]
-    fn closed_form_good_lengths() {
+    fn exact_good_lengths() {
         assert_eq!([1, 7, 31, 122, 128].map(good_length), [2, 8, 32, 128, 128]);
     }
 }

@@ -166,7 +166,7 @@ impl Network {
         (self.nodes.get(i as usize), self.nodes.get(j as usize))
     }
 
-    /// The same segments with their own end points.
+    /// The same segments with their own end points, for tests and benches of sums over them.
     pub fn to_segments(&self) -> Segments {
         let mut out = Segments::default();
         for (e, &[i, j]) in self.edges.iter().enumerate() {

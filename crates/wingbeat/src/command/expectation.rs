@@ -117,7 +117,7 @@ fn lift(report: &mut Report, e: &Estimate) {
         entry!(
             report,
             "lift",
-            "left out, blade elements on trial failed: {why}"
+            "left out, no blade elements on trial: {why}"
         );
     }
     report.value("lift_over_weight", e.lift_over_weight);

@@ -136,7 +136,7 @@ fn refuses_cases_beyond_all_size() {
 }
 
 #[test]
-fn survives_flights_of_impossible_numbers() {
+fn behaves_in_flights_of_impossible_numbers() {
     let mut field = Field::new("attack-flights");
     let keys = [
         "gravity_m_s2=[0,0,1e300]",

@@ -1,7 +1,7 @@
 //! What control cannot do.
 
 use wingbeat::case::LoadedCase;
-use wingbeat::flight::{FlightState, Simulation};
+use wingbeat::flight::{FlightSetup, FlightState, Simulation};
 
 use crate::{BLADES, PRESET, case, in_blades};
 
@@ -162,7 +162,8 @@ fn refuses_harmonics_of_loads_without_a_frequency() {
 /// Memories of another controller, of another latency and of no wings, as a checkpoint beside another case has them.
 #[test]
 fn refuses_to_resume_with_what_another_controller_remembers() {
-    let damages: [fn(&mut FlightState); 5] = [
+    let damages: [fn(&mut FlightState); 6] = [
+        |s| s.control = None,
         |s| s.control.as_mut().unwrap().memory.clear(),
         |s| s.control.as_mut().unwrap().memory.push(0.0),
         |s| _ = s.control.as_mut().unwrap().memory.pop(),
@@ -183,5 +184,21 @@ fn refuses_to_resume_with_what_another_controller_remembers() {
             let said = refused.expect_err(&format!("damage {k}")).to_string();
             assert!(said.contains("resume with the case"), "{k}: {said}");
         }
+    }
+}
+
+/// As a checkpoint beside a case from which [control] was removed has it.
+#[test]
+fn refuses_to_resume_without_the_feedback_that_was_saved() {
+    let setup = in_blades(&["time.beats=3"]);
+    let flight = Simulation::new(setup.clone()).unwrap();
+    let open = FlightSetup {
+        feedback: None,
+        ..setup
+    };
+    let refused = Simulation::resume(open, flight.state().clone()).map(drop);
+    let said = refused.unwrap_err().to_string();
+    for word in ["memory of feedback", "no [control]", "resume with the case"] {
+        assert!(said.contains(word), "{said}");
     }
 }

@@ -5,7 +5,7 @@ use super::{apart, beam, fly, goes_on, strings};
 use wingbeat::analysis::flutter::realise;
 use wingbeat::analysis::wake::{WakeSettings, WakeTrim, elastic_floquet, trim_with_wake};
 use wingbeat::analysis::{Plane, TrimProblem, TrimSettings, power_with_wake};
-use wingbeat::case::LoadedCase;
+use wingbeat::case::{LoadedCase, wake_trimmed_case};
 use wingbeat::flight::{MotionMode, Past, Record, Simulation};
 use wingbeat::math::DVec3;
 
@@ -78,9 +78,13 @@ fn trimmed(strips: usize) -> WakeTrim {
 }
 
 fn fly_forward(strips: usize) -> LoadedCase {
+    fly_with(strips, "time.steps_per_beat=40")
+}
+
+fn fly_with(strips: usize, time: &str) -> LoadedCase {
     let set = strings(&[
         "air.blade.unsteady=\"jones\"",
-        "time.steps_per_beat=40",
+        time,
         &format!("wing.right.mesh.spanwise={strips}"),
     ]);
     LoadedCase::find("fruit-fly-blade", &set).unwrap()
@@ -105,13 +109,17 @@ fn trimmed_of(case: &LoadedCase) -> WakeTrim {
 #[test]
 fn agrees_the_written_case_of_a_fly_with_wakes_with_its_orbit() {
     let case = fly_forward(4);
-    let found = departures(&case, &trimmed_of(&case), 2);
-    assert!(
-        found
-            .iter()
-            .all(|[drift, turn]| *drift < 2e-3 && *turn < 2e-3),
-        "{found:?}"
-    );
+    let trim = trimmed_of(&case);
+    // The steps of a case may be given in seconds, in which those of another frequency are none.
+    let step = case.setup.time.step;
+    let seconds = fly_with(4, &format!("time={{step_s={step},steps=200}}"));
+    for case in [case, seconds] {
+        let text = wake_trimmed_case(&case, &trim);
+        assert!(text.contains("steps_per_beat = 40") && !text.contains("step_s"));
+        let found = departures(&case, &trim, 2);
+        let close = |[drift, turn]: &[f64; 2]| *drift < 2e-3 && *turn < 2e-3;
+        assert!(found.iter().all(close), "{found:?}");
+    }
 }
 
 /// Records at the ends of `beats` beats that go on from the `past`.

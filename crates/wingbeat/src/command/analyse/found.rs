@@ -7,7 +7,7 @@ use wingbeat::analysis::{
 };
 use wingbeat::case::LoadedCase;
 use wingbeat::flight::FlightSetup;
-use wingbeat::math::DVec3;
+use wingbeat::math::{DVec3, larger};
 use wingbeat::results::fixed::signed;
 
 use crate::command::report::{Report, line};
@@ -147,7 +147,7 @@ fn residuals(report: &mut Report, problem: &TrimProblem, t: &TrimSolution) {
 }
 
 fn largest(residuals: &[f64]) -> f64 {
-    residuals.iter().fold(0.0, |m, r| m.max(r.abs()))
+    residuals.iter().fold(0.0, |m, r| larger(m, r.abs()))
 }
 
 fn names_of(unknowns: &[Unknown]) -> Vec<&'static str> {
