@@ -7,3 +7,4 @@ mod impulse;
 mod mutations;
 mod passive_joints;
 mod summary;
+mod told;
