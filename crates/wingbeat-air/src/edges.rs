@@ -48,6 +48,11 @@ impl SheddingKinds {
         root: false,
     };
 
+    /// Whether any edge sheds a wake.
+    pub fn any(self) -> bool {
+        self != Self::NONE
+    }
+
     /// None: flow without circulation about the wings.
     pub const NONE: Self = Self {
         trailing: false,

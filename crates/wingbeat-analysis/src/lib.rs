@@ -80,7 +80,9 @@ pub use least_power::trim_within;
 pub use level::{Level, Perturbation, STATE};
 pub use mean::MeanLoad;
 pub use modes::{Mode, ModeSet, Plane, Scales};
-pub use plausibility::{Estimate, WingEstimate, estimate, jumping_rotation, stroke_amplitude};
+pub use plausibility::{
+    Estimate, WingEstimate, doubtful_reynolds_numbers, estimate, jumping_rotation, stroke_amplitude,
+};
 pub use power::{Power, power, power_of_trim, power_with_wake};
 pub use request::TrimRequest;
 pub use solution::TrimSolution;

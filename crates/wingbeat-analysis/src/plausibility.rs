@@ -32,37 +32,22 @@ use wingbeat_math::{DVec3, RotationLaw};
 use wingbeat_model::Wing;
 
 use self::air::{stream, viscosity};
-use self::doubts::doubts;
+use self::doubts::{doubts, reynolds_doubts};
 use self::lift::lift_over_weight;
+
+/// Says which Reynolds numbers of the wings are so low that friction rules, or higher than any animal's.
+pub fn doubtful_reynolds_numbers(setup: &FlightSetup) -> Vec<String> {
+    reynolds_doubts(&sizes(setup).wings)
+}
 
 /// Estimates what a flight will be like. Where the blade elements cannot be flown it says why, and leaves the lift out.
 pub fn estimate(setup: &FlightSetup) -> Estimate {
-    let animal = &setup.animal;
-    let reports = animal.wing_reports();
-    let area: f64 = reports.iter().map(|r| r.area).sum();
-    let weight = animal.mass() * setup.gravity.length();
-    let inertia = animal.body.inertia_about_centre();
-    let flight_speed = (start_velocity(setup) - stream(&setup.air)).length();
-    let (lift_over_weight, lift_left_out) = match lift_over_weight(setup) {
-        Ok(lift) => (lift, None),
-        Err(e) => (None, Some(e.to_string())),
-    };
-    let mut estimate = Estimate {
-        mass: animal.mass(),
-        frequency: setup.time.period.map(|p| 1.0 / p),
-        flight_speed,
-        wing_loading: (weight > 0.0 && area > 0.0).then(|| weight / area),
-        inertia: DVec3::new(inertia.x_axis.x, inertia.y_axis.y, inertia.z_axis.z),
-        viscosity: viscosity(&setup.air),
-        wings: vec![],
-        lift_over_weight,
-        lift_left_out,
-        doubts: vec![],
-    };
-    let wings = animal.wings.iter().zip(reports);
-    let wing = |(w, r)| estimate.wing(w, r, carried(setup, w));
-    estimate.wings = wings.map(wing).collect();
-    let first = elastic::first_frequencies(&animal.wings);
+    let mut estimate = sizes(setup);
+    match lift_over_weight(setup) {
+        Ok(lift) => estimate.lift_over_weight = lift,
+        Err(e) => estimate.lift_left_out = Some(e.to_string()),
+    }
+    let first = elastic::first_frequencies(&setup.animal.wings);
     for (w, first) in estimate.wings.iter_mut().zip(first) {
         w.hides_frequency = first.is_err();
         w.first_frequency = first.unwrap_or_default();
@@ -72,6 +57,32 @@ pub fn estimate(setup: &FlightSetup) -> Estimate {
             .map(|(f, beat)| f / beat);
     }
     estimate.doubts = doubts(setup, &estimate);
+    estimate
+}
+
+/// Sizes, speeds and what follows from them.
+fn sizes(setup: &FlightSetup) -> Estimate {
+    let animal = &setup.animal;
+    let reports = animal.wing_reports();
+    let area: f64 = reports.iter().map(|r| r.area).sum();
+    let weight = animal.mass() * setup.gravity.length();
+    let inertia = animal.body.inertia_about_centre();
+    let flight_speed = (start_velocity(setup) - stream(&setup.air)).length();
+    let mut estimate = Estimate {
+        mass: animal.mass(),
+        frequency: setup.time.period.map(|p| 1.0 / p),
+        flight_speed,
+        wing_loading: (weight > 0.0 && area > 0.0).then(|| weight / area),
+        inertia: DVec3::new(inertia.x_axis.x, inertia.y_axis.y, inertia.z_axis.z),
+        viscosity: viscosity(&setup.air),
+        wings: vec![],
+        lift_over_weight: None,
+        lift_left_out: None,
+        doubts: vec![],
+    };
+    let wings = animal.wings.iter().zip(reports);
+    let wing = |(w, r)| estimate.wing(w, r, carried(setup, w));
+    estimate.wings = wings.map(wing).collect();
     estimate
 }
 

@@ -308,10 +308,11 @@ impl BladeWing {
         let mut force = -mass * s.normal_velocity_rate(x) * s.e[2];
         let mut couple = DVec3::new(0.0, -inertia * s.q_rate, 0.0);
         match law {
+            AddedMass::Section if self.has_suction() => {}
             AddedMass::None | AddedMass::Normal => {}
             AddedMass::Section => force -= impulse * s.turn.y * s.e[0],
             AddedMass::Impulse => {
-                force -= impulse * s.normal_rate();
+                force -= impulse * self.normal_rate_felt(s);
                 couple.x -= impulse * v.dot(s.e[1]);
                 couple -= inertia * s.turn.y * s.turn.cross(DVec3::Y);
             }
@@ -320,6 +321,14 @@ impl BladeWing {
         load.add_force(s, x, force);
         load.add_couple(s, couple);
         load
+    }
+
+    /// Rate of the normal of a section, without its part along the chord where the strip's suction has that.
+    fn normal_rate_felt(&self, s: &SectionState) -> DVec3 {
+        match self.has_suction() {
+            true => -s.turn.x * s.e[1],
+            false => s.normal_rate(),
+        }
     }
 
     /// How the forces on the nodes answer to motions of the sections, section by section into `out`, their

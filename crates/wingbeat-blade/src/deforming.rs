@@ -159,6 +159,7 @@ impl BladeWing {
         sum: &mut DeformingLoad,
     ) {
         let add = match self.settings().added_mass {
+            AddedMass::Section if self.has_suction() => return,
             AddedMass::None | AddedMass::Normal => return,
             AddedMass::Section => Self::add_chordwise,
             AddedMass::Impulse => Self::add_turning_strip,
@@ -280,11 +281,15 @@ impl BladeWing {
         v: DVec3,
         sum: &mut DeformingLoad,
     ) {
-        let ([_, e2, n], [p, p1, _]) = (s.axes(), s.point(strip.x_mid()));
+        let ([e1, e2, n], [p, p1, _]) = (s.axes(), s.point(strip.x_mid()));
         let (w, rho) = (motion.rate, self.settings().density);
         let (here, turning) = (v + w.cross(p) + p1, s.turning(w));
         let impulse = strip.added_mass(rho) * here.dot(n);
-        let force = -impulse * (w.cross(n) + s.twist[1] * about_2(n));
+        let mut normal_rate = w.cross(n) + s.twist[1] * about_2(n);
+        if self.has_suction() {
+            normal_rate -= turning.dot(e2) * e1;
+        }
+        let force = -impulse * normal_rate;
         let spin = strip.added_inertia(rho) * turning.dot(e2);
         let munk = here.cross(n);
         let couple = -impulse * (munk - munk.dot(e2) * e2) - spin * turning.cross(e2);

@@ -11,8 +11,8 @@
 //!    apart: whoever integrates the motion can put it on the left-hand side.
 //!
 //! With [`Unsteady`] the circulation of a strip lags behind its motion ([`Indicial`], Wagner's function): the
-//! downwash of the strip's own wake is taken from the normal velocity that 1 and 2 see, and feathering is
-//! damped as thin-airfoil theory has it.
+//! downwash of the strip's own wake is taken from the normal velocity that 1 and 2 see, feathering is damped as
+//! thin-airfoil theory has it, and the force along the chord is leading-edge suction [Garrick 1936].
 //!
 //! Optional: drag of the body ([`BodyDrag`]). [`DerivativeTable`] is simpler still: the loads on a whole animal, linear
 //! about a reference flight.

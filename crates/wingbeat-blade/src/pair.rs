@@ -25,6 +25,10 @@ pub(crate) struct StripPair {
     lever: DVec2,
     /// `pi/16 rho c^3 dr` \[kg\].
     couple: DVec2,
+    /// Mid chord ahead of the feathering axis \[m\].
+    x_mid: DVec2,
+    /// Added mass m of which the force along the chord is reckoned \[kg\].
+    chordwise: DVec2,
 }
 
 /// How the points of two strips on the feathering axis move through the air.
@@ -68,12 +72,31 @@ impl StripPair {
             viscous: lanes(&|s| PI / 16.0 * rho * s.chord.powi(4) * s.width),
             lever: lanes(&|s| circulation(settings.rotation, s) * s.chord / PI),
             couple: lanes(&|s| PI / 16.0 * rho * s.chord.powi(3) * s.width),
+            x_mid: lanes(&Strip::x_mid),
+            chordwise: lanes(&|s| match settings.added_mass.acts_along_chord() {
+                true => s.added_mass(rho),
+                false => 0.0,
+            }),
         }
     }
 
     /// How far behind the feathering axis the downwash is that the circulation follows \[m\].
     pub fn lever(&self) -> DVec2 {
         self.lever
+    }
+
+    /// What leading-edge suction lacks of Kutta and Joukowski's force at the feathering axis, over the rate of
+    /// feathering `q` \[N s\].
+    ///
+    /// Where the circulation Gamma lags, the axis feels `rho Gamma (w - lambda)` along the chord. The suction of
+    /// a flat plate is `2 pi rho b (v - lambda)^2`, v the normal velocity of mid chord: `S = (2 C Q - b q) / sqrt 2`
+    /// [Garrick 1936, NACA Rep. 567], with `C Q - b q / 2 = v - lambda`. With `Gamma = 2 pi b C Q` it is
+    /// `(rho Gamma - m q) (v - lambda)`: both forces, that of the circulation and that of the added mass m, go
+    /// with what mid chord meets. `bound` is `rho Gamma dr` \[kg/s\], `w` is `w - lambda` at the axis \[m/s\].
+    #[inline]
+    fn suction_by_turning(&self, bound: DVec2, w: DVec2, q: DVec2) -> DVec2 {
+        let middle = w - q * self.x_mid;
+        bound * self.x_mid + self.chordwise * middle
     }
 
     /// Chords \[m\].
@@ -163,13 +186,17 @@ fn with_law(
         let behind = centre_of_pressure(settings.centre_of_pressure, sin, cos);
         let x_cp = pair.x_leading - pair.chord * behind;
         let mut damping = pair.viscous * (viscous[0] + viscous[1] * q.abs()) * q;
+        let mut along = along + r1;
         if is_unsteady {
+            let lifting = pressure * lift * (sin.signum() * cos.signum() * inverse);
+            let bound = if across { lifting } else { lifting + strength };
+            along -= q * pair.suction_by_turning(bound, w, q);
             // The force m u q of the added mass acts at 3/4 of the chord: about its middle `-pi/16 rho c^3 u q`
             // [Theodorsen 1935].
             damping += pair.couple * u.abs() * q;
         }
         let force = PairForce {
-            along: along + r1,
+            along,
             normal,
             about: -damping - x_cp * normal,
         };

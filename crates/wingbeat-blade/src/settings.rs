@@ -99,6 +99,11 @@ impl AddedMass {
     pub(crate) fn has_inertia(self) -> bool {
         matches!(self, Self::Impulse | Self::Section)
     }
+
+    /// Whether the force `-m q w` along the chord belongs to it.
+    pub(crate) fn acts_along_chord(self) -> bool {
+        matches!(self, Self::Impulse | Self::Section)
+    }
 }
 
 impl BladeSettings {

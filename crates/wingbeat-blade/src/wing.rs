@@ -116,6 +116,12 @@ impl BladeWing {
         &self.settings
     }
 
+    /// Whether the forces of its strips by velocities hold all of the force along the chord, that of the added
+    /// mass, too: the leading-edge suction of strips with wakes.
+    pub(crate) fn has_suction(&self) -> bool {
+        self.settings.unsteady.is_some()
+    }
+
     /// Whether it carries air along.
     pub fn has_added_mass(&self) -> bool {
         self.settings.added_mass != AddedMass::None
@@ -148,6 +154,7 @@ impl BladeWing {
             return sum;
         }
         match self.settings.added_mass {
+            AddedMass::Section if self.has_suction() => {}
             AddedMass::None | AddedMass::Normal => {}
             AddedMass::Section => self.add_chordwise_added_mass(v, motion.rate, &mut sum),
             AddedMass::Impulse => self.add_turning_impulse(v, motion.rate, &mut sum),
@@ -303,8 +310,13 @@ impl BladeWing {
         let p = DVec3::new(0.0, 0.0, a.m * v.z + a.my * rate.x - a.mx * rate.y);
         let about_1 = a.my * v.z + a.myy * rate.x - a.mxy * rate.y;
         let about_2 = (a.mxx + a.inertia) * rate.y - a.mx * v.z - a.mxy * rate.x;
-        sum.force -= rate.cross(p);
-        let moment = rate.cross(DVec3::new(about_1, about_2, 0.0)) + v.cross(p);
+        let mut force = rate.cross(p);
+        let mut moment = rate.cross(DVec3::new(about_1, about_2, 0.0)) + v.cross(p);
+        if self.has_suction() {
+            force.x = 0.0;
+            moment.z += rate.y * about_1;
+        }
+        sum.force -= force;
         sum.moment -= moment.with_y(0.0);
     }
 

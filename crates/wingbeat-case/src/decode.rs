@@ -28,7 +28,8 @@ pub(crate) fn decode<T: DeserializeOwned>(source: &CaseSource) -> Result<T, Box<
         let path = if path == "." { String::new() } else { path };
         let message = e.inner().message();
         let fault = match message.starts_with(ONE_CHOICE) {
-            true => one_choice(&path, &source.keys_at(&path)),
+            true => no_choice::<T>(&table, &path)
+                .unwrap_or_else(|| one_choice(&path, &source.keys_at(&path))),
             false => explain(&path, message),
         };
         Box::new(source.locate(fault))
@@ -69,6 +70,30 @@ fn one_choice(path: &str, keys: &[&str]) -> Fault {
         "one of several choices",
         format!("give the whole table to choose another: {name} = {{ {example} = ... }}"),
     )
+}
+
+/// Of several choices at once in the table at `path` one that is none, with the whole table to give in its place.
+fn no_choice<T: DeserializeOwned>(table: &toml::Table, path: &str) -> Option<Fault> {
+    let keys: Vec<String> = (source::find_mut(&mut table.clone(), path)?.as_table()?)
+        .keys()
+        .cloned()
+        .collect();
+    keys.iter().filter(|_| keys.len() > 1).find_map(|key| {
+        let mut alone = table.clone();
+        let choices = source::find_mut(&mut alone, path)?.as_table_mut()?;
+        choices.retain(|k, _| k == key);
+        let error = serde_path_to_error::deserialize::<_, T>(toml::Value::Table(alone)).err()?;
+        let message = error.inner().message();
+        let is_none = message.starts_with("unknown variant") && error.path().to_string().starts_with(path);
+        let fault = is_none.then(|| explain(&error.path().to_string(), message))?;
+        let quoted: Vec<&str> = message.split('`').skip(1).step_by(2).collect();
+        let near = same_quantity(key, &quoted[1..]).or_else(|| nearest(key, &quoted[1..]))?;
+        let name = path.rsplit('.').next().unwrap_or(path);
+        Some(Fault {
+            remedy: format!("give the whole table to choose another: {name} = {{ {near} = ... }}; the unit is part of the key"),
+            ..fault
+        })
+    })
 }
 
 /// One of serde's messages as a fault.
@@ -157,11 +182,18 @@ fn same_quantity<'a>(got: &str, expected: &[&'a str]) -> Option<&'a str> {
         without_unit(e)
             .is_some_and(|s| got == s || got.strip_prefix(s).is_some_and(|r| r.starts_with('_')))
     };
-    expected
-        .iter()
-        .filter(is_same)
-        .max_by_key(|e| e.len())
-        .copied()
+    // Of lengths in metres and in chords the one that was meant, of the others the one spelled most alike.
+    let likeness = |e: &&&str| {
+        let stem = without_unit(e).map_or(0, str::len);
+        let in_chords = e.ends_with("_chords") == got.contains("chord");
+        (
+            stem,
+            in_chords,
+            std::cmp::Reverse(strsim::damerau_levenshtein(got, e)),
+        )
+    };
+    let same = expected.iter().filter(is_same);
+    same.max_by_key(likeness).copied()
 }
 
 /// Words longer than this many bytes are no slips of known ones.

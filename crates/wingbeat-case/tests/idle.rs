@@ -291,6 +291,18 @@ const TABLE: &[(&[&str], &str, &str)] = &[
         "air.section_drag.viscosity_m2_s",
     ),
     (&["air.shed=[]"], "air.clearance_m=1e-4", ""),
+    (&["air.shed=[]"], "air.wake_overlap=0.3", ""),
+    (&["air.shed=[]"], "air.convection=euler", ""),
+    (
+        &["air.shed=[]"],
+        "air.wake_core.algebraic={ radius_chords = 0.3 }",
+        "air.wake_core",
+    ),
+    (
+        &["air.shed=[]"],
+        "air.particles={ after_rows = 8, radius_m = 1e-4 }",
+        "air.particles",
+    ),
     (&["air.shed=[]"], "air.max_wake_rows=5", ""),
     (&["air.shed=[]"], "air.max_wake_age_s=5", ""),
     (&["air.shed=[]"], "air.max_wake_distance_m=5", ""),

@@ -62,6 +62,26 @@ fn refuses_slips_by_name() {
             &["wing.right.motion.phi={}"],
             "none is chosen",
         ),
+        (
+            "bird-cruise",
+            &["wing.right.motion.phi.constant_rad=1"],
+            "phi = { constant_deg = ... }",
+        ),
+        (
+            "fruit-fly-hover",
+            &["air.wake_core.algebraic.radius_mm=0.05"],
+            "try: `radius_m`",
+        ),
+        (
+            "fruit-fly-hover",
+            &["air.wake_core.algebraic.radius_inch=0.05"],
+            "try: `radius_m`",
+        ),
+        (
+            "fruit-fly-hover",
+            &["air.wake_core.algebraic.radius_chord=0.05"],
+            "try: `radius_chords`",
+        ),
     ] {
         let said = refusal(case, set);
         assert!(

@@ -54,6 +54,7 @@ mod shed_by_motion;
 pub mod simulation;
 mod solver;
 mod stages;
+mod starts_apart;
 mod turns;
 mod validate;
 

@@ -7,4 +7,5 @@ mod impulse;
 mod mutations;
 mod passive_joints;
 mod summary;
+mod told;
 mod warnings;

@@ -103,7 +103,9 @@ fn invariant_dependency_graph_is_the_architecture() {
         ),
         (
             "wingbeat-results",
-            vec!["math", "model", "dynamics", "air", "flight", "case"],
+            vec![
+                "math", "model", "dynamics", "air", "flight", "analysis", "case",
+            ],
         ),
         (
             "wingbeat-draw",

@@ -151,7 +151,8 @@ impl Filaments {
         }
     }
 
-    /// Mean squared core radius [m2] of the newest free nodes, those of joined columns counted once.
+    /// Mean squared core radius [m2] of the newest free nodes, those of joined columns counted once; that of new ones
+    /// where there are none yet, that of the lattice where no edge sheds any.
     fn attached_core(&self, lattice: &Lattice, state: &AirState) -> f64 {
         let joined = &lattice.topology().joined_columns;
         let is_counted = |k: usize, c: usize| !joined.iter().any(|j| j.0[1] == (k, c));
@@ -165,6 +166,7 @@ impl Filaments {
             sum += once.sum::<f64>();
         }
         match count {
+            0 if state.sheets.is_empty() => lattice.settings().bound_core.core(0.0, 0.0),
             0 => lattice.settings().wake_core.core(0.0, 0.0),
             _ => sum / count as f64,
         }

@@ -189,6 +189,7 @@ pub(super) fn doubts(setup: &FlightSetup, e: &Estimate) -> Vec<String> {
     let Doubts(mut list) = list;
     list.extend(air_from_behind(setup, e));
     list.extend(setup.gusts_that_never_arrive());
+    list.extend(setup.starts_apart());
     list.extend(drag_of_small_insects(setup, e));
     list.extend(jumping_rotation(setup));
     list.extend(doubtful_masses(setup));
@@ -304,14 +305,34 @@ fn free_flight(setup: &FlightSetup, e: &Estimate, list: &mut Doubts) {
     list.see(&GYRATION, gyration, radius, "");
 }
 
+/// Reynolds numbers that the air was not made for; none of what does not move, or has no friction.
+fn see_reynolds(w: &WingEstimate, list: &mut Doubts) {
+    let known = |re: &f64| w.speed > 0.0 && re.is_finite();
+    list.see(&REYNOLDS, "Reynolds number", w.reynolds.filter(known), "");
+}
+
+/// The same of all wings, wings that say the same but once.
+pub(super) fn reynolds_doubts(wings: &[WingEstimate]) -> Vec<String> {
+    let mut list: Vec<String> = vec![];
+    for w in wings {
+        let mut own = Doubts::default();
+        see_reynolds(w, &mut own);
+        let new = own
+            .0
+            .into_iter()
+            .find(|doubt| !list.iter().any(|said| said.ends_with(doubt)));
+        list.extend(new.map(|doubt| format!("wing `{}`: {doubt}", w.report.name)));
+    }
+    list
+}
+
 fn wing_doubts(setup: &FlightSetup, wing: &Wing, w: &WingEstimate) -> Vec<String> {
     let mut list = Doubts::default();
     let flaps = Some(w.tip_speed).filter(|u| *u > 0.0);
     list.see(&TIP_SPEED, "mean tip speed", flaps, " m/s");
     let stroke = w.stroke_amplitude.to_degrees();
     list.see(&STROKE, "stroke amplitude", stroke, " deg");
-    let reynolds = w.reynolds.filter(|_| w.speed > 0.0);
-    list.see(&REYNOLDS, "Reynolds number", reynolds, "");
+    see_reynolds(w, &mut list);
     let frequency = w.reduced_frequency;
     list.see(&REDUCED_FREQUENCY, "reduced frequency", frequency, "");
     let [away, turn] = deformation(wing);
@@ -369,8 +390,11 @@ fn deformation(wing: &Wing) -> [f64; 2] {
 fn lattice_sizes(air: &AirOptions, wing: &Wing, chord: f64, list: &mut Doubts) {
     let s = &air.lattice;
     let panel = chord / wing.mesh.rows as f64;
-    let wake = radius(&s.wake_core).map(|r| r / chord);
-    list.see(&WAKE_CORE, "vortex core of the wake", wake, " mean chords");
+    if s.shedding.any() {
+        let wake = radius(&s.wake_core).map(|r| r / chord);
+        list.see(&WAKE_CORE, "vortex core of the wake", wake, " mean chords");
+        list.see(&CLEARANCE, "clearance", s.clearance / chord, " mean chords");
+    }
     let bound = radius(&s.bound_core).map(|r| r / panel);
     list.see(
         &BOUND_CORE,
@@ -384,7 +408,6 @@ fn lattice_sizes(air: &AirOptions, wing: &Wing, chord: f64, list: &mut Doubts) {
     let across = radius(&s.bound_core).map(|r| r / column);
     let what = "vortex core of the wing";
     list.see(&BOUND_CORE_ACROSS, what, across, " columns of panels");
-    list.see(&CLEARANCE, "clearance", s.clearance / chord, " mean chords");
 }
 
 /// Bound core over the mean width of the panels of parts of the body.

@@ -1,6 +1,7 @@
 //! Strips with wakes of their own, against unsteady thin-airfoil theory.
 
 mod functions;
+mod suction;
 
 use functions::theodorsen;
 use std::f64::consts::{PI, TAU};

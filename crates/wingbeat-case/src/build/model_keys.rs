@@ -2,7 +2,8 @@
 
 use super::fault::{Built, idle};
 use crate::error::Fault;
-use crate::raw::{AirCase, AirModel, Case, DerivativesCase};
+use crate::raw::{AIR, AirCase, AirModel, Case, CoreCase, DerivativesCase};
+use crate::resolve;
 use crate::source::CaseSource;
 
 /// Where the model is chosen.
@@ -14,7 +15,8 @@ pub(super) fn check(case: &Case, source: &CaseSource) -> Built<()> {
     match case.air.model {
         AirModel::Derivatives => density(&case.air, source),
         AirModel::BladeElement => camber(case, source),
-        AirModel::VortexLattice | AirModel::External | AirModel::None => Ok(()),
+        AirModel::VortexLattice => core_of_no_wake(&case.air, source),
+        AirModel::External | AirModel::None => Ok(()),
     }
 }
 
@@ -33,6 +35,28 @@ fn density(air: &AirCase, source: &CaseSource) -> Built<()> {
             "beside air.derivatives with dimensions, which hold the density: only air.derivatives.dimensionless asks for it",
         )),
         _ => Ok(()),
+    }
+}
+
+/// The size of cores that no wake has. Their viscosity is that of the friction, and their kind decides on that of bound
+/// cores: wherever one of these is said, the size has to stand beside it.
+fn core_of_no_wake(air: &AirCase, source: &CaseSource) -> Built<()> {
+    const KEY: &str = "air.wake_core";
+    let CoreCase::Algebraic(own) = &air.wake_core else {
+        return Ok(());
+    };
+    let of_air = own.viscosity_m2_s.is_none_or(|viscosity| viscosity == AIR);
+    let mut plain = AirCase {
+        scheme: air.scheme,
+        ..AirCase::default()
+    };
+    resolve::air(&mut plain);
+    match air.shed.is_empty() && of_air && air.wake_core != plain.wake_core && source.gives(KEY) {
+        true => Err(idle(
+            KEY,
+            "with air.shed = []: there are no wakes, and its viscosity is that of air",
+        )),
+        false => Ok(()),
     }
 }
 

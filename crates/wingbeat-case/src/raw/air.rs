@@ -79,7 +79,7 @@ pub struct AirCase {
     ///
     /// Change it to 0 for the drag of attached wings in a stream, and to compare with codes whose cores do not
     /// widen; long hover then blows up.
-    #[schemars(extend("minimum" = 0, "with" = LATTICE))]
+    #[schemars(extend("minimum" = 0, "with" = [LATTICE, SHEDDING]))]
     #[serde(skip_serializing_if = "Open::is_open")]
     pub wake_overlap: Open<f64>,
     /// Length from which a wake filament turns into a vortex blob, wholly at 1.25 times this
@@ -88,13 +88,13 @@ pub struct AirCase {
     /// `wake_core` `lamb_oseen`, `vatistas` or `scully`: algebraic cores, as `fruit-fly-hover` has them, refuse it.
     ///
     /// Change it for flights of more than ten beats: two mean chords.
-    #[schemars(extend("exclusiveMinimum" = 0, "with" = LATTICE))]
+    #[schemars(extend("exclusiveMinimum" = 0, "with" = [LATTICE, SHEDDING]))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub wake_blob_length_m: Option<f64>,
     /// The length of `wake_blob_length_m` in mean chords of all wings.
     ///
     /// Change it for flights of more than ten beats: 2 is a good length. Refused by algebraic cores.
-    #[schemars(extend("exclusiveMinimum" = 0, "with" = LATTICE, "or" = "wake_blob_length_m"))]
+    #[schemars(extend("exclusiveMinimum" = 0, "with" = [LATTICE, SHEDDING], "or" = "wake_blob_length_m"))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub wake_blob_length_chords: Option<f64>,
     /// Set of numerical choices: what the keys `circulation_rate`, `convection` and `ring_inset`
@@ -114,7 +114,7 @@ pub struct AirCase {
     /// of the air (docs/separated-flow.md). Default: by `scheme`.
     ///
     /// Change it to study the order of the method in the step.
-    #[schemars(extend("with" = LATTICE))]
+    #[schemars(extend("with" = [LATTICE, SHEDDING]))]
     #[serde(skip_serializing_if = "Open::is_open")]
     pub convection: Open<Convection>,
     /// Part of a panel by which rings stay inside side edges that do not shed. Default: by `scheme`,
@@ -240,7 +240,7 @@ pub struct AirCase {
     /// Vortex particles in place of old or leading-edge rows of wake; left out: rings only.
     ///
     /// Change it where sheets tangle so that rings lose their meaning.
-    #[schemars(extend("with" = LATTICE))]
+    #[schemars(extend("with" = [LATTICE, SHEDDING]))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub particles: Option<ParticlesCase>,
     /// Friction and profile drag of the wings' sections, added to the forces of the lattice, which itself has no

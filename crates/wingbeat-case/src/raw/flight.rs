@@ -102,7 +102,8 @@ pub struct TetherCase {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub roll: Option<AngleOscillation>,
     /// Time in which all of the motion of a tethered body (`velocity_m_s`, rates, oscillations) rises from
-    /// rest; from then on it is late by half of that. Left out: at full speed from the first instant.
+    /// rest; from then on it is late by half of that. Left out: at full speed from the first instant, also where
+    /// the wings start smoothly (`motion.start`), which is half a beat out of step with them.
     ///
     /// Change it for wings that are towed or revolved from rest.
     #[schemars(extend("exclusiveMinimum" = 0, "with" = "flight.mode = tethered"))]

@@ -29,7 +29,8 @@ pub struct MotionCase {
     /// Change it for measured angles; `wingbeat presets` lists the sets.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub data: Option<String>,
-    /// How the beat starts.
+    /// How the beat starts. Tethers start by `flight.tether.start_s`, not by this: beside one that moves the body
+    /// at the wingbeat frequency strokes that start smoothly are late by half of `start_beats`.
     ///
     /// Change it to `impulsive` to begin inside the periodic beat; loads then jump at the first instant.
     #[default(StartCase::Smooth)]

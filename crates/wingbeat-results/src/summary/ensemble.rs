@@ -18,6 +18,10 @@ const PARTED: f64 = 0.7;
 /// Growth of the members' scatter from the first beat to the last up to which nothing parts them.
 const NO_GROWTH: f64 = 2.0;
 
+/// Scatter over members, over the size of the force, up to which they are one flight: a thousand times the disturbance
+/// that makes them differ. What has parted within the first beat scatters more, and grows no further.
+const ONE_FLIGHT: f64 = 1e-3;
+
 /// One wingbeat over all members.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct EnsembleBeat {
@@ -154,9 +158,18 @@ fn first_parted(members: &[Vec<BeatMeans>], count: usize) -> Option<usize> {
     (first < count && !is_deterministic(members, count)).then_some(first)
 }
 
-/// Whether the scatter over members does not grow.
+/// Whether the scatter over members neither grows nor has become large before it could be seen to grow.
 fn is_deterministic(members: &[Vec<BeatMeans>], count: usize) -> bool {
-    count >= LEFT_OUT + FEWEST && scatter(members, count - 1) <= NO_GROWTH * scatter(members, 0)
+    let last = count - 1;
+    count >= LEFT_OUT + FEWEST
+        && scatter(members, last) <= NO_GROWTH * scatter(members, 0)
+        && scatter(members, last) <= ONE_FLIGHT * size(members, last)
+}
+
+/// Mean magnitude of the force (lift, thrust) of a beat over the members \[N\].
+fn size(members: &[Vec<BeatMeans>], beat: usize) -> f64 {
+    let force = |m: &Vec<BeatMeans>| m[beat].lift_newton.hypot(m[beat].thrust_newton);
+    members.iter().map(force).sum::<f64>() / members.len() as f64
 }
 
 /// Standard deviation of the force (lift, thrust) of a beat over the members \[N\].
@@ -285,6 +298,23 @@ mod tests {
         );
         assert!(same.remark().contains("deterministic"));
     }
+
+    /// Flights that part within the first beat scatter as much in each of them: their scatter does not grow, and they
+    /// are independent none the less.
+    #[test]
+    fn limit_members_that_part_within_the_first_beat_are_independent() {
+        let members = [
+            member(&[1.03, 0.95, 1.06, 0.97, 1.01, 1.04]),
+            member(&[0.96, 1.05, 0.98, 1.04, 0.95, 1.0]),
+            member(&[1.0, 1.01, 0.94, 0.99, 1.05, 0.96]),
+        ];
+        let e = Ensemble::of(&members, false).unwrap();
+        assert_eq!(e.members_are, Members::Independent, "{}", e.remark());
+        assert!(e.beats.iter().all(|b| b.spread > 0.02));
+        let error = e.means.as_ref().unwrap().lift_newton.standard_error;
+        assert!(error.is_some_and(|s| s > 2e-3), "{error:?}");
+    }
+
     /// Members whose noise differs are flights of their own, however little the noise does; beats that fall are
     /// said to.
     #[test]

@@ -103,8 +103,11 @@ fn steps(setup: &FlightSetup, summary: &Summary, list: &mut Warnings) {
 
 /// Bodies that do not answer to the forces on them.
 fn mode(setup: &FlightSetup, summary: &Summary, list: &mut Warnings) {
-    if matches!(setup.mode, MotionMode::Tethered(_)) {
-        list.note("Tethered: the body does not answer to the forces on it.");
+    if let MotionMode::Tethered(motion) = &setup.mode {
+        list.note(match motion.rests() {
+            true => "Tethered: the body does not answer to the forces on it.",
+            false => "Tethered: the body does not answer to the forces on it. What the tether spends on moving it is no part of the power, which is that of hinges and prescribed deformation; it is in applied_work_joule of history.csv.",
+        });
     }
     if is_never_released(setup, summary) {
         list.note("Held to its end (flight.held_beats): the body has not been released.");

@@ -86,6 +86,14 @@ fn three(x: f64) -> String {
     }
 }
 
+/// A whole number; a small one with three digits.
+fn whole(x: f64) -> String {
+    match x < 10.0 {
+        true => three(x),
+        false => format!("{x:.0}"),
+    }
+}
+
 /// How a wing moves, as far as it does.
 fn motion(w: &WingEstimate) -> String {
     let mut parts = vec![];
@@ -95,7 +103,9 @@ fn motion(w: &WingEstimate) -> String {
         }
         parts.push(format!("mean tip speed {:.3} m/s", w.tip_speed));
     }
-    parts.extend(w.reynolds.map(|re| format!("Reynolds number {re:.0}")));
+    // Without motion it is zero, without viscosity no number.
+    let reynolds = w.reynolds.filter(|re| re.is_finite() && *re > 0.0);
+    parts.extend(reynolds.map(|re| format!("Reynolds number {}", whole(re))));
     let frequency = |k| format!("reduced frequency {k:.3}");
     parts.extend(w.reduced_frequency.map(frequency));
     match parts.is_empty() {

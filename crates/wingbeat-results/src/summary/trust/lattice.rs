@@ -79,8 +79,11 @@ fn motion(setup: &FlightSetup, list: &mut Warnings) {
 fn inputs(setup: &FlightSetup, air: &AirOptions, list: &mut Warnings) {
     let lattice = &air.lattice;
     let has_wings = !setup.animal.wings.is_empty();
-    if has_wings {
+    let has_wakes = has_wings && lattice.shedding.any();
+    if has_wakes {
         list.note(core_is_an_input(setup, lattice));
+    } else if has_wings {
+        list.note("No edge of the wings sheds a wake (air.shed is empty): circulation about the wings stays zero. Forces are those of added mass; there is neither lift nor induced drag in a steady stream.");
     }
     if air.mirror {
         list.note("Mirror symmetry was assumed (air.mirror): a real flow of this kind loses it, and with it roll, yaw and sideways drift would come.");
@@ -89,7 +92,7 @@ fn inputs(setup: &FlightSetup, air: &AirOptions, list: &mut Warnings) {
         list.note("Leading edges shed: such sheets have no converged history beyond the first half stroke. Read means over several beats and their spread, not single peaks.");
     }
     let is_attached = !lattice.shedding.tip && !lattice.shedding.leading;
-    if has_wings && is_attached && lattice.wake_overlap > 0.0 {
+    if has_wakes && is_attached && lattice.wake_overlap > 0.0 {
         list.note("Behind attached wings cores as wide as filaments are long (air.wake_overlap) blur what the wake induces: induced drag comes out up to a tenth low, lift 2 % high. For drag and power in a stream take air.wake_core.algebraic.radius_chords = 0.01 and air.wake_overlap = 0 (docs/wings.md, \"Induced drag of attached wings\").");
     }
     if setup.time.period.is_some() && lattice.convection == Convection::Euler {

@@ -28,6 +28,12 @@ pub(super) fn warnings(setup: &FlightSetup, summary: &Summary, list: &mut Warnin
     for backwards in setup.trailing_edges_ahead() {
         list.limit(format!("Wings that fly backwards: {backwards}."));
     }
+    for reynolds in wingbeat_analysis::doubtful_reynolds_numbers(setup) {
+        list.limit(format!("Outside of what the air was made for: {reynolds}."));
+    }
+    if let Some(apart) = setup.starts_apart() {
+        list.limit(format!("Tether and strokes out of step: {apart}."));
+    }
     lift(setup, summary, list);
 }
 

@@ -1,0 +1,98 @@
+//! What summaries say of flights without wakes, in thick air and on tethers that move.
+
+use crate::flights::{flown, preset, says};
+use wingbeat_flight::Simulation;
+
+/// A bird's wings in a stream, of which no edge sheds.
+const NO_WAKE: [&str; 5] = [
+    "air.shed=[]",
+    "air.clearance_m=",
+    "air.bound_core=",
+    "air.wake_core=",
+    "time.beats=0.1",
+];
+
+#[test]
+fn behaves_nothing_is_said_of_wakes_that_are_not_shed() {
+    let still = flown(&preset("bird-cruise", &NO_WAKE));
+    assert!(
+        says(&still, "No edge of the wings sheds"),
+        "{:?}",
+        still.warnings
+    );
+    for words in ["vortex core (", "Behind attached wings"] {
+        assert!(!says(&still, words), "{:?}", still.warnings);
+    }
+    let flies = flown(&preset("bird-cruise", &["time.beats=0.1"]));
+    assert!(says(&flies, "vortex core (") && !says(&flies, "No edge"));
+}
+
+/// Forces where there is no wake, with a core of wakes of this radius.
+fn force(radius: f64) -> [f64; 3] {
+    let core =
+        format!("air.wake_core.algebraic={{ radius_chords = {radius}, viscosity_m2_s = 2e-5 }}");
+    let set = [&NO_WAKE[..], &[&core]].concat();
+    let mut flight = Simulation::new(preset("bird-cruise", &set).setup).unwrap();
+    while !flight.finished() {
+        flight.step().unwrap();
+    }
+    flight.record().air[1].force.to_array()
+}
+
+#[test]
+fn invariant_cores_of_wakes_that_are_not_shed_act_on_nothing() {
+    let [thin, wide] = [0.01, 0.3].map(force);
+    assert_eq!(thin, wide);
+    assert!(thin.iter().any(|f| *f != 0.0));
+}
+
+#[test]
+fn behaves_reynolds_numbers_at_which_friction_rules_are_told() {
+    let low = "Reynolds number";
+    let set = ["time.beats=0.5", "animal.scale=0.1"];
+    let small = flown(&preset("fruit-fly-blade", &set));
+    assert!(says(&small, low), "{:?}", small.warnings);
+    let fly = flown(&preset("fruit-fly-blade", &set[..1]));
+    assert!(!says(&fly, low), "{:?}", fly.warnings);
+}
+
+/// A smooth start takes half of its length, here half a beat, from the strokes alone.
+#[test]
+fn exact_tethers_out_of_step_with_the_strokes_are_told_by_how_much() {
+    let tether = "flight.tether.z={ frequency_hz = 200, cosine_m = [1e-4] }";
+    let said = |more: &[&str]| {
+        let all = [
+            &[
+                "flight.mode=tethered",
+                "motion.frequency_hz=200",
+                "motion.start=smooth",
+                "time.beats=0.2",
+                tether,
+            ],
+            more,
+        ]
+        .concat();
+        let summary = flown(&preset("fruit-fly-blade", &all));
+        assert!(
+            says(&summary, "no part of the power"),
+            "{:?}",
+            summary.warnings
+        );
+        let told = summary
+            .warnings
+            .into_iter()
+            .find(|w| w.contains("out of step"));
+        told.map(|w| w.split("and is ").nth(1).unwrap()[..5].to_owned())
+    };
+    assert_eq!(said(&[]).as_deref(), Some("0.500"));
+    assert_eq!(said(&["motion.start_beats=0.5"]).as_deref(), Some("0.250"));
+    for in_step in [
+        "motion.start=impulsive",
+        "motion.start_beats=2",
+        "flight.tether.start_s=5e-3",
+    ] {
+        assert_eq!(said(&[in_step]), None, "{in_step}");
+    }
+    let other = "flight.tether.z.frequency_hz=270";
+    assert_eq!(said(&[other]), None);
+}
