@@ -56,7 +56,8 @@ fn limit_suction_of_cambered_plates_in_plane_flow() {
             added / exact,
             suction / exact
         );
-        assert!((added / exact - 1.0).abs() < 0.05);
+        // Of first order in the panels and in the camber.
+        assert!((added / exact - 1.0).abs() < 0.02 + 2.5 * height);
     }
 }
 
