@@ -10,7 +10,7 @@ use wingbeat_air::CoreModel;
 use wingbeat_model::Wing;
 
 /// Core over the length of the foremost panels from which lift is 1 % high \[1\].
-const WIDE: f64 = 0.2;
+const WIDE: f64 = 0.25;
 
 impl FlightSetup {
     /// Says which wings have filaments whose cores are so wide beside the panels along the chord that lift is 1 % high
