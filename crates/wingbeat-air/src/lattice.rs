@@ -3,9 +3,9 @@
 use crate::edges::EdgeKind;
 use crate::error::{AirError, require};
 use crate::geometry::{
-    Carried, JoinedEdge, MirrorPairs, Rings, ShedAround, Sheet, Strip, SuctionStrips, Surface,
-    Symmetry, Topology, WakeColumn, carried, joined_groups, middle_columns, rings, shed_around,
-    strips,
+    Carried, Controls, JoinedEdge, MirrorPairs, Rings, ShedAround, Sheet, Strip, SuctionStrips,
+    Surface, Symmetry, Topology, WakeColumn, carried, joined_groups, middle_columns, rings,
+    shed_around, spanwise, strips,
 };
 use crate::images::{Mirror, mirrors};
 use crate::settings::AirSettings;
@@ -24,6 +24,7 @@ pub struct Lattice {
     topology: Topology,
     strips: Vec<Strip>,
     rings: Rings,
+    controls: Controls,
     mirrors: Vec<Mirror>,
     symmetry: Option<Symmetry>,
     suction: SuctionStrips,
@@ -34,6 +35,8 @@ pub struct Lattice {
     middle_columns: Vec<Option<usize>>,
     /// The strip that a panel leads.
     led: Vec<Option<usize>>,
+    /// Whether each edge runs along the span of a strip.
+    spanwise: Vec<bool>,
     identity: Identity,
 }
 
@@ -85,6 +88,7 @@ impl Lattice {
         )?;
         let mut strips = strips(&topology, &surfaces);
         let rings = rings(&topology, &surfaces, &strips, &settings);
+        let controls = Controls::new(&topology, &surfaces, &strips, &settings);
         // What goes on through a body has no leading edge of its own.
         strips.retain(|s| !surfaces[topology.panel_surface[s.panels[0]]].carry_through);
         let joined = joined_groups(&topology, surfaces.len());
@@ -92,14 +96,17 @@ impl Lattice {
         for (s, strip) in strips.iter().enumerate() {
             led[strip.panels[0]] = Some(s);
         }
+        let spanwise = spanwise(&topology, &strips);
         Ok(Self {
             rings,
+            controls,
             carried: carried(&topology, &surfaces)?,
             middle_columns: middle_columns(&topology, &surfaces),
             strips,
             shed_around: shed_around(&topology, &surfaces, &joined),
             joined,
             led,
+            spanwise,
             mirrors: mirrors(&settings.images)?,
             surfaces,
             settings,
@@ -184,6 +191,11 @@ impl Lattice {
         self.led[p]
     }
 
+    /// Whether edge `e` runs along the span of a strip, from side to side.
+    pub(crate) fn is_spanwise(&self, e: usize) -> bool {
+        self.spanwise[e]
+    }
+
     /// Panels within bodies, which carry circulation from root to root.
     pub(crate) fn carried(&self) -> &[Carried] {
         &self.carried
@@ -226,6 +238,11 @@ impl Lattice {
 
     pub(crate) fn rings(&self) -> &Rings {
         &self.rings
+    }
+
+    /// Where the control points lie on the rings.
+    pub(crate) fn controls(&self) -> &Controls {
+        &self.controls
     }
 
     pub(crate) fn mirrors(&self) -> &[Mirror] {

@@ -7,7 +7,6 @@
 //! out: this is for the left-hand side of a coupled step, whose right-hand side knows all of it.
 
 use crate::error::AirError;
-use crate::geometry::corner_weights;
 use crate::lattice::Lattice;
 use crate::loads::{AirLoads, rate_weights};
 use crate::settings::CirculationRate;
@@ -109,16 +108,11 @@ impl Lattice {
     ) {
         let first = self.nodes_of(self.topology().panel_surface[p]).start;
         let corners = self.topology().panels[p];
-        let [a, b, c, d] = corners.map(|n| ws.wash.nodes.position[n]);
-        let (along, across) = (c - a, d - b);
         let normal = ws.wash.normal[p];
         let slip = ws.wash.velocity[p] - loads.velocity[p];
-        let tilt = (slip - slip.dot(normal) * normal) / along.cross(across).length();
-        let by_ends = [across.cross(tilt), tilt.cross(along)];
-        let weights = corner_weights(&corners);
-        for (k, n) in corners.into_iter().enumerate() {
-            let sign = if k < 2 { -1.0 } else { 1.0 };
-            let (by_velocity, by_place) = (weights[k] * normal, sign * by_ends[k % 2]);
+        let slip = slip - slip.dot(normal) * normal;
+        let nodes = (&corners, &ws.wash.nodes.position[..]);
+        (self.controls()).wash(p, nodes, [normal, slip], |n, [by_velocity, by_place]| {
             let (rings, aft) = (self.rings(), self.rings().aft());
             (ws.wash).spread((n, aft), &ws.rings, by_velocity, |n, v| {
                 rings.spread((n, position), v, |n, v| see(n - first, [v, DVec3::ZERO]));
@@ -126,7 +120,7 @@ impl Lattice {
             (ws.wash).spread((n, aft), &ws.rings, by_place, |n, v| {
                 rings.spread((n, position), v, |n, v| see(n - first, [DVec3::ZERO, v]));
             });
-        }
+        });
     }
 
     /// Secant of the normal force of panel `p` by circulations, the derivative where edges hold nothing or all:

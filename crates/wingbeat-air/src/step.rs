@@ -81,7 +81,8 @@ impl Lattice {
     ) -> Result<(), AirError> {
         motion.check(self.topology(), state.step)?;
         self.rings().place(motion, &mut ws.rings);
-        (out.panels).update(self.topology(), &ws.rings, state.step)?;
+        let lattice = (self.topology(), self.controls());
+        (out.panels).update(lattice, &ws.rings, state.step)?;
         motion.check_joined(self.topology(), out.panels.size(), state.step)?;
         self.check_sides(&motion.position, state.step)?;
         match self.symmetry() {
@@ -97,7 +98,8 @@ impl Lattice {
         let all = self.settings().held_shift();
         if all > 0.0 {
             let strips = (self.strips(), self.rings().aft());
-            (ws.wash).move_aft(self.topology(), strips, |k| all * held(k), &ws.rings);
+            let lattice = (self.topology(), self.controls());
+            (ws.wash).move_aft(lattice, strips, |k| all * held(k), &ws.rings);
         }
     }
 

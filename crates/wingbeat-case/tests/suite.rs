@@ -24,6 +24,7 @@ mod passive_work;
 mod presets;
 mod shedding;
 mod slips;
+mod spacing;
 mod starts_of_loops;
 mod strips_with_wakes;
 mod table1;

@@ -25,6 +25,7 @@ pub mod air;
 mod air_past;
 mod applied;
 mod bodies;
+mod bound_core;
 mod carried;
 pub mod control;
 mod controller;

@@ -51,9 +51,9 @@ pub use error::ModelError;
 pub use import::Imported;
 pub use inside::{Inside, Solid, inside};
 pub use integrate::MassInput;
-pub use mesh::{GridMesh, QuadMesh, Side};
+pub use mesh::{GridMesh, QuadMesh, Side, Spacing};
 pub use motion::{AngleLaw, AngleLaws, Start, WingMotion};
-pub use planform::{Planform, Spacing, WingShape};
+pub use planform::{Planform, WingShape};
 pub use revolution::{Profile, Revolution};
 pub use structure::{
     BeamMass, Coupling, ElasticBody, Members, Region, Vein, VeinStiffness, WingBeam, WingShell,

@@ -2,6 +2,7 @@
 
 use crate::error::{ModelError, in_row, require_count};
 use std::collections::BTreeMap;
+use std::f64::consts::PI;
 use wingbeat_math::DVec3;
 
 /// Left or right wing.
@@ -34,6 +35,29 @@ impl Side {
     }
 }
 
+/// Spacing of grid lines between 0 and 1.
+#[derive(
+    Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize, schemars::JsonSchema,
+)]
+#[serde(rename_all = "snake_case")]
+pub enum Spacing {
+    /// Equal.
+    Uniform,
+    /// `(1 - cos(pi k / n)) / 2`: dense at both ends.
+    Cosine,
+}
+
+impl Spacing {
+    /// Line `k` of `n`.
+    pub fn at(self, k: usize, n: usize) -> f64 {
+        match self {
+            Spacing::Uniform => k as f64 / n as f64,
+            Spacing::Cosine if k == n => 1.0,
+            Spacing::Cosine => 0.5 * (1.0 - (PI * k as f64 / n as f64).cos()),
+        }
+    }
+}
+
 /// A wing's grid of `rows` (chordwise) x `cols` (spanwise) quadrilaterals.
 ///
 /// Node (i, j) is `nodes[i * (cols + 1) + j]`; i = 0 is the leading edge, i = rows the trailing
@@ -46,6 +70,8 @@ pub struct GridMesh {
     pub cols: usize,
     /// Nodes \[m\], wing frame.
     pub nodes: Vec<DVec3>,
+    /// Law of the columns along the span; uniform where nodes follow none.
+    pub columns: Spacing,
 }
 
 impl GridMesh {

@@ -3,6 +3,8 @@
 mod aft;
 mod assembly;
 mod carry_through;
+mod control;
+mod corners;
 mod joined_edge;
 mod node_motion;
 mod panels;
@@ -16,14 +18,15 @@ mod topology;
 mod wash;
 
 pub(crate) use carry_through::{Carried, carried, middle_columns};
+pub(crate) use control::Controls;
+pub(crate) use corners::vector_area;
 pub use joined_edge::JoinedEdge;
 pub use node_motion::NodeMotion;
 pub use panels::Panels;
-pub(crate) use panels::{corner_weights, point_and_normal, vector_area};
 pub(crate) use rings::{Rings, rings};
 pub(crate) use shed_around::{ShedAround, joined_groups, shed_around};
 pub use strips::Strip;
-pub(crate) use strips::{column, opposite, section, strips};
+pub(crate) use strips::{column, opposite, section, spanwise, strips};
 pub(crate) use suction_strips::SuctionStrips;
 pub use surface::{SheddingSegment, Surface};
 pub use symmetry::MirrorPairs;

@@ -7,6 +7,7 @@
 
 use crate::edges::EdgeKind;
 use crate::geometry::aft::{Aft, nodes_of_strips};
+use crate::geometry::control::has_cosine_columns;
 use crate::geometry::node_motion::NodeMotion;
 use crate::geometry::strips::Strip;
 use crate::geometry::surface::Surface;
@@ -48,7 +49,8 @@ pub(crate) fn rings(
         ..Rings::default()
     };
     if settings.inset > 0.0 {
-        inset(topology, surfaces, settings, &mut rings);
+        let to_the_tips = cosine_columns(topology, surfaces, strips, settings);
+        inset(topology, (surfaces, &to_the_tips), settings, &mut rings);
         rings.shift = settings.ring_shift();
     }
     rings.offsets.sort_by_key(|o| o.node);
@@ -57,7 +59,12 @@ pub(crate) fn rings(
 
 /// Side edges that do not shed: rings stay inside. So do those of roots on bodies, which are no free edges
 /// (docs/wings.md, "Wings on a body").
-fn inset(topology: &Topology, surfaces: &[Surface], settings: &AirSettings, rings: &mut Rings) {
+fn inset(
+    topology: &Topology,
+    (surfaces, to_the_tips): (&[Surface], &[bool]),
+    settings: &AirSettings,
+    rings: &mut Rings,
+) {
     let kinds = edge_kinds(topology, surfaces);
     let mut found = BTreeSet::new();
     for edge in &topology.edges {
@@ -65,6 +72,7 @@ fn inset(topology: &Topology, surfaces: &[Surface], settings: &AirSettings, ring
         let pair = [edge.from.min(edge.to), edge.from.max(edge.to)];
         let kept = match kinds.get(&pair) {
             Some(EdgeKind::Leading) => settings.shedding.trailing,
+            Some(EdgeKind::Tip | EdgeKind::Root) => to_the_tips[s],
             _ => false,
         };
         if edge.minus.is_some() || edge.wake.is_some() || kept || surfaces[s].closed {
@@ -88,6 +96,21 @@ fn inset(topology: &Topology, surfaces: &[Surface], settings: &AirSettings, ring
             .into_iter()
             .map(|(node, to)| Offset { node, to, part }),
     );
+}
+
+/// Whether each surface has columns of cosine spacing, whose rings reach to the tips.
+fn cosine_columns(
+    topology: &Topology,
+    surfaces: &[Surface],
+    strips: &[Strip],
+    settings: &AirSettings,
+) -> Vec<bool> {
+    let of = |s: usize| {
+        let is_here = |strip: &&Strip| topology.panel_surface[strip.panels[0]] == s;
+        let count = strips.iter().filter(is_here).count();
+        has_cosine_columns(&surfaces[s], count, settings)
+    };
+    (0..surfaces.len()).map(of).collect()
 }
 
 /// Whether the edge of `panel` between these nodes is its surface's border.

@@ -3,7 +3,7 @@
 use crate::edges::EdgeKind;
 use crate::geometry::surface::Surface;
 use crate::geometry::topology::Topology;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use wingbeat_math::DVec3;
 
 /// A chordwise row of panels from a segment of the leading edge backward.
@@ -49,6 +49,18 @@ pub(crate) fn strips(topology: &Topology, surfaces: &[Surface]) -> Vec<Strip> {
         }
     }
     strips
+}
+
+/// Whether each edge is a side of a panel of a strip that runs along the span.
+pub(crate) fn spanwise(topology: &Topology, strips: &[Strip]) -> Vec<bool> {
+    let pair = |[a, b]: [usize; 2]| [a.min(b), a.max(b)];
+    let sides: BTreeSet<[usize; 2]> = (strips.iter().flat_map(|s| &s.sides))
+        .map(|&side| pair(side))
+        .collect();
+    let edges = topology.edges.iter();
+    edges
+        .map(|e| sides.contains(&pair([e.from, e.to])))
+        .collect()
 }
 
 /// From the leading-edge segment `edge` and its panel `first` on, panel to panel over opposite edges, until the

@@ -37,8 +37,13 @@ pub struct Surface {
     pub carry_through: bool,
     /// Nodes at rest [m], in any frame that moves with the surface. On large lattices, what a surface does to itself is
     /// computed once from them, for as long as it has this shape, and when it has another they speed up the solution
-    /// still, if it is not too different. None: everything is computed at every step.
+    /// still, if it is not too different. None: everything is computed at every step. The lengths of panels along the
+    /// chord, by which control points lie at three quarters of each, are those of this shape; none: as if all were equal.
     pub rest: Option<Vec<DVec3>>,
+    /// Whether the columns of panels have cosine spacing along the span, edges at `(1 - cos (pi j / n)) / 2` of it:
+    /// where rings are inset ([`crate::AirSettings::inset`]) control points are midway in that angle then, and rings reach
+    /// to the tips.
+    pub cosine_columns: bool,
 }
 
 impl Surface {
@@ -91,6 +96,7 @@ impl Surface {
             closed: false,
             carry_through: false,
             rest: None,
+            cosine_columns: false,
         }
     }
 
@@ -112,6 +118,7 @@ impl Surface {
             closed: true,
             carry_through: false,
             rest: None,
+            cosine_columns: false,
         }
     }
 }

@@ -7,8 +7,9 @@
 //! quarter panel where the edge of the strip holds all, by less as more leaves.
 
 use crate::geometry::aft::Aft;
+use crate::geometry::control::Controls;
 use crate::geometry::node_motion::NodeMotion;
-use crate::geometry::panels::{Panels, mean_corner, vector_area};
+use crate::geometry::panels::Panels;
 use crate::geometry::strips::Strip;
 use crate::geometry::topology::Topology;
 use wingbeat_math::DVec3;
@@ -40,7 +41,7 @@ impl Wash {
     /// The rings of the strips moved aft, each by `part` of its panels; the nodes of strips are those of `aft`.
     pub fn move_aft(
         &mut self,
-        topology: &Topology,
+        (topology, controls): (&Topology, &Controls),
         (strips, aft): (&[Strip], &[Aft]),
         part: impl Fn(usize) -> f64,
         rings: &NodeMotion,
@@ -62,9 +63,9 @@ impl Wash {
         }
         for &p in strips.iter().flat_map(|s| &s.panels) {
             let corners = &topology.panels[p];
-            let of = |nodes: &[DVec3]| corners.map(|n| nodes[n]);
-            self.velocity[p] = mean_corner(corners, &of(&self.nodes.velocity));
-            if let Some(normal) = vector_area(&of(&self.nodes.position)).try_normalize() {
+            let velocity = corners.map(|n| self.nodes.velocity[n]);
+            self.velocity[p] = controls.point(p, corners, &velocity);
+            if let Some(normal) = controls.normal(p, corners, &self.nodes.position) {
                 self.normal[p] = normal;
             }
         }

@@ -9,6 +9,7 @@ use crate::geometry::{Edge, NodeMotion, Strip, section};
 use crate::lattice::Lattice;
 use crate::loads::front::add_front;
 use crate::loads::lag::add_lag;
+use crate::loads::rate::couple_of_rate;
 use crate::loads::values::AirLoads;
 use crate::loads::vortex_lift::yielding;
 use crate::settings::{LeadingEdge, LoadMethod, VortexLift};
@@ -47,6 +48,8 @@ pub(crate) struct Segments {
     free_wake: WakeVelocityCache,
     /// Force and moment of the segments on each panel.
     panel_force: Vec<[DVec3; 2]>,
+    /// What of the force the segments along the span have, of panels behind leading edges [N], N.
+    spanwise_force: Vec<DVec3>,
     /// Force that is added at the leading edge of each strip [N], N.
     at_edge: Vec<DVec3>,
 }
@@ -109,6 +112,20 @@ impl Segments {
         force - force.dot(n) * n
     }
 
+    /// Suction of the leading edge of a strip [N]: what the segments along the span pull forward along the panels,
+    /// normal to the edge, `aft` being the unit vector backward. Pressure on camber is no suction, and what pulls at the
+    /// segments along the chord is that of side edges: on a wing swept back by 45 deg it has a part normal to the leading
+    /// edge a quarter as large as the suction there.
+    fn leading_suction(&self, strip: &Strip, aft: DVec3, normals: &[DVec3]) -> f64 {
+        let along = |&p: &usize| {
+            let (force, n) = (self.spanwise_force[p], normals[p]);
+            force - force.dot(n) * n
+        };
+        let pull: DVec3 = strip.panels.iter().map(along).sum();
+        let first = normals[strip.panels[0]];
+        -pull.dot((aft - aft.dot(first) * first).normalize_or_zero())
+    }
+
     /// Velocity of the air relative to the places on the segments that are wanted.
     /// That of the free wakes is not summed again for places that have moved less than `near` [m].
     fn take_velocities(&mut self, lattice: &Lattice, flow: Flow, near: f64, t: f64) {
@@ -157,6 +174,9 @@ impl Segments {
         self.panel_force.clear();
         self.panel_force
             .resize(lattice.panel_count(), [DVec3::ZERO; 2]);
+        self.spanwise_force.clear();
+        self.spanwise_force
+            .resize(lattice.panel_count(), DVec3::ZERO);
         for (at, &e) in self.edges.iter().enumerate() {
             let edge = &lattice.topology().edges[e];
             let l = bound.nodes.get(edge.to) - bound.nodes.get(edge.from);
@@ -168,6 +188,9 @@ impl Segments {
                     let arm = self.place.get(k) - points[p];
                     self.panel_force[p][0] += share;
                     self.panel_force[p][1] += arm.cross(share);
+                    if lattice.is_spanwise(e) {
+                        self.spanwise_force[p] += share;
+                    }
                 }
             }
         }
@@ -180,6 +203,7 @@ impl Segments {
             if image != p {
                 let vector = |v| symmetry.mirror.vector(v);
                 self.panel_force[image] = [vector(force), -vector(moment)];
+                self.spanwise_force[image] = vector(self.spanwise_force[p]);
             }
         }
     }
@@ -200,7 +224,8 @@ impl Segments {
             let unsteady = rho * out.gamma_rate[p] * out.panels.area[p] * out.panels.normal[p];
             let [force, moment] = self.panel_force[p];
             out.force[p] = force + unsteady;
-            out.couple[p] = moment;
+            let aside = couple_of_rate(lattice, filaments, p, unsteady);
+            out.couple[p] = aside.map_or(moment, |couple| moment + couple);
         }
         add_lag(lattice, state, filaments, position, out);
     }
@@ -238,10 +263,9 @@ impl Segments {
             let strip_now = yielding((lattice, law), strip, motion, (state.fed[k], dt), out);
             let (parts, aft) = (strip_now.parts, strip_now.aft);
             out.fed[k] = strip_now.fed;
-            let along = |&p: &usize| self.along(p, &out.panels.normal);
-            let pull: DVec3 = strip.panels.iter().map(along).sum();
+            let suction = self.leading_suction(strip, aft, &out.panels.normal);
             let side = strip_now.parameter.signum() * out.panels.normal[strip.panels[0]];
-            self.at_edge.push(-parts.vortex * pull.dot(aft) * side);
+            self.at_edge.push(parts.vortex * suction * side);
             self.slacken(strip, 1.0 - parts.suction, &out.panels.normal);
             if parts.normal < 1.0 {
                 self.weaken(strip, 1.0 - parts.normal, &out.panels.normal);
@@ -273,15 +297,13 @@ impl Segments {
         }
     }
 
-    /// The suction of a strip is the part of its segments' forces forward, normal to the edge; it is added to
-    /// the leading panel along its normal, on the side to which the pressure of the strip pushes. It acts where
-    /// suction does, at the leading edge.
+    /// The suction of a strip ([`Self::leading_suction`]) is added to the leading panel along its normal, on the side to
+    /// which the pressure of the strip pushes. It acts where suction does, at the leading edge.
     fn polhamus(&self, lattice: &Lattice, motion: &NodeMotion, out: &mut AirLoads) {
         for strip in lattice.strips() {
             let (aft, _) = section(strip, &motion.position);
-            let force = |&p: &usize| self.panel_force[p][0];
-            let forward: DVec3 = strip.panels.iter().map(force).sum();
-            let suction = (-forward.dot(aft)).max(0.0);
+            let suction = self.leading_suction(strip, aft, &out.panels.normal);
+            let suction = suction.max(0.0);
             let first = strip.panels[0];
             let normal = out.panels.normal[first];
             let push: DVec3 = strip.panels.iter().map(|&p| out.force[p]).sum();

@@ -6,7 +6,7 @@
 //! ring, n its normal and A = |d x e| the power of a couple C is `C . n x (d' x e + d x e') / A` and, about n,
 //! the mean of what turns either diagonal.
 
-use crate::geometry::{NodeMotion, corner_weights};
+use crate::geometry::NodeMotion;
 use crate::lattice::Lattice;
 use crate::loads::values::AirLoads;
 use wingbeat_math::DVec3;
@@ -45,7 +45,10 @@ impl Lattice {
                 true => [DVec3::ZERO; 2],
                 false => couple_forces(loads.couple[p], [c - a, d - b]),
             };
-            let [i, j, k, l] = corner_weights(&corners).map(|w| w * loads.force[p]);
+            let [i, j, k, l] = self
+                .controls()
+                .weights(p, &corners)
+                .map(|w| w * loads.force[p]);
             let shares = [i - along, j - across, k + along, l + across];
             for (n, share) in corners.into_iter().zip(shares) {
                 self.rings().spread((n, &motion.position), share, |n, f| {

@@ -3,7 +3,7 @@
 use crate::lattice::Lattice;
 use crate::loads::front::add_front;
 use crate::loads::lag::add_lag;
-use crate::loads::rate::rate_weights;
+use crate::loads::rate::{couple_of_rate, rate_weights};
 use crate::loads::values::AirLoads;
 use crate::state::AirState;
 use crate::wake::Filaments;
@@ -69,9 +69,9 @@ pub(crate) fn pressure_jump(lattice: &Lattice, out: &mut AirLoads) {
     }
 }
 
-/// Pressure jump times area along the normal [N]. On an open surface the part of `dGamma/dt` acts at the control point,
-/// the middle of the ring; the part of the vorticity where that lies: half a panel ahead of the control point where it
-/// is that of the leading edge, which on eight panels is two fifths of the lift.
+/// Pressure jump times area along the normal [N]. On an open surface the part of `dGamma/dt` acts in the middle of the
+/// ring; the part of the vorticity where that lies: half a panel ahead of the control point where it is that of the
+/// leading edge, which on eight panels is two fifths of the lift.
 pub(crate) fn forces(
     lattice: &Lattice,
     state: &AirState,
@@ -91,6 +91,10 @@ pub(crate) fn forces(
             for [share, middle] in shares(lattice, state, filaments, p) {
                 let part = rho * relative.dot(share.cross(normal)) * normal;
                 couple += (middle - x).cross(part);
+            }
+            let unsteady = rho * out.gamma_rate[p] * out.panels.area[p] * normal;
+            if let Some(aside) = couple_of_rate(lattice, filaments, p, unsteady) {
+                couple += aside;
             }
         }
         out.force.push(force);

@@ -83,8 +83,8 @@ pub enum LoadMethod {
     /// Joukowski's force on every segment and `rho A dGamma/dt` along the normal: with suction at
     /// the edges that do not shed.
     Joukowski,
-    /// Pressure, and the suction of the leading edge of each strip turned into a normal force on
-    /// its leading panel: Polhamus's analogy for an attached leading-edge vortex
+    /// Pressure, and the suction of the leading edge of each strip, without that of side edges, turned into a normal
+    /// force on its leading panel: Polhamus's analogy for an attached leading-edge vortex
     /// [Polhamus 1966, NASA TN D-3767].
     Polhamus,
 }

@@ -63,6 +63,10 @@ impl LeadingSection {
             place: |k: usize| if k < count { place(k) } else { chord },
             count,
             shift: lattice.settings().ring_shift(),
+            along: |k: usize| match count > 1 {
+                true => lattice.controls().along(strip.panels[k]),
+                false => 0.5,
+            },
         };
         let quarter = |k: usize| 0.75 * (row.place)(k) + 0.25 * (row.place)(k + 1);
         let wind = quarter_chord_wind((lattice, panels, time), strip, (edge, aft, chord));
@@ -120,14 +124,16 @@ impl LeadingSection {
 }
 
 /// Vortices and control points of the panels of a section, by the places of their ends [m].
-struct Row<F> {
+struct Row<F, G> {
     place: F,
     count: usize,
     /// Vortices are so far along their panels \[1\]: a quarter, or the boundary condition is so much farther aft.
     shift: f64,
+    /// Part of the way from one vortex to the next at which the control point between them lies \[1\].
+    along: G,
 }
 
-impl<F: Fn(usize) -> f64> Row<F> {
+impl<F: Fn(usize) -> f64, G: Fn(usize) -> f64> Row<F, G> {
     /// Vortex of panel `k`; one more as far behind the last panel.
     fn vortex(&self, k: usize) -> f64 {
         let at = &self.place;
@@ -138,9 +144,13 @@ impl<F: Fn(usize) -> f64> Row<F> {
         }
     }
 
-    /// Half way to the next vortex.
+    /// Control point between vortex `k` and the next.
     fn point(&self, k: usize) -> f64 {
-        self.vortex(k).midpoint(self.vortex(k + 1))
+        let [from, to] = [self.vortex(k), self.vortex(k + 1)];
+        match (self.along)(k) {
+            0.5 => from.midpoint(to),
+            part => from + part * (to - from),
+        }
     }
 
     /// `P_j` [m].
@@ -188,15 +198,23 @@ mod tests {
     use super::*;
 
     /// What the two foremost vortices make of an even normal velocity is that velocity, and nothing of one that
-    /// is linear about mid chord, for panels of any lengths whose first and last are alike.
+    /// is linear about mid chord, for panels of any lengths.
     #[test]
     fn exact_weights_of_even_and_linear_normal_velocities() {
-        for ends in [&[0.0, 0.5, 1.0][..], &[0.0, 0.1, 0.35, 0.8, 0.9]] {
+        for ends in [
+            &[0.0, 0.5, 1.0][..],
+            &[0.0, 0.1, 0.35, 0.8, 0.9],
+            &[0.0, 0.04, 0.3, 0.8],
+        ] {
             let (count, chord) = (ends.len() - 1, ends[ends.len() - 1]);
             let row = Row {
                 place: |k: usize| ends[k],
                 count,
                 shift: 0.25,
+                along: |k: usize| {
+                    let d = |k: usize| ends[k + 1] - ends[k];
+                    0.5 * d(k) / (0.75 * d(k) + 0.25 * d((k + 1).min(count - 1)))
+                },
             };
             let weights: Vec<f64> = (0..count).map(|i| row.weight(i)).collect();
             let even: f64 = weights.iter().sum();

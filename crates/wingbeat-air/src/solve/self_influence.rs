@@ -5,7 +5,6 @@
 //! each surface, are together near the inverse of the whole matrix, for surfaces act less on each other than on
 //! themselves; deformed ones too. Where factors of the whole would take long, a few iterations with them do instead.
 
-use crate::geometry::point_and_normal;
 use crate::lattice::{Identity, Lattice};
 use crate::solve::row_blocks::RowBlocks;
 use crate::solve::unknowns::{add_part, columns, is_computed, unknown, unknowns};
@@ -80,6 +79,13 @@ fn known_shapes(lattice: &Lattice) -> Vec<SelfInfluence> {
     (0..lattice.surfaces().len()).filter_map(known).collect()
 }
 
+/// Control point and unit normal of panel `p`; none without area.
+fn point_and_normal(lattice: &Lattice, p: usize, nodes: &[DVec3]) -> Option<[DVec3; 2]> {
+    let (controls, corners) = (lattice.controls(), &lattice.topology().panels[p]);
+    let point = controls.point(p, corners, &corners.map(|n| nodes[n]));
+    Some([point, controls.normal(p, corners, nodes)?])
+}
+
 impl SelfInfluence {
     /// Surface `s` with its nodes at `rest`; all nodes of the rings are at `nodes`. None if there is nothing to
     /// know: no shape, no unknowns, edges shared with another surface, rings that cannot be.
@@ -93,7 +99,7 @@ impl SelfInfluence {
         let computed = || panels.clone().filter(|&p| is_computed(lattice, p));
         let first = unknown(lattice, computed().next()?);
         let points = computed()
-            .map(|p| point_and_normal(&topology.panels[p], nodes))
+            .map(|p| point_and_normal(lattice, p, nodes))
             .collect::<Option<Vec<_>>>()?;
         let mut new = Self {
             surface: s,

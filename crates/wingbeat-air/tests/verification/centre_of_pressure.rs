@@ -15,7 +15,7 @@ const LOADS: [LoadMethod; 3] = [
 ];
 
 /// Both schemes with thin cores in a unit stream at `alpha` [rad] to the plate.
-fn schemes(alpha: f64) -> [AirSettings; 2] {
+pub fn schemes(alpha: f64) -> [AirSettings; 2] {
     let stream = DVec3::new(alpha.cos(), 0.0, alpha.sin());
     let core = CoreModel::Scully { radius: 1e-7 };
     [AirSettings::benchmark, AirSettings::accurate].map(|scheme| AirSettings {
@@ -26,7 +26,7 @@ fn schemes(alpha: f64) -> [AirSettings; 2] {
 }
 
 /// Moment about the leading edge, nose up.
-fn moment(loads: &AirLoads) -> f64 {
+pub fn moment(loads: &AirLoads) -> f64 {
     loads.surfaces.iter().map(|s| s.moment.y).sum()
 }
 
@@ -131,7 +131,7 @@ fn agrees_centre_of_pressure_of_short_wings_with_that_of_fine_meshes() {
 /// Complex moment about the mid chord, nose up, over pi q c b of a plate in plane flow that plunges (e^{ikt}
 /// half chords down) or pitches (e^{ikt} nose up about the mid chord) [Theodorsen 1935, NACA Rep. 496], `c` his
 /// function.
-fn theodorsen(pitches: bool, k: f64, [f, g]: [f64; 2]) -> [f64; 2] {
+pub fn theodorsen(pitches: bool, k: f64, [f, g]: [f64; 2]) -> [f64; 2] {
     // C (h' + a + a'/2) - a'/2 - a''/8
     match pitches {
         false => [-g * k, f * k],
@@ -139,14 +139,18 @@ fn theodorsen(pitches: bool, k: f64, [f, g]: [f64; 2]) -> [f64; 2] {
     }
 }
 
-/// The same and the lift over pi q c from the lattice, over the third period.
-fn oscillating(settings: &AirSettings, pitches: bool, k: f64, rows: usize) -> [[f64; 2]; 2] {
-    let span = 1e4;
+/// The same and the lift over pi q c from the lattice of a plate with this span and so many rows of panels, over the
+/// third period.
+pub fn oscillating(
+    settings: &AirSettings,
+    (pitches, k): (bool, f64),
+    (surface, flat): (Surface, &[DVec3]),
+    (rows, span): (usize, f64),
+) -> [[f64; 2]; 2] {
     let period = PI / k; // in chords
     let per_period = (period * rows as f64).round() as usize;
     let (dt, a, w) = (period / per_period as f64, 1e-4, TAU / period);
-    let lattice = Lattice::new(vec![Surface::grid("wing", rows, 1)], settings.clone()).unwrap();
-    let flat = rectangle(rows, 1, DVec3::X, span * DVec3::Y);
+    let lattice = Lattice::new(vec![surface], settings.clone()).unwrap();
     let motion = |t: f64| {
         let (s, c) = (w * t).sin_cos();
         let arm = |x: &DVec3| if pitches { x.x - 0.5 } else { 0.5 };
@@ -185,7 +189,9 @@ fn limit_theodorsen_moment_about_the_mid_chord() {
                         loads,
                         ..settings.clone()
                     };
-                    let [found, lift] = oscillating(&settings, pitches, k, 8);
+                    let flat = rectangle(8, 1, DVec3::X, 1e4 * DVec3::Y);
+                    let plate = (Surface::grid("wing", 8, 1), &flat[..]);
+                    let [found, lift] = oscillating(&settings, (pitches, k), plate, (8, 1e4));
                     let want = theodorsen(pitches, k, c);
                     let off = (found[0] - want[0]).hypot(found[1] - want[1]);
                     let off = 0.5 * off / lift[0].hypot(lift[1]); // chords

@@ -22,6 +22,8 @@ mod plane_wakes;
 mod planes;
 mod section_drag;
 mod separated;
+mod spacing;
+mod suction_of_edges;
 mod swept;
 mod vortex_lift;
 mod wakes;

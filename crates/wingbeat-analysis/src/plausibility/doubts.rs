@@ -120,15 +120,6 @@ const WAKE_CORE: Limit = Limit {
     ],
 };
 
-const BOUND_CORE: Limit = Limit {
-    low: 0.0,
-    high: 0.5,
-    hints: [
-        "",
-        "it spoils the flow at the trailing edge: air.bound_core",
-    ],
-};
-
 /// Lift of a rectangle of aspect ratio 0.5 is 3, 6 and 9 % high with 0.24, 0.48 and 0.8 of the column.
 const BOUND_CORE_ACROSS: Limit = Limit {
     low: 0.0,
@@ -210,6 +201,7 @@ pub(super) fn doubts(setup: &FlightSetup, e: &Estimate) -> Vec<String> {
     list.extend(setup.one_sided_leading_edges());
     list.extend(setup.long_steps_one_way());
     list.extend(setup.tips_of_attached_wings());
+    list.extend(setup.wide_bound_core());
     list.extend(setup.vortex_lift_of_swept_edges());
     list
 }
@@ -386,22 +378,14 @@ fn deformation(wing: &Wing) -> [f64; 2] {
     largest
 }
 
-/// Wake core and clearance over the mean chord, bound core over the mean length and width of the panels.
+/// Wake core and clearance over the mean chord, bound core over the mean width of the panels.
 fn lattice_sizes(air: &AirOptions, wing: &Wing, chord: f64, list: &mut Doubts) {
     let s = &air.lattice;
-    let panel = chord / wing.mesh.rows as f64;
     if s.shedding.any() {
         let wake = radius(&s.wake_core).map(|r| r / chord);
         list.see(&WAKE_CORE, "vortex core of the wake", wake, " mean chords");
         list.see(&CLEARANCE, "clearance", s.clearance / chord, " mean chords");
     }
-    let bound = radius(&s.bound_core).map(|r| r / panel);
-    list.see(
-        &BOUND_CORE,
-        "vortex core of the wing",
-        bound,
-        " panel lengths",
-    );
     let mesh = &wing.mesh;
     let edge = mesh.nodes[mesh.node(0, mesh.cols)] - mesh.nodes[mesh.node(0, 0)];
     let column = edge.y.abs() / mesh.cols as f64;

@@ -6,7 +6,7 @@ use wingbeat_model::motion::{Adjustment, AngleLaw, AngleLaws};
 use wingbeat_model::planform::Spacing;
 
 use super::fault::{Built, idle};
-use super::{model_keys, wingless};
+use super::{model_keys, spacing, wingless};
 use crate::error::Fault;
 use crate::raw::{
     AdjustCase, AirModel, Case, Formulation, JointCase, Mode, MotionCase, StartCase, TetherCase,
@@ -19,6 +19,7 @@ use crate::source::CaseSource;
 pub(crate) fn check(case: &Case, setup: &FlightSetup, source: &CaseSource) -> Built<()> {
     bodies(case)?;
     meshes(case, source)?;
+    spacing::check(case)?;
     motion(case, source)?;
     adjustments(case, setup)?;
     still_motion(case, setup)?;
@@ -141,13 +142,13 @@ fn meshes(case: &Case, source: &CaseSource) -> Built<()> {
         let Some(there) = &counterpart.mesh else {
             continue;
         };
-        let spacing = |of: Spacing| format!("{of:?}").to_lowercase();
+        let name_of = |of: Spacing| format!("{of:?}").to_lowercase();
         let keys = |m: &WingMeshCase| {
             [
                 ("chordwise", m.chordwise.to_string()),
                 ("spanwise", m.spanwise.to_string()),
-                ("chordwise_spacing", spacing(m.chordwise_spacing)),
-                ("spanwise_spacing", spacing(m.spanwise_spacing)),
+                ("chordwise_spacing", name_of(m.chordwise_spacing)),
+                ("spanwise_spacing", name_of(m.spanwise_spacing)),
             ]
         };
         for ((key, own), (_, theirs)) in keys(mesh).into_iter().zip(keys(there)) {

@@ -26,6 +26,7 @@ mod refused;
 mod route;
 mod segment;
 mod size;
+mod spacing;
 mod structure;
 mod time;
 mod wind;

@@ -2,7 +2,7 @@
 
 use wingbeat_math::DVec3;
 use wingbeat_model::planform::{Beta, ChordSize, Planform, WingShape};
-use wingbeat_model::{GridMesh, MassInput, Side, Wing, WingMotion};
+use wingbeat_model::{GridMesh, MassInput, Side, Spacing, Wing, WingMotion};
 
 use super::fault::{Built, fault_at};
 use super::numbers::{given_mass, symmetric, vector};
@@ -300,6 +300,7 @@ fn given_mesh(name: &str, rows: &[Vec<[f64; 3]>]) -> Built<GridMesh> {
         rows: rows.len().saturating_sub(1),
         cols: in_row.saturating_sub(1),
         nodes: rows.iter().flatten().map(|&x| vector(x)).collect(),
+        columns: Spacing::Uniform,
     };
     mesh.check(name).map_err(|e| fault(&key, e.to_string()))?;
     Ok(mesh)

@@ -117,8 +117,8 @@ pub struct AirCase {
     #[schemars(extend("with" = [LATTICE, SHEDDING]))]
     #[serde(skip_serializing_if = "Open::is_open")]
     pub convection: Open<Convection>,
-    /// Part of a panel by which rings stay inside side edges that do not shed. Default: by `scheme`,
-    /// 0 or 0.25.
+    /// Part of a panel by which rings stay inside side edges that do not shed, but for columns of cosine spacing, and
+    /// lie aft. Default: by `scheme`, 0 or 0.25.
     ///
     /// Change it to 0 for rings on the panel edges.
     #[schemars(extend("minimum" = 0, "exclusiveMaximum" = 0.5, "with" = LATTICE))]

@@ -108,12 +108,12 @@ pub struct WingMeshCase {
     #[default = 10]
     #[schemars(range(min = 1))]
     pub spanwise: usize,
-    /// Spacing along the chord.
+    /// Spacing along the chord. `cosine` only with `air.ring_inset` = 0.25, as `air.scheme` = `accurate` has it.
     ///
     /// Change it to resolve leading and trailing edge.
     #[default(Spacing::Uniform)]
     pub chordwise_spacing: Spacing,
-    /// Spacing along the span.
+    /// Spacing along the span. `cosine` only with `air.ring_inset` = 0.25; rings reach to the tips then.
     ///
     /// Change it to resolve root and tip.
     #[default(Spacing::Uniform)]

@@ -7,7 +7,8 @@ use wingbeat_air::{
 use wingbeat_dynamics::{BodyMotion, Wrench};
 use wingbeat_math::{DVec3, RotationLaw};
 use wingbeat_model::{
-    Animal, BodyPart, DeformingMesh, GridMesh, PairOnPart, Side, Wing, WingMotion, root_gap,
+    Animal, BodyPart, DeformingMesh, GridMesh, PairOnPart, Side, Spacing, Wing, WingMotion,
+    root_gap,
 };
 
 use crate::error::FlightError;
@@ -98,7 +99,6 @@ impl SurfaceMap {
             map.deforming[i] = wing.deformation.as_ref().map(deforming);
         }
         for &[a, b] in joined {
-            (map.surfaces[a].rest, map.surfaces[b].rest) = (None, None);
             let nodes = [a, b].map(|k| map.nodes[k].clone());
             map.roots.push(roots(animal, [a, b], nodes));
         }
@@ -129,6 +129,7 @@ impl SurfaceMap {
             rows: wing.mesh.rows,
             cols: 1,
             nodes: vec![DVec3::ZERO; 2 * (wing.mesh.rows + 1)],
+            columns: Spacing::Uniform,
         };
         let name = format!("{}-carry-through", wing.name);
         let surface = Surface {
@@ -138,7 +139,6 @@ impl SurfaceMap {
         let surface_number = self.surfaces.len();
         self.push(surface, &strip.nodes, 0);
         self.surfaces[surface_number].rest = None;
-        self.surfaces[wings[0]].rest = None;
         self.carried.push(CarryThrough {
             surface: surface_number,
             wings,
@@ -415,6 +415,7 @@ fn part_surface(part: &BodyPart) -> Surface {
         closed: true,
         carry_through: false,
         rest: None,
+        cosine_columns: false,
     }
 }
 
@@ -471,5 +472,6 @@ fn wing_surface(name: &str, mesh: &GridMesh, side: Side) -> Surface {
         closed: false,
         carry_through: false,
         rest: None,
+        cosine_columns: mesh.columns == Spacing::Cosine,
     }
 }

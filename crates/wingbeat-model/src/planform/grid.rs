@@ -1,34 +1,10 @@
 //! The grid of panels between the edges.
 
 use crate::error::{ModelError, require_count};
-use crate::mesh::{GridMesh, Side};
+use crate::mesh::{GridMesh, Side, Spacing};
 use crate::planform::fit::fit;
 use crate::planform::outline::Planform;
-use std::f64::consts::PI;
 use wingbeat_math::DVec3;
-
-/// Spacing of grid lines between 0 and 1.
-#[derive(
-    Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize, schemars::JsonSchema,
-)]
-#[serde(rename_all = "snake_case")]
-pub enum Spacing {
-    /// Equal.
-    Uniform,
-    /// `(1 - cos(pi k / n)) / 2`: dense at both ends.
-    Cosine,
-}
-
-impl Spacing {
-    /// Line `k` of `n`.
-    pub fn at(self, k: usize, n: usize) -> f64 {
-        match self {
-            Spacing::Uniform => k as f64 / n as f64,
-            Spacing::Cosine if k == n => 1.0,
-            Spacing::Cosine => 0.5 * (1.0 - (PI * k as f64 / n as f64).cos()),
-        }
-    }
-}
 
 /// A flat wing: planform and mesh density.
 #[derive(Clone, Debug, PartialEq)]
@@ -77,7 +53,12 @@ impl WingShape {
                 nodes.push(DVec3::new(x, side.sign() * r, 0.0));
             }
         }
-        let mesh = GridMesh { rows, cols, nodes };
+        let mesh = GridMesh {
+            rows,
+            cols,
+            nodes,
+            columns: self.spanwise,
+        };
         mesh.check(name)?;
         Ok(mesh)
     }

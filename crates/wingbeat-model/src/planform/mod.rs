@@ -10,8 +10,9 @@ mod fit;
 mod grid;
 mod outline;
 
+pub use crate::mesh::Spacing;
 pub use beta::{Beta, BetaChord, ChordSize};
 pub use contour::{EdgePoints, Landmarks};
 pub use edges::Edges;
-pub use grid::{Spacing, WingShape};
+pub use grid::WingShape;
 pub use outline::Planform;

@@ -19,6 +19,7 @@ fn mesh() -> GridMesh {
         rows: 1,
         cols: 4,
         nodes: (0..10).map(at).collect(),
+        columns: Spacing::Uniform,
     }
 }
 
@@ -99,6 +100,7 @@ fn on_a_round_spar(chord: f64, change: Change) -> ElasticBody {
         rows: 1,
         cols: 4,
         nodes: (0..10).map(at).collect(),
+        columns: Spacing::Uniform,
     };
     let mut spar = WingBeam {
         elements: 25,
@@ -375,6 +377,7 @@ fn turned(turn: DMat3) -> GridMesh {
         rows: 2,
         cols: 4,
         nodes: (0..15).map(node).collect(),
+        columns: Spacing::Uniform,
     }
 }
 

@@ -85,6 +85,9 @@ fn inputs(setup: &FlightSetup, air: &AirOptions, list: &mut Warnings) {
     } else if has_wings {
         list.note("No edge of the wings sheds a wake (air.shed is empty): circulation about the wings stays zero. Forces are those of added mass; there is neither lift nor induced drag in a steady stream.");
     }
+    if let Some(text) = setup.wide_bound_core() {
+        list.note(format!("Lift that is high: {text}."));
+    }
     if air.mirror {
         list.note("Mirror symmetry was assumed (air.mirror): a real flow of this kind loses it, and with it roll, yaw and sideways drift would come.");
     }
@@ -241,8 +244,9 @@ fn two_ways_to_the_lift(lattice: &AirSettings, beat: &BeatMeans, list: &mut Warn
         "Mean lift of the last beat by the rate of the vortex impulse, another way to the same force: {other:.3e} N; by {loads} {inviscid:.3e} N{flown}."
     );
     // A tenth: six times what the two differ by in attached hover with algebraic cores, and what they do with
-    // leading-edge sheets.
-    match (other - inviscid).abs() > 0.1 * inviscid.abs() {
+    // leading-edge sheets. Of the whole mean force: of a tail fin that drives a fish ahead nothing is left as lift.
+    let force = inviscid.hypot(beat.thrust_newton);
+    match (other - inviscid).abs() > 0.1 * force {
         false => list.note(both),
         true => list.limit(format!(
             "Two ways to the mean lift are apart: the wake does not keep its impulse (cores that are not algebraic, steps too long for its rolled-up parts, nodes held off surfaces), so its shape is not to be trusted. {both}"
@@ -295,5 +299,29 @@ fn core(model: &CoreModel) -> (&'static str, f64) {
         CoreModel::Scully { radius } => ("Scully", radius),
         CoreModel::LambOseen { radius, .. } => ("Lamb-Oseen", radius),
         CoreModel::Algebraic { radius, .. } => ("algebraic", radius),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Outcome;
+    use crate::summary::verdict::Verdict;
+    use wingbeat_math::DVec3;
+
+    /// What two ways to the mean lift differ by is an eighth of the lift: much in hover, little beside the thrust of a
+    /// fin without mean lift, whose last beat this is.
+    #[test]
+    fn behaves_two_ways_to_the_lift_are_apart_beside_the_whole_mean_force() {
+        let settings = AirSettings::accurate(1.0, DVec3::ZERO);
+        for (thrust, verdict) in [(0.0, Verdict::Amber), (5.9e5, Verdict::Green)] {
+            let beat = format!(
+                r#"{{"beat": 4, "lift_newton": -9.37e3, "lift_over_weight": null, "thrust_newton": {thrust},
+                "power_watt": 0, "inviscid_lift_newton": -9.37e3, "lift_by_impulse_newton": -1.054e4}}"#
+            );
+            let mut list = Warnings::default();
+            two_ways_to_the_lift(&settings, &serde_json::from_str(&beat).unwrap(), &mut list);
+            assert_eq!(list.verdict(&Outcome::Finished).0, verdict);
+        }
     }
 }
