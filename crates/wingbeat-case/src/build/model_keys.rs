@@ -1,8 +1,10 @@
 //! Keys that the chosen model of the air does not take, where no single key tells.
 
+use wingbeat_air::AIR_VISCOSITY;
+
 use super::fault::{Built, idle};
 use crate::error::Fault;
-use crate::raw::{AIR, AirCase, AirModel, Case, CoreCase, DerivativesCase};
+use crate::raw::{AirCase, AirModel, Case, CoreCase, DerivativesCase};
 use crate::resolve;
 use crate::source::CaseSource;
 
@@ -45,7 +47,9 @@ fn core_of_no_wake(air: &AirCase, source: &CaseSource) -> Built<()> {
     let CoreCase::Algebraic(own) = &air.wake_core else {
         return Ok(());
     };
-    let of_air = own.viscosity_m2_s.is_none_or(|viscosity| viscosity == AIR);
+    let of_air = own
+        .viscosity_m2_s
+        .is_none_or(|viscosity| viscosity == AIR_VISCOSITY);
     let mut plain = AirCase {
         scheme: air.scheme,
         ..AirCase::default()

@@ -168,7 +168,7 @@ fn is_deterministic(members: &[Vec<BeatMeans>], count: usize) -> bool {
 
 /// Mean magnitude of the force (lift, thrust) of a beat over the members \[N\].
 fn size(members: &[Vec<BeatMeans>], beat: usize) -> f64 {
-    let force = |m: &Vec<BeatMeans>| m[beat].lift_newton.hypot(m[beat].thrust_newton);
+    let force = |m: &Vec<BeatMeans>| m[beat].mean.lift_newton.hypot(m[beat].mean.thrust_newton);
     members.iter().map(force).sum::<f64>() / members.len() as f64
 }
 
