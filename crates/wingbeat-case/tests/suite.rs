@@ -23,6 +23,7 @@ mod presets;
 mod shedding;
 mod slips;
 mod starts_of_loops;
+mod stiff_joints;
 mod strips_with_wakes;
 mod table1;
 mod tables;
