@@ -5,8 +5,8 @@ use std::path::Path;
 use wingbeat_case::LoadedCase;
 use wingbeat_flight::{FlightError, FlightSetup, Record, Simulation, growing_joint, inertia_about};
 
-/// A wing on a hinge with this damping \[N m s/rad\] and stiffness \[N m/rad\] that is let go at 1 deg, on a body that is
-/// held, in 40 steps of 1.25e-4 s a beat.
+/// A wing on a hinge with this damping \[N m s/rad\] and stiffness \[N m/rad\] that is let go at 1 deg, on a body
+/// that is held, in 40 steps of 1.25e-4 s a beat.
 fn setup(damping: f64, stiffness: f64, set: &[&str]) -> FlightSetup {
     let element = format!(
         "joint.hinge-right.element=[{{ damping_newton_m_s_per_rad = {damping:e}, stiffness_newton_m_per_rad = {stiffness:e} }}]"

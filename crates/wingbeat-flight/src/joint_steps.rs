@@ -27,7 +27,7 @@ const GROWS: f64 = 1.01;
 const STAYS: f64 = 1.0 + 1e-4;
 
 /// Most times as many steps that are looked at as a remedy.
-const MOST_STEPS: u32 = 1000;
+const MAX_FINER: u32 = 1000;
 
 /// A free direction of a joint in the steps of a flight.
 #[derive(Clone, Debug, PartialEq)]
@@ -96,7 +96,7 @@ fn remedy(setup: &FlightSetup, method: EqualSteps, both: [f64; 2]) -> String {
             "dynamics.integrator = \"order_eight\", which chooses its steps itself".to_owned(),
         );
     }
-    let finer = (2..=MOST_STEPS).find(|n| is_carried(method, h / f64::from(*n)));
+    let finer = (2..=MAX_FINER).find(|n| is_carried(method, h / f64::from(*n)));
     match finer {
         Some(n) => ways.push(format!(
             "{n} times as many steps (time.steps_per_beat, or a smaller time.step_s)"

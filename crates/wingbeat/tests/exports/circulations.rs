@@ -60,8 +60,7 @@ fn of_particles(cloud: &Cloud, x: [f64; 3]) -> DVec3 {
 #[test]
 fn agrees_the_velocity_of_exported_circulations_with_that_of_the_flight() {
     // Measured 4e-8 of what is induced (cores smooth filaments near by); with the other sign of the surfaces it is its
-    // size. Particles smooth more: up to 1e-5;
-    // without what edges share 0.6 to 0.75.
+    // size. Particles smooth more: up to 1e-5; without what edges share 0.6 to 0.75.
     let particles: [(&[&str], f64); 2] = [
         (&[], 1e-6),
         (&["--set=air.particles={after_rows=4,radius_m=0.02}"], 5e-5),
