@@ -129,7 +129,8 @@ fn lost(key: &str, rows: &[[f64; 2]], zero: f64) -> Option<String> {
 /// How many times as much as the body its parts may weigh, or as little, before one of both is in another unit.
 const SHARES: f64 = 100.0;
 
-/// What is said of parts that weigh much more or less together than the body, among which its mass is shared out.
+/// What is said of parts that weigh much more or less together than the body, among which its mass is shared
+/// out.
 fn shares(body: &BodyCase) -> Option<String> {
     let total = body.mass_kg?;
     let parts: Option<Vec<f64>> = body.part.values().map(|p| p.mass_kg).collect();

@@ -441,8 +441,8 @@ fn refuses_too_many_steps_by_their_number_and_cases_without_a_format() {
     assert!(said.contains("add `format = 1`"), "{said}");
 }
 
-/// Whether wings pass through each other hangs on their motion, not on their mesh: coarse facets overlap by less
-/// than half a per cent of the chord.
+/// Whether wings pass through each other hangs on their motion, not on their mesh: coarse facets overlap by
+/// less than half a per cent of the chord.
 #[test]
 fn invariant_wings_cross_or_do_not_whatever_their_mesh() {
     for [chordwise, spanwise] in [[3, 5], [4, 8], [5, 10], [8, 16]] {

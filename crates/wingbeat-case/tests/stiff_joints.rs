@@ -5,8 +5,8 @@ use std::path::Path;
 use wingbeat_case::LoadedCase;
 use wingbeat_flight::{FlightError, FlightSetup, Record, Simulation, growing_joint, inertia_about};
 
-/// A wing on a hinge with this damping \[N m s/rad\] and stiffness \[N m/rad\] that is let go at 1 deg, on a body
-/// that is held, in 40 steps of 1.25e-4 s a beat.
+/// A wing on a hinge with this damping \[N m s/rad\] and stiffness \[N m/rad\] that is let go at 1 deg, on a
+/// body that is held, in 40 steps of 1.25e-4 s a beat.
 fn setup(damping: f64, stiffness: f64, set: &[&str]) -> FlightSetup {
     let element = format!(
         "joint.hinge-right.element=[{{ damping_newton_m_s_per_rad = {damping:e}, stiffness_newton_m_per_rad = {stiffness:e} }}]"
@@ -55,8 +55,8 @@ fn flown(setup: FlightSetup) -> Result<Vec<Record>, FlightError> {
     Ok(records)
 }
 
-/// What is left of a wing on a spring and a damper grows as the largest root of the method has it: by a damper alone it
-/// alternates.
+/// What is left of a wing on a spring and a damper grows as the largest root of the method has it: by a damper
+/// alone it alternates.
 #[test]
 fn agrees_growth_of_flown_hinges_with_the_roots_of_the_method() {
     let any = setup(1e-12, 1e-9, &[]);
@@ -84,8 +84,8 @@ fn agrees_growth_of_flown_hinges_with_the_roots_of_the_method() {
     }
 }
 
-/// Flights that such a joint ends name it, its numbers and a method that carries it, and so does what is doubted
-/// beforehand; by that method they are flown.
+/// Flights that such a joint ends name it, its numbers and a method that carries it, and so does what is
+/// doubted beforehand; by that method they are flown.
 #[test]
 fn behaves_flights_that_a_damper_ends_name_it() {
     let damped = |set: &[&str]| setup(1.2e-11, 5e-9, set);

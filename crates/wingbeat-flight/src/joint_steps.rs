@@ -1,5 +1,5 @@
-//! Free joints in steps: whether what a joint carries, on its springs and dampers, dies out in the steps of a flight
-//! by its integrator, or alternates and grows.
+//! Free joints in steps: whether what a joint carries, on its springs and dampers, dies out in the steps of a
+//! flight by its integrator, or alternates and grows.
 //!
 //! | symbol | name in code | meaning | unit |
 //! |---|---|---|---|
@@ -8,8 +8,8 @@
 //! | w h | `vibration` | angular frequency `sqrt(k / I)` times the step | 1 |
 //! | | `growth` | largest root of the method there ([`EqualSteps::growth`]) | 1 |
 //!
-//! What a joint carries is rigid, in a vacuum, and what it hangs on stands still: the air's mass and damping, which
-//! help, and a light parent, which does not, are left out. Stops are left out: they act for a few steps.
+//! What a joint carries is rigid, in a vacuum, and what it hangs on stands still: the air's mass and damping,
+//! which help, and a light parent, which does not, are left out. Stops are left out: they act for a few steps.
 
 use wingbeat_dynamics::{ElementLaw, Joint, JointType};
 use wingbeat_math::DVec3;
@@ -19,8 +19,8 @@ use crate::bodies::system_of;
 use crate::joints::closes_loop;
 use crate::setup::{FlightSetup, IntegratorChoice};
 
-/// Growth a step from which a joint is not carried by the steps \[1\]: a hundred steps make it e times as large.
-/// Vibrations that grow less are those the air damps.
+/// Growth a step from which a joint is not carried by the steps \[1\]: a hundred steps make it e times as
+/// large. Vibrations that grow less are those the air damps.
 const GROWS: f64 = 1.01;
 
 /// Growth a step that is none \[1\]: a few parts in a thousand over a hundred steps.
@@ -106,8 +106,8 @@ fn remedy(setup: &FlightSetup, method: EqualSteps, both: [f64; 2]) -> String {
     ways.join(", or ")
 }
 
-/// The method of equal steps that integrates the joints of `setup`; none where steps are chosen by their error, or
-/// the formula is that of order two, which takes all vibrations back.
+/// The method of equal steps that integrates the joints of `setup`; none where steps are chosen by their error,
+/// or the formula is that of order two, which takes all vibrations back.
 fn equal_steps(setup: &FlightSetup) -> Option<EqualSteps> {
     match setup.integrator {
         IntegratorChoice::Hamming => Some(EqualSteps::Hamming),
@@ -136,8 +136,8 @@ fn acting(joint: &Joint, k: usize) -> [f64; 2] {
     })
 }
 
-/// Inertia along free direction `k` of a joint \[kg m2 or kg\], of its child and of what hangs on that; the latter is
-/// counted about the joint that carries each.
+/// Inertia along free direction `k` of a joint \[kg m2 or kg\], of its child and of what hangs on that; the
+/// latter is counted about the joint that carries each.
 fn carried_inertia(setup: &FlightSetup, joint: &Joint, k: usize) -> Option<f64> {
     let own = inertia_about(setup, joint, joint, k)?;
     let hangs = |mut body: usize| {

@@ -11,9 +11,9 @@ pub(crate) const INSTANTS: usize = 100;
 const BEATS: usize = 10;
 /// Lines of nodes along chord and span that are compared at most.
 const LINES: [usize; 2] = [9, 17];
-/// What is no crossing but a touch, over the mean chord: facets of a mesh are off the outline and the camber of the
-/// wing by about as much (0.2 % of the chord of a fly's wing of 3 x 5 and 4 x 8 panels, none with 5 x 10), so what is
-/// said is of the motion and not of the mesh.
+/// What is no crossing but a touch, over the mean chord: facets of a mesh are off the outline and the camber of
+/// the wing by about as much (0.2 % of the chord of a fly's wing of 3 x 5 and 4 x 8 panels, none with 5 x 10),
+/// so what is said is of the motion and not of the mesh.
 const TOUCH: f64 = 0.005;
 
 /// Two wings that pass through each other.
@@ -368,8 +368,8 @@ mod tests {
         assert_eq!(crossings(&two, &[], &[]), []);
     }
 
-    /// Wings that clap beyond the plane between them: each by 0.001 m, two tenths of a per cent of their chord, is what
-    /// meshes leave; by 0.02 m they cross, whatever the mesh.
+    /// Wings that clap beyond the plane between them: each by 0.001 m, two tenths of a per cent of their chord,
+    /// is what meshes leave; by 0.02 m they cross, whatever the mesh.
     #[test]
     fn behaves_overlaps_of_a_few_thousandths_of_the_chord_are_of_the_mesh() {
         let apart = 0.01;

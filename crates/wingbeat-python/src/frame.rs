@@ -53,8 +53,8 @@ fn turned(p: &[f64; 3]) -> [f64; 3] {
     [p[0], -p[1], -p[2]]
 }
 
-/// Nodes of a sheet, shape (rows + 1, columns + 1, 3), its circulations and those that it shares with particles, shape
-/// (rows, columns).
+/// Nodes of a sheet, shape (rows + 1, columns + 1, 3), its circulations and those that it shares with
+/// particles, shape (rows, columns).
 type Sheet<'py> = (Bound<'py, PyAny>, Bound<'py, PyAny>, Bound<'py, PyAny>);
 
 #[pymethods]

@@ -21,8 +21,8 @@ use super::poses::picture;
 /// (not of wakes) are left-handed: positive when their lift is along the panel normal.
 pub(super) const RIGHT_HANDED: &str = "circulations right-handed about the corners";
 
-/// The array of circulations that rings which have become particles still have in the filaments that they share with
-/// rings; in wakes of flights with particles.
+/// The array of circulations that rings which have become particles still have in the filaments that they share
+/// with rings; in wakes of flights with particles.
 pub(super) const SHARED: &str = "shared_circulation_m2_per_s";
 
 /// Begins the last line of a frame, which holds the hash of everything before it.

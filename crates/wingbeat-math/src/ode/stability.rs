@@ -1,7 +1,8 @@
 //! How much of a motion that dies out by itself is left from step to step.
 //!
-//! Of `y' = lambda y` in equal steps h each method leaves powers of the roots of a polynomial whose coefficients
-//! depend on `z = lambda h` alone [Hairer & Wanner, Solving ODEs II, sec. V.1]: the largest root is the growth a step.
+//! Of `y' = lambda y` in equal steps h each method leaves powers of the roots of a polynomial whose
+//! coefficients depend on `z = lambda h` alone [Hairer & Wanner, Solving ODEs II, sec. V.1]: the largest root
+//! is the growth a step.
 //!
 //! ```text
 //! hamming      r^4 = 112/121 ((9 + 6 z) r^3 - 3 z r^2 - r) / (8 - 3 z) + 9/121 (1 + 4 z/3 (2 r^3 - r^2 + 2 r))
@@ -28,8 +29,8 @@ pub enum EqualSteps {
 }
 
 impl EqualSteps {
-    /// Largest growth in a step of h \[s\] of a vibration `y'' + damping y' + stiffness y = 0` \[1\], its `damping`
-    /// \[1/s\] and `stiffness` \[1/s^2\] over the inertia. What is more than 1 grows.
+    /// Largest growth in a step of h \[s\] of a vibration `y'' + damping y' + stiffness y = 0` \[1\], its
+    /// `damping` \[1/s\] and `stiffness` \[1/s^2\] over the inertia. What is more than 1 grows.
     pub fn growth(self, [damping, stiffness]: [f64; 2], h: f64) -> f64 {
         let (half, square) = (0.5 * damping * h, stiffness * h * h);
         let under = half * half - square;

@@ -15,9 +15,9 @@ fn filament(x: DVec3, a: DVec3, b: DVec3) -> DVec3 {
     cross * along / square / (4.0 * std::f64::consts::PI)
 }
 
-/// Velocity that vortex filaments along the edges of the panels of a frame induce, each panel with its circulation,
-/// right-handed about its corners, and edges that a panel which has become particles shares with one that has not with
-/// the shared circulation of the former, too [m/s]; places and velocity in picture axes.
+/// Velocity that vortex filaments along the edges of the panels of a frame induce, each panel with its
+/// circulation, right-handed about its corners, and edges that a panel which has become particles shares with
+/// one that has not with the shared circulation of the former, too [m/s]; places and velocity in picture axes.
 fn induced(mesh: &Mesh, x: [f64; 3]) -> DVec3 {
     let x = DVec3::from(x);
     let corner = |q: &[usize; 4], k: usize| DVec3::from(mesh.points[q[k % 4]]);
@@ -55,12 +55,12 @@ fn of_particles(cloud: &Cloud, x: [f64; 3]) -> DVec3 {
     .sum()
 }
 
-/// Circulations in files are those of one convention: Biot and Savart's law over surfaces, wakes and particles of one
-/// frame gives the velocity of the air.
+/// Circulations in files are those of one convention: Biot and Savart's law over surfaces, wakes and particles
+/// of one frame gives the velocity of the air.
 #[test]
 fn agrees_the_velocity_of_exported_circulations_with_that_of_the_flight() {
-    // Measured 4e-8 of what is induced (cores smooth filaments near by); with the other sign of the surfaces it is its
-    // size. Particles smooth more: up to 1e-5; without what edges share 0.6 to 0.75.
+    // Measured 4e-8 of what is induced (cores smooth filaments near by); with the other sign of the surfaces it
+    // is its size. Particles smooth more: up to 1e-5; without what edges share 0.6 to 0.75.
     let particles: [(&[&str], f64); 2] = [
         (&[], 1e-6),
         (&["--set=air.particles={after_rows=4,radius_m=0.02}"], 5e-5),
