@@ -54,6 +54,16 @@ pub enum AnalysisError {
         /// What to do instead.
         remedy: &'static str,
     },
+    /// The flight to the steady state of a wing in a stream ended.
+    #[error(
+        "at {speed} m/s no steady state was found, about which vibrations are sought: {error}. The wing may be beyond static divergence there: try lower speeds, or no incidence"
+    )]
+    NoSteadyState {
+        /// Speed of the stream [m/s].
+        speed: f64,
+        /// How the flight ended.
+        error: FlightError,
+    },
     /// A number is not finite or a matrix singular.
     #[error("{0}")]
     Numbers(String),

@@ -112,7 +112,11 @@ fn explain(path: &str, message: &str) -> Fault {
             key,
             "this key is missing",
             "it has no default",
-            format!("add `{} = ...`", quoted[0]),
+            match quoted[0] {
+                // The only one there is.
+                "format" => "add `format = 1`".to_owned(),
+                key => format!("add `{key} = ...`"),
+            },
         );
     }
     let (problem, expected) = message.split_once(", expected ").unwrap_or((message, ""));

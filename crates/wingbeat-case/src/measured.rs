@@ -6,7 +6,7 @@ use wingbeat_model::{Planform, Wing};
 
 use crate::fitted::FittedTable;
 use crate::loaded::LoadedCase;
-use crate::raw::{AngleCase, OutlineCase, PlanformCase, SurfaceCase, WingMotionCase};
+use crate::raw::{AngleCase, BodyCase, OutlineCase, PlanformCase, SurfaceCase, WingMotionCase};
 
 /// Angles of a table that are all below this could be radians \[deg\].
 const HALF_A_TURN: f64 = 3.2;
@@ -28,6 +28,7 @@ impl LoadedCase {
     pub fn doubtful_measurements(&self) -> Vec<String> {
         let fits = self.fitted_tables();
         let mut doubts: Vec<String> = fits.iter().filter_map(FittedTable::doubt).collect();
+        doubts.extend(shares(&self.raw.body));
         for (name, wing) in &self.raw.wing {
             let tables = wing.motion.as_ref().map(tables).unwrap_or_default();
             let key = |angle: &str| format!("wing.{name}.motion.{angle}.table");
@@ -123,6 +124,24 @@ fn lost(key: &str, rows: &[[f64; 2]], zero: f64) -> Option<String> {
         from += length.max(1);
     }
     None
+}
+
+/// How many times as much as the body its parts may weigh, or as little, before one of both is in another unit.
+const SHARES: f64 = 100.0;
+
+/// What is said of parts that weigh much more or less together than the body, among which its mass is shared
+/// out.
+fn shares(body: &BodyCase) -> Option<String> {
+    let total = body.mass_kg?;
+    let parts: Option<Vec<f64>> = body.part.values().map(|p| p.mass_kg).collect();
+    let parts: f64 = parts?.iter().sum();
+    let ratio = parts / total;
+    let is_near = (1.0 / SHARES..=SHARES).contains(&ratio);
+    (ratio > 0.0 && !is_near).then(|| {
+        format!(
+            "body.part: the parts weigh {parts:.3e} kg together, {ratio:.1e} times body.mass_kg = {total:.3e} kg; their masses only share out that of the body: are all in kg? Or leave body.mass_kg out"
+        )
+    })
 }
 
 /// Whether a course passes through `zero` in row `k`: the rows beside it lie on either side, or the cubic

@@ -19,6 +19,19 @@ fn refuses_tables_without_a_header() {
     assert!(said.contains(says), "{said}");
 }
 
+/// A missing sample is a row to be left out.
+#[test]
+fn refuses_empty_cells_with_what_to_do() {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("slips");
+    fs::create_dir_all(&folder).unwrap();
+    let file = folder.join("empty-cell.csv");
+    fs::write(&file, "phase,angle_deg\n0,10\n0.25,\n0.5,-10\n0.75,3\n").unwrap();
+    let law = format!("wing.right.motion.phi={{ table = {{ file = {file:?} }} }}");
+    let said = refusal("fruit-fly-hover", &[&law]);
+    assert!(said.contains("line 3: a cell is empty"), "{said}");
+    assert!(said.contains("leave the row out"), "{said}");
+}
+
 #[test]
 fn exact_semicolons_and_tabs_part_columns_like_commas() {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("slips");

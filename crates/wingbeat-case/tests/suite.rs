@@ -26,6 +26,7 @@ mod shedding;
 mod slips;
 mod spacing;
 mod starts_of_loops;
+mod stiff_joints;
 mod strips_with_wakes;
 mod table1;
 mod tables;

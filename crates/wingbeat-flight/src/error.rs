@@ -114,6 +114,28 @@ pub enum FlightError {
         /// Largest difference within a step over the natural size of what differs \[1\].
         apart: f64,
     },
+    /// A flight ended because what a free joint carries grew from step to step.
+    #[error(
+        "{}; take {remedy}. The flight ended so: {ended}",
+        match acts {
+            Some(acts) => format!("t = {time:.6e} s: {acts}"),
+            None => format!("t = {time:.6e} s: the rate of joint `{joint}` alternates from step to step and grows: dynamics.integrator = \"{integrator}\" does not carry what acts on it in these steps"),
+        }
+    )]
+    JointGrows {
+        /// Time \[s\].
+        time: f64,
+        /// Name of the joint.
+        joint: String,
+        /// Name of the integrator.
+        integrator: &'static str,
+        /// What its springs and dampers do in a step, where they alone make it grow.
+        acts: Option<String>,
+        /// What to try.
+        remedy: String,
+        /// The error that ended the flight.
+        ended: Box<FlightError>,
+    },
     /// A joint has turned farther than what acts along its angle can know.
     #[error(
         "t = {time:.6e} s: joint `{joint}` has turned by more than half a turn, and its spring, stop or follower knows its angle within half a turn here: free flight by dynamics.formulation = \"momentum\" counts turns of revolute and universal joints, not that of a held root or by \"quaternion\" (joints that close loops); turns of spherical joints are counted nowhere; limit it by a stop, or make its spring stiffer"

@@ -39,6 +39,7 @@ mod felt;
 mod free;
 mod impossible;
 mod interface;
+mod joint_steps;
 pub mod joints;
 mod late_gusts;
 mod light;
@@ -73,6 +74,7 @@ pub use interface::{
     Air, AirScratch, Announcement, ExternalAir, ExternalSession, Instant, Shape, WingInertia,
     WingResponse,
 };
+pub use joint_steps::{JointSteps, growing_joint, inertia_about};
 pub use joints::{closes_loop, faster, is_driven};
 pub use memory::AirMemory;
 pub use record::{

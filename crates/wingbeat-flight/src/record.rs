@@ -327,6 +327,9 @@ pub struct WakeSnapshot {
     /// Ring circulations, row by row [m2/s], right-handed about the corners (row, column), (row + 1, column),
     /// (row + 1, column + 1), (row, column + 1).
     pub circulation: Vec<f64>,
+    /// Circulations of those that have become particles, 0 of rings \[m2/s\]: filaments that they have in
+    /// common with rings carry them, too. None in flights without particles.
+    pub shared_circulation: Option<Vec<f64>>,
     /// Vortex particles that rings of the sheet have become, oldest first.
     pub particles: Vec<ParticleSnapshot>,
 }

@@ -4,6 +4,7 @@
 //! it; predict; correct bodies and air together until they agree; accept both; record.
 
 mod arrival;
+mod ending;
 mod fits;
 mod fly;
 mod newest;
@@ -122,8 +123,10 @@ impl Simulation {
             stages,
         };
         flight.scratch.elastic = flight.equations().elastic.scratch(&flight.state.wings);
-        flight.begin(bent.is_some_and(|b| !b.is_empty()), air)?;
-        Ok(flight)
+        match flight.begin(bent.is_some_and(|b| !b.is_empty()), air) {
+            Ok(()) => Ok(flight),
+            Err(ended) => Err(flight.explained(ended)),
+        }
     }
 
     /// Goes on from a saved state of the same setup. The next [`Self::step`] makes the first new
@@ -226,6 +229,13 @@ impl Simulation {
     pub fn step(&mut self) -> Result<&Record, FlightError> {
         let (step, steps) = (self.state.step, self.setup.time.steps);
         log::trace!(target: STEP_EVENT, step, steps; "");
+        if let Err(ended) = self.advance() {
+            return Err(self.explained(ended));
+        }
+        Ok(&self.record)
+    }
+
+    fn advance(&mut self) -> Result<(), FlightError> {
         let equations = &self.stages[self.state.stage].equations;
         equations.advance_air(&mut self.state.air, &mut self.scratch)?;
         self.state.step += 1;
@@ -235,8 +245,7 @@ impl Simulation {
         } else {
             self.predict_and_correct()?
         };
-        self.arrive(report)?;
-        Ok(&self.record)
+        self.arrive(report)
     }
 
     fn equations(&self) -> &Equations {

@@ -199,6 +199,9 @@ fn flight(error: &FlightError) -> (&'static str, Parts) {
             let remedy = "compute both halves: air.mirror = false";
             ("FlightError", about("air.mirror", remedy))
         }
+        FlightError::JointGrows { remedy, .. } => {
+            ("FlightError", about("dynamics.integrator", remedy.clone()))
+        }
         FlightError::StepTooSmall { .. } => {
             let remedy = "smooth it, or take integrator = \"hamming\"";
             ("FlightError", about("dynamics.integrator", remedy))
@@ -223,6 +226,9 @@ fn analysis(error: &AnalysisError) -> (&'static str, Parts) {
         AnalysisError::NotCovered { remedy, .. }
         | AnalysisError::Asymmetric { remedy, .. }
         | AnalysisError::NotPeriodic { remedy, .. } => ("AnalysisError", about("", *remedy)),
+        AnalysisError::NoSteadyState { .. } => {
+            ("AnalysisError", about("", "lower speeds, or no incidence"))
+        }
         _ => {
             let remedy = "start nearer to the flight that is looked for";
             ("AnalysisError", about("", remedy))

@@ -53,8 +53,9 @@ fn turned(p: &[f64; 3]) -> [f64; 3] {
     [p[0], -p[1], -p[2]]
 }
 
-/// Nodes of a sheet, shape (rows + 1, columns + 1, 3), and its circulations, shape (rows, columns).
-type Sheet<'py> = (Bound<'py, PyAny>, Bound<'py, PyAny>);
+/// Nodes of a sheet, shape (rows + 1, columns + 1, 3), its circulations and those that it shares with
+/// particles, shape (rows, columns).
+type Sheet<'py> = (Bound<'py, PyAny>, Bound<'py, PyAny>, Bound<'py, PyAny>);
 
 #[pymethods]
 impl Frame {
@@ -92,18 +93,23 @@ impl Frame {
         array(py, values, &[count])
     }
 
-    /// The wake sheets, newest row first: nodes [m] and circulations of rings [m2/s].
+    /// The wake sheets, newest row first: nodes [m], circulations of rings [m2/s], and those of rings that
+    /// have become particles in the filaments that they share with rings [m2/s].
     fn sheets<'py>(&self, py: Python<'py>) -> PyResult<Vec<Sheet<'py>>> {
         let wakes = &self.frame.wakes;
         let gamma = wakes.cell("circulation_m2_per_s");
+        let shared = wakes.cell("shared_circulation_m2_per_s"); // of flights with particles
         let sheet = |s: &frames::Sheet| {
             let (rows, cols) = (s.rows(), s.cols);
             let nodes = (rows + 1) * (cols + 1);
             let points = wakes.points[s.first_node..s.first_node + nodes].iter();
-            let rings = gamma[s.first_cell..s.first_cell + s.rings].to_vec();
+            let cells = s.first_cell..s.first_cell + s.rings;
+            let kept = shared.get(cells.clone()).map(<[f64]>::to_vec);
+            let kept = kept.unwrap_or_else(|| vec![0.0; s.rings]);
             Ok((
                 vectors(py, points.map(turned), &[rows + 1, cols + 1])?,
-                array(py, rings, &[rows, cols])?,
+                array(py, gamma[cells].to_vec(), &[rows, cols])?,
+                array(py, kept, &[rows, cols])?,
             ))
         };
         wakes.sheets().iter().map(sheet).collect()

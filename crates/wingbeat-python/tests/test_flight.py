@@ -150,6 +150,8 @@ def test_agrees_frames_in_memory_with_those_in_files(lattice, tmp_path):
         for a, b in zip(one.wakes, other.wakes, strict=True):
             np.testing.assert_array_equal(a.nodes_m, b.nodes_m)
             np.testing.assert_array_equal(a.circulation_m2_per_s, b.circulation_m2_per_s)
+            assert not a.shared_circulation_m2_per_s.any(), "no particles"
+            assert a.shared_circulation_m2_per_s.shape == a.circulation_m2_per_s.shape
             rows, columns = a.circulation_m2_per_s.shape
             assert a.nodes_m.shape == (rows + 1, columns + 1, 3)
     assert not lattice.fly(frames=False).frame_steps

@@ -18,6 +18,14 @@ pub fn signed(value: f64, digits: usize) -> String {
     }
 }
 
+/// As [`signed`]; from `10^7` on with a power of ten: such digits say nothing of a flight that broke down.
+pub fn signed_or_power(value: f64, digits: usize) -> String {
+    match value.abs() < 1e7 || !value.is_finite() {
+        true => signed(value, digits),
+        false => format!("{value:+.3e}"),
+    }
+}
+
 fn is_zero(digits: &str) -> bool {
     digits.chars().all(|c| "0.".contains(c))
 }
@@ -25,6 +33,12 @@ fn is_zero(digits: &str) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn exact_large_numbers_are_powers_of_ten() {
+        assert_eq!(signed_or_power(-1234.5678, 3), "-1234.568");
+        assert_eq!(signed_or_power(-9.862_85e41, 3), "-9.863e41");
+    }
 
     #[test]
     fn exact_zero_has_no_minus() {

@@ -22,6 +22,10 @@ use super::whole::target_name;
 /// (not of wakes) are left-handed: positive when their lift is along the panel normal.
 pub(super) const RIGHT_HANDED: &str = "circulations right-handed about the corners";
 
+/// The array of circulations that rings which have become particles still have in the filaments that they share
+/// with rings; in wakes of flights with particles.
+pub(super) const SHARED: &str = "shared_circulation_m2_per_s";
+
 /// Begins the last line of a frame, which holds the hash of everything before it.
 pub(super) const CHECKSUM: &str = "<!-- SHA-256 of the lines above: ";
 
@@ -66,6 +70,7 @@ impl PolyData {
     pub fn wakes(snapshot: &Snapshot) -> Self {
         let mut data = Self::default();
         let (mut gamma, mut row, mut id) = (vec![], vec![], vec![]);
+        let mut shared: Option<Vec<f64>> = None;
         for (k, w) in snapshot.wakes.iter().enumerate() {
             let node = |i: usize, j: usize| i * (w.cols + 1) + j;
             let ring = |n: usize| (n / w.cols, n % w.cols);
@@ -83,6 +88,9 @@ impl PolyData {
                 }),
             );
             gamma.extend_from_slice(&w.circulation);
+            if let Some(of_sheet) = &w.shared_circulation {
+                shared.get_or_insert_default().extend_from_slice(of_sheet);
+            }
             row.extend(rings.clone().map(|n| ring(n).0 as f64));
             id.extend(rings.map(|_| k as f64));
         }
@@ -91,6 +99,8 @@ impl PolyData {
             ("age_rows", row),
             ("sheet", id),
         ];
+        // Of flights with particles alone.
+        data.cells.extend(shared.map(|all| (SHARED, all)));
         data
     }
 

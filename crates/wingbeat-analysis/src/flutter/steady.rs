@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use wingbeat_flight::elastic::{ElasticWing, ElasticWings};
-use wingbeat_flight::{AirModel, FlightSetup, FlightState, MotionMode, Simulation};
+use wingbeat_flight::{AirModel, FlightError, FlightSetup, FlightState, MotionMode, Simulation};
 use wingbeat_math::{DVec3, rotation_vector};
 use wingbeat_structure::{FrameMotion, Mode, modes};
 
@@ -112,11 +112,24 @@ impl ElasticRig {
             least,
             most: settings.settling,
         };
-        let long = settling(LONG, LEAST).to_rest(None)?;
-        let state = settling(1, 4 * LEAST).to_rest(Some(long))?;
+        let ended = |e| self.ended(e);
+        let long = settling(LONG, LEAST).to_rest(None).map_err(ended)?;
+        let state = settling(1, 4 * LEAST).to_rest(Some(long)).map_err(ended)?;
         let wings = (0..self.count()).map(|k| self.steady(&state, k, settings));
         let steady = wings.collect::<Result<_, _>>()?;
         Ok((state, steady))
+    }
+
+    /// The error of a flight to the steady state, of which the speed is said.
+    fn ended(&self, error: AnalysisError) -> AnalysisError {
+        match error {
+            AnalysisError::Flight(FlightError::Setup { .. }) => error,
+            AnalysisError::Flight(error) => AnalysisError::NoSteadyState {
+                speed: self.speed,
+                error,
+            },
+            error => error,
+        }
     }
 
     /// The setup with other steps and damping added, by strain rate and by mass of each elastic wing.
@@ -224,7 +237,7 @@ pub(super) fn leading(
 ) -> Result<Vec<Mode>, AnalysisError> {
     let (wing, at) = (rig.wing(k), &state.wings[k].structure.configuration);
     let found = modes(wing.structure(), at, &FrameMotion::REST, None);
-    let mut found = found.map_err(wingbeat_flight::FlightError::from)?;
+    let mut found = found.map_err(FlightError::from)?;
     found.retain(|m| m.square > 0.0);
     let found = moving(wing, found, count).modes;
     match found.is_empty() {

@@ -3,8 +3,7 @@
 use std::f64::consts::PI;
 
 use wingbeat_dynamics::{ElementLaw, Joint, JointType};
-use wingbeat_flight::{FlightSetup, system_of};
-use wingbeat_math::DVec3;
+use wingbeat_flight::{FlightSetup, growing_joint, inertia_about};
 
 use super::limit::{Doubts, Limit, rounded};
 
@@ -42,6 +41,8 @@ pub(super) fn doubts(setup: &FlightSetup, frequency: Option<f64>, list: &mut Dou
             }
         }
     }
+    let growing = growing_joint(setup).map(|j| format!("{}; take {}", j.said(setup), j.remedy));
+    list.0.extend(growing);
 }
 
 /// The joints that carry a wing, from its own to that on the central body; none of a wing without a joint.
@@ -113,21 +114,4 @@ fn beyond(joint: &Joint, q: f64, [lower, upper]: [f64; 2]) -> Option<String> {
 /// \[kg\] of one that slides.
 fn inertia(setup: &FlightSetup, joint: &Joint, k: usize) -> Option<f64> {
     inertia_about(setup, joint, joint, k)
-}
-
-/// The same of the child of `carried`, which stands as the child of `joint` does, in direction `k` of `joint`.
-fn inertia_about(setup: &FlightSetup, carried: &Joint, joint: &Joint, k: usize) -> Option<f64> {
-    let system = system_of(setup).ok()?;
-    let mass = system.bodies().get(carried.child)?.mass;
-    let axis = match joint.model.kind {
-        JointType::Prismatic { .. } => return Some(mass.mass).filter(|m| *m > 0.0),
-        JointType::Revolute { axis } => axis,
-        JointType::Universal { axes } => *axes.get(k)?,
-        JointType::Spherical | JointType::PointOnLine { .. } => *DVec3::AXES.get(k)?,
-        JointType::Weld => return None,
-    };
-    // Steiner, from the origin of the child to the joint.
-    let [a, s] = [carried.anchor_child, mass.first_moment].map(|x| x - x.dot(axis) * axis);
-    let about = axis.dot(mass.inertia * axis) - 2.0 * a.dot(s) + mass.mass * a.length_squared();
-    Some(about).filter(|j| *j > 0.0)
 }

@@ -440,7 +440,7 @@ pub(super) fn fault_of(case: &Case, setup: &FlightSetup, error: &DynamicsError) 
 }
 
 /// The table of a joint; all joints where the case has none of this name.
-fn key_of(case: &Case, joint: &str) -> String {
+pub(super) fn key_of(case: &Case, joint: &str) -> String {
     match case.joint.contains_key(joint) {
         true => format!("joint.{joint}"),
         false => "joint".to_owned(),

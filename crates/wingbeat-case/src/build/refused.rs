@@ -16,6 +16,9 @@ pub(crate) fn refused(case: &Case, setup: &FlightSetup, error: &FlightError) -> 
             "air.mirror".to_owned(),
             "set it to false: both sides are computed",
         ),
+        FlightError::JointGrows { joint, .. } => {
+            (joint::key_of(case, joint), "the message says what to take")
+        }
         FlightError::Blade(_) => ("air.blade".to_owned(), "change this number"),
         FlightError::External(_) => (
             "air.external.command".to_owned(),

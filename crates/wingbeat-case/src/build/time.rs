@@ -19,24 +19,28 @@ pub(super) fn grid(case: &Case) -> Built<TimeGrid> {
         _ => return Err(no_beat("time.step_s", "step_s")),
     };
     let (key, steps) = match (time.steps, period, time.beats) {
-        (Some(steps), _, _) => ("time.steps", steps),
+        (Some(steps), _, _) => ("time.steps", steps as f64),
         (None, Some(period), Some(beats)) => {
-            let steps = ((beats * period / step).round() as usize).max(1);
-            ("time.beats", steps)
+            ("time.beats", (beats * period / step).round().max(1.0))
         }
         _ => return Err(no_beat("time.steps", "steps")),
     };
-    if steps > MAX_STEPS {
+    if steps > MAX_STEPS as f64 {
+        // Beyond what counts exactly, a power of ten says more than its digits.
+        let shown = match steps < 1e15 {
+            true => format!("{steps:.0}"),
+            false => format!("{steps:.3e}"),
+        };
         return Err(Fault::new(
             key,
-            format!("{steps} steps are too many"),
+            format!("{shown} steps are too many"),
             format!("as much as {MAX_STEPS} steps make"),
             "fly fewer beats, or with longer steps",
         ));
     }
     Ok(TimeGrid {
         step,
-        steps,
+        steps: steps as usize,
         period,
     })
 }

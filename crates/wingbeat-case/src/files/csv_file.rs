@@ -95,6 +95,13 @@ impl CsvFile {
         let value = text.parse::<f64>().ok().filter(|x| x.is_finite());
         value.ok_or_else(|| {
             let line = line_of(record);
+            if text.is_empty() {
+                let mut fault = self.bad(&format!("line {line}: a cell is empty"));
+                fault.remedy =
+                    "leave the row out: samples need not be evenly spaced; or write the number"
+                        .into();
+                return fault;
+            }
             self.bad(&format!("line {line}: `{text}` is not a finite number"))
         })
     }

@@ -130,6 +130,8 @@ impl LatticeAir {
         let (rows, cols) = (sheet.rows(), sheet.columns);
         let mut nodes: Vec<DVec3> = root.nodes.iter().map(|&n| s.nodes.position[n]).collect();
         let mut circulation = Vec::with_capacity(rows * cols);
+        let particles = self.lattice.settings().particles.as_ref();
+        let mut shared_circulation = particles.map(|_| Vec::with_capacity(rows * cols));
         for row in (0..rows).rev() {
             nodes.extend((0..=cols).map(|c| sheet.node(row, c)));
             // Rings that have become particles are drawn without circulation.
@@ -138,6 +140,10 @@ impl LatticeAir {
                 false => 0.0,
             };
             circulation.extend((0..cols).map(of));
+            if let Some(all) = &mut shared_circulation {
+                let shared = |c: usize| sheet.gamma[row * cols + c] - of(c);
+                all.extend((0..cols).map(shared));
+            }
         }
         let surface = &self.lattice.surfaces()[root.surface].name;
         WakeSnapshot {
@@ -146,6 +152,7 @@ impl LatticeAir {
             cols,
             nodes,
             circulation,
+            shared_circulation,
             particles: self.particle_snapshots(air, k),
         }
     }

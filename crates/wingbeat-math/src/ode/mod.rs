@@ -14,6 +14,7 @@ pub mod dop853;
 mod dop853_table;
 pub mod hamming;
 pub mod runge_kutta;
+mod stability;
 pub mod start;
 
 pub use adams::AdamsBashforthMoulton;
@@ -22,4 +23,5 @@ pub use corrector::{Asked, Convergence, StepError, StepReport, scaled_difference
 pub use dop853::{AdaptiveError, AdaptiveReport, Dense, Dop853, Tolerance};
 pub use hamming::{Hamming, Multistep};
 pub use runge_kutta::Rk4;
+pub use stability::EqualSteps;
 pub use start::{Memoryless, Replay, block_start, stepwise_start};

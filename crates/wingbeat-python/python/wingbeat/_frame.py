@@ -36,6 +36,8 @@ class Wake:
     """Nodes, N components, shape (rows + 1, columns + 1, 3) [m]."""
     circulation_m2_per_s: NDArray[Any]
     """Of the rings, shape (rows, columns)."""
+    shared_circulation_m2_per_s: NDArray[Any]
+    """Of rings that have become particles, in the edges that they share with rings, shape (rows, columns); 0 elsewhere."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,6 +1,6 @@
 //! The history as Parquet; history, frames, case and summary as HDF5.
 //!
-//! Layout of the HDF5 file, version 4: see docs/exports.md.
+//! Layout of the HDF5 file, version 5: see docs/exports.md.
 
 use std::path::Path;
 
@@ -12,10 +12,11 @@ use crate::Summary;
 use crate::columns::{Column, TIME};
 use crate::frames::{self, Frame, Mesh};
 use crate::particles::{Cloud, NUMBERS};
+use crate::vtp::SHARED;
 use wingbeat_case::IoError;
 
 /// Version of the layout of the HDF5 file.
-const LAYOUT: i64 = 4;
+const LAYOUT: i64 = 5;
 
 /// The history as a table.
 pub(super) fn parquet(source: &Source, path: &Path) -> Result<(), IoError> {
@@ -148,12 +149,12 @@ struct FrameArrays {
 
 /// The arrays of surfaces or of wakes: all frames one after the other, with offsets.
 struct Arrays {
-    cells: [&'static str; 3],
+    cells: Vec<&'static str>,
     point_offsets: usize,
     cell_offsets: usize,
     points: usize,
     quads: usize,
-    values: [usize; 3],
+    values: Vec<usize>,
 }
 
 impl FrameArrays {
@@ -175,8 +176,13 @@ impl FrameArrays {
         let axes =
             Attribute::Text("picture axes (n1, -n2, -n3): x forward, y left, z up".to_owned());
         layout.note_group("frames", "axes", axes);
-        let surface = ["circulation_m2_per_s", "pressure_jump_pascal", "surface"];
-        let wake = ["circulation_m2_per_s", "age_rows", "sheet"];
+        let surface = vec!["circulation_m2_per_s", "pressure_jump_pascal", "surface"];
+        let mut wake = vec!["circulation_m2_per_s", "age_rows", "sheet"];
+        // Older frames have no such array.
+        let last = Frame::part(source.dir.path(), steps[n - 1], 1)?;
+        if last.cells.contains_key(SHARED) {
+            wake.push(SHARED);
+        }
         Ok(Some(Self {
             steps: at,
             times,
@@ -217,7 +223,7 @@ impl Arrays {
         group: &str,
         frames: usize,
         [points, quads]: [usize; 2],
-        cells: [&'static str; 3],
+        cells: Vec<&'static str>,
         layout: &mut Layout,
     ) -> Self {
         let mut add = |name: &str, kind: Kind, shape: &[usize], unit: &str| {
@@ -226,7 +232,7 @@ impl Arrays {
             dataset
         };
         let units = |name: &str| match name {
-            "circulation_m2_per_s" => "m2 s-1",
+            "circulation_m2_per_s" | SHARED => "m2 s-1",
             "pressure_jump_pascal" => "Pa",
             _ => "1",
         };
@@ -235,7 +241,9 @@ impl Arrays {
             cell_offsets: add("cell_offsets", Kind::Integer, &[frames + 1], "1"),
             points: add("points_m", Kind::Float, &[points, 3], "m"),
             quads: add("quads", Kind::Integer, &[quads, 4], "1"),
-            values: cells.map(|name| add(name, Kind::Float, &[quads], units(name))),
+            values: (cells.iter())
+                .map(|name| add(name, Kind::Float, &[quads], units(name)))
+                .collect(),
             cells,
         }
     }
@@ -256,8 +264,8 @@ impl Arrays {
             .collect();
         file.floats(self.points, 3 * at[0], mesh.points.as_flattened())?;
         file.integers(self.quads, 4 * at[1], &corners)?;
-        for (name, dataset) in self.cells.iter().zip(self.values) {
-            file.floats(dataset, at[1], mesh.cell(name))?;
+        for (name, dataset) in self.cells.iter().zip(&self.values) {
+            file.floats(*dataset, at[1], mesh.cell(name))?;
         }
         *at = [at[0] + mesh.points.len(), at[1] + mesh.quads.len()];
         file.integers(self.point_offsets, k + 1, &[at[0] as i64])?;

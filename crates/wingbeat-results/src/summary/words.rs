@@ -8,7 +8,7 @@ use super::impulse::ImpulseBudget;
 use super::means::ManyBeats;
 use super::numbers::Summary;
 use crate::Outcome;
-use crate::fixed::{fixed, signed};
+use crate::fixed::{fixed, signed, signed_or_power};
 
 impl Summary {
     /// For people; the verdict comes first, its word in front.
@@ -49,17 +49,17 @@ impl Summary {
         let _ = writeln!(
             out,
             "The body moved {} mm forward (n1), {} mm right (n2), {} mm up;",
-            signed(x, 3),
-            signed(y, 3),
-            signed(-z, 3)
+            signed_or_power(x, 3),
+            signed_or_power(y, 3),
+            signed_or_power(-z, 3)
         );
         let [pitch, yaw, roll] = self.turn_deg;
         let _ = writeln!(
             out,
             "it turned {} deg in pitch, {} in yaw, {} in roll (Euler 2-3-1).",
-            signed(pitch, 2),
-            signed(yaw, 2),
-            signed(roll, 2)
+            signed_or_power(pitch, 2),
+            signed_or_power(yaw, 2),
+            signed_or_power(roll, 2)
         );
     }
 

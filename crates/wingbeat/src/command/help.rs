@@ -121,7 +121,7 @@ fn groups(command: &Command, width: usize) -> String {
 /// `wingbeat completions SHELL`.
 pub(crate) fn completions(shell: Shell) {
     let mut script = vec![];
-    clap_complete::generate(shell, &mut Cli::command(), PROGRAM, &mut script);
+    clap_complete::generate(shell, &mut completed(), PROGRAM, &mut script);
     let script = String::from_utf8_lossy(&script);
     // The shells of which the generator completes either names or files: a case is both.
     let script = match shell {
@@ -129,6 +129,18 @@ pub(crate) fn completions(shell: Shell) {
         _ => script.into_owned(),
     };
     terminal::output(format_args!("{script}"));
+}
+
+/// The program as shells complete it: without the commands of `campaign` that it calls itself.
+fn completed() -> Command {
+    Cli::command().mut_subcommand("campaign", |campaign| {
+        let shown = campaign.get_subcommands().filter(|c| !c.is_hide_set());
+        Command::new("campaign")
+            .about(campaign.get_about().cloned().unwrap_or_default())
+            .subcommand_required(true)
+            .args(campaign.get_arguments().cloned())
+            .subcommands(shown.cloned())
+    })
 }
 
 /// A script of zsh that completes files, too, where it completes the presets.
@@ -244,7 +256,7 @@ mod tests {
     fn behaves_shells_complete_names() {
         let script = |shell| {
             let mut script = vec![];
-            clap_complete::generate(shell, &mut Cli::command(), PROGRAM, &mut script);
+            clap_complete::generate(shell, &mut completed(), PROGRAM, &mut script);
             String::from_utf8(script).unwrap()
         };
         let [bash, zsh] = [script(Shell::Bash), with_files(&script(Shell::Zsh))];
@@ -253,6 +265,12 @@ mod tests {
                 bash.contains(&format!(" {}", preset.name)),
                 "{}",
                 preset.name
+            );
+        }
+        assert!(bash.contains("campaign__run") || bash.contains("campaign__subcmd__run"));
+        for script in [&bash, &zsh] {
+            assert!(
+                !script.contains("campaign__work") && !script.contains("campaign__subcmd__work")
             );
         }
         let cases = zsh

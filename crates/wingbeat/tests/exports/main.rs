@@ -2,15 +2,13 @@
 //! glTF validator, which the test installs beside itself.
 
 mod animation;
+mod circulations;
 #[path = "../support/mod.rs"]
 mod support;
 
 use std::fs;
 use std::path::PathBuf;
 use std::process::Command;
-
-use wingbeat::math::DVec3;
-use wingbeat::results::frames::Mesh;
 
 use support::readers::{python, readers, store, works};
 use support::{Scratch, flown, required, wingbeat};
@@ -134,69 +132,6 @@ fn refuses_exports_of_what_is_not_there() {
     );
     assert!(!scratch.0.join("run/history.parquet").exists());
     assert!(!scratch.0.join("run/history.parquet.part").exists());
-}
-
-/// Velocity that vortex filaments along the edges of the panels of a frame induce, each panel with its circulation,
-/// right-handed about its corners [m/s]; places and velocity in picture axes.
-fn induced(mesh: &Mesh, x: [f64; 3]) -> DVec3 {
-    let x = DVec3::from(x);
-    let filament = |a: DVec3, b: DVec3| {
-        let (r1, r2) = (x - a, x - b);
-        let cross = r1.cross(r2);
-        let along = (b - a).dot(r1.normalize() - r2.normalize());
-        let square = cross.length_squared().max(f64::MIN_POSITIVE);
-        cross * along / square / (4.0 * std::f64::consts::PI)
-    };
-    let gamma = mesh.cell("circulation_m2_per_s");
-    let ring = |(quad, gamma): (&[usize; 4], &f64)| -> DVec3 {
-        let corner = |k: usize| DVec3::from(mesh.points[quad[k % 4]]);
-        (0..4)
-            .map(|k| *gamma * filament(corner(k), corner(k + 1)))
-            .sum()
-    };
-    mesh.quads.iter().zip(gamma).map(ring).sum()
-}
-
-/// Circulations in files are those of one convention: Biot and Savart's law over surfaces and wakes gives the
-/// velocity of the air.
-#[test]
-fn agrees_the_velocity_of_exported_circulations_with_that_of_the_flight() {
-    let scratch = Scratch::new("circulations");
-    let run = [
-        "run",
-        "rectangular-wing",
-        "--quiet",
-        "--out=run",
-        "--set=time.steps=12",
-        "--set=output.keep_checkpoint=true",
-        "--set=output.frames_every=12",
-        "--set=output.page=false",
-    ];
-    flown(&scratch.0, &run);
-    let mesh =
-        |stem: &str| Mesh::read(&scratch.0.join(format!("run/frames/{stem}_000012.vtp"))).unwrap();
-    let frame = [mesh("surfaces"), mesh("wakes")];
-    let places = [
-        [0.2, 0.1, 0.05],
-        [0.0, 0.2, 0.3],
-        [-0.3, 0.6, -0.3],
-        [0.0, 0.0, -0.2],
-    ];
-    let stream = DVec3::new(-10.0, 0.0, 0.0);
-    for [x, y, z] in places {
-        let point = format!("--point={x},{y},{z}");
-        let out = wingbeat(&scratch.0, &["velocity", "run", "--json", &point]);
-        let said: serde_json::Value = serde_json::from_slice(&out.stdout).unwrap();
-        let of = |k: usize| said["points"][0]["velocity_m_s"][k].as_f64().unwrap();
-        let flown = DVec3::new(of(0), of(1), of(2)) - stream;
-        let sum: DVec3 = frame.iter().map(|m| induced(m, [x, -y, -z])).sum();
-        let computed = DVec3::new(sum.x, -sum.y, -sum.z);
-        // Measured 4e-8 of what is induced (cores smooth filaments near by); with the other sign of the
-        // surfaces it is its size.
-        let difference = (computed - flown).length() / flown.length();
-        println!("{x} {y} {z}: {difference:.1e} of {:.3}", flown.length());
-        assert!(difference < 1e-6, "{x} {y} {z}: {computed} {flown}");
-    }
 }
 
 /// A head of 0.84 mm whose middle lies 0.21 mm behind the nose, before a body held level, above a ground 5 mm below.

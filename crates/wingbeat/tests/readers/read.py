@@ -58,7 +58,7 @@ def cells(data):
 
 def check_hdf5(columns, frames):
     with h5py.File(result / "flight.h5") as file:
-        assert file.attrs["layout_version"] == 4
+        assert file.attrs["layout_version"] == 5
         assert file["case_toml"][()].decode() == (result / "case.toml").read_text()
         summary = json.loads(file["summary_json"][()])
         assert summary["steps"] == len(columns["time_s"]) - 1

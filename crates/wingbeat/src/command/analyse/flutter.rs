@@ -60,17 +60,22 @@ pub(crate) fn run(args: &FlutterArgs) -> Result<(), Failure> {
     args.report.deliver([], |report, []| {
         let case = LoadedCase::find(&args.case, &args.set)?;
         let mut found: Vec<Condition> = vec![];
+        let asked = args.speeds.values().collect::<Vec<f64>>();
+        report.value("asked_speeds_m_s", asked.clone());
+        report.value("complete", false);
         if case.setup.air.keeps_wake() {
             announce!(
                 "{}: steady states and responses in a wake; a speed takes minutes on fine meshes",
                 case.name
             );
         }
-        for speed in args.speeds.values() {
+        for (done, &speed) in asked.iter().enumerate() {
             let next = match watched("flutter", || condition(&case.setup, speed, &settings)) {
                 Ok(next) => next,
                 Err(error) => {
                     conclude_all(report, &case, &found);
+                    report.value("missing_speeds_m_s", &asked[done..]);
+                    report.value("error", error.to_string());
                     return Err(error.into());
                 }
             };
@@ -86,6 +91,7 @@ pub(crate) fn run(args: &FlutterArgs) -> Result<(), Failure> {
             report.value("speeds", all.collect::<Vec<_>>());
         }
         conclude_all(report, &case, &found);
+        report.value("complete", true);
         Ok(())
     })
 }
@@ -128,7 +134,7 @@ fn tell(report: &mut Report, c: &Condition, wing: Option<&str>) {
             m.share
         );
     }
-    if let Some((motion, uncertainty)) = c.divergence.filter(|_| c.diverges()) {
+    if let Some((motion, uncertainty)) = c.divergence {
         line!(
             report,
             "  {:>10}{:>12}{:>12}{:>12.4}{:>10.1e}{:>12}{:>10.4}{wing}",
@@ -325,15 +331,24 @@ fn conclude(report: &mut Report, conditions: &[Condition], found: &[Crossing]) {
     if let Some(text) = doubtful(&speeds, found) {
         line!(report, "\n{text}");
     }
-    if conditions
-        .iter()
-        .any(|c| (0..c.modes.len()).any(|k| c.grows(k).is_none()))
-    {
-        line!(
-            report,
-            "\nModes whose growth is smaller than what is not known of it (+-) are neutral within what is known: they count for no onset."
-        );
+    if let Some(text) = neutral(conditions) {
+        line!(report, "\n{text}");
     }
+}
+
+/// That growth that is not known well enough counts for nothing, where there is such growth.
+fn neutral(conditions: &[Condition]) -> Option<String> {
+    let modes = |c: &Condition| (0..c.modes.len()).any(|k| c.grows(k).is_none());
+    let motion = |c: &Condition| c.divergence.is_some() && !c.diverges();
+    let of = match (conditions.iter().any(modes), conditions.iter().any(motion)) {
+        (false, false) => return None,
+        (true, false) => "Modes",
+        (false, true) => "Motions that do not vibrate (none in the column Hz)",
+        (true, true) => "Modes, and motions that do not vibrate (none in the column Hz),",
+    };
+    Some(format!(
+        "{of} whose growth is smaller than what is not known of it (+-) are neutral within what is known: they count for no onset."
+    ))
 }
 
 /// What is said where no growth changes its sign and none is positive throughout.

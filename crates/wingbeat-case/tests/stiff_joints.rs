@@ -1,0 +1,113 @@
+//! Joints whose springs and dampers act faster than the steps of an integrator bear.
+
+use std::path::Path;
+
+use wingbeat_case::LoadedCase;
+use wingbeat_flight::{FlightError, FlightSetup, Record, Simulation, growing_joint, inertia_about};
+
+/// A wing on a hinge with this damping \[N m s/rad\] and stiffness \[N m/rad\] that is let go at 1 deg, on a
+/// body that is held, in 40 steps of 1.25e-4 s a beat.
+fn setup(damping: f64, stiffness: f64, set: &[&str]) -> FlightSetup {
+    let element = format!(
+        "joint.hinge-right.element=[{{ damping_newton_m_s_per_rad = {damping:e}, stiffness_newton_m_per_rad = {stiffness:e} }}]"
+    );
+    let own = [
+        "dynamics.integrator=hamming",
+        "time.steps_per_beat=40",
+        element.as_str(),
+    ];
+    let all: Vec<String> = own.iter().chain(set).map(|s| (*s).to_owned()).collect();
+    let text = "format = 1
+gravity_m_s2 = [0, 0, 0]
+[time]
+beats = 3
+[motion]
+frequency_hz = 200.0
+start = \"impulsive\"
+[flight]
+mode = \"tethered\"
+[air]
+model = \"none\"
+[body]
+mass_kg = 1e-6
+inertia_about_centre_kg_m2 = [6e-14, 4e-13, 4e-13, 0, 0, 0]
+[wing.right]
+hinge_m = [0, 0.36e-3, 0]
+mass_kg = 5.35e-9
+planform.rectangle = { chord_m = 0.7e-3, span_m = 2.4e-3, root_offset_m = 0.1e-3 }
+motion.phi.fourier = { cosine_deg = [0.0] }
+[joint.hinge-right]
+child = \"right\"
+kind = \"revolute\"
+axis = [0, 1, 0]
+start_deg = [1.0]
+";
+    let case = LoadedCase::from_text("hinge", text, Path::new(""), &all);
+    case.unwrap_or_else(|e| panic!("{e}")).setup
+}
+
+fn flown(setup: FlightSetup) -> Result<Vec<Record>, FlightError> {
+    let mut flight = Simulation::new(setup)?;
+    let mut records = vec![flight.record().clone()];
+    while !flight.finished() {
+        records.push(flight.step()?.clone());
+    }
+    Ok(records)
+}
+
+/// What is left of a wing on a spring and a damper grows as the largest root of the method has it: by a damper
+/// alone it alternates.
+#[test]
+fn agrees_growth_of_flown_hinges_with_the_roots_of_the_method() {
+    let any = setup(1e-12, 1e-9, &[]);
+    let hinge = &any.joints[0];
+    let inertia = inertia_about(&any, hinge, hinge, 0).expect("it turns");
+    let h = any.time.step;
+    for (damping, vibration) in [(1.5, 0.05), (0.05, 1.25)] {
+        let [c, k] = [damping * inertia / h, inertia * (vibration / h).powi(2)];
+        let flight = setup(c, k, &["time.beats=1.5"]);
+        let found = growing_joint(&flight).expect("grows");
+        let records = flown(flight).expect("flown");
+        assert!((found.damping / damping - 1.0).abs() < 1e-12); // rounding
+        assert!((found.vibration / vibration - 1.0).abs() < 1e-12);
+        // Second differences: what does not alternate changes slowly.
+        let rate = |k: usize| records[k].joints[0][1];
+        let bend = |k: usize| (rate(k + 1) - 2.0 * rate(k) + rate(k - 1)).abs();
+        let last = records.len() - 2;
+        let most = |from: usize| (from - 10..from).map(bend).fold(0.0, f64::max);
+        let growth = (most(last) / most(last - 20)).powf(0.05);
+        println!("{growth} {found:?}");
+        assert!(
+            (growth / found.growth - 1.0).abs() < 5e-3,
+            "{growth} {found:?}"
+        );
+    }
+}
+
+/// Flights that such a joint ends name it, its numbers and a method that carries it, and so does what is
+/// doubted beforehand; by that method they are flown.
+#[test]
+fn behaves_flights_that_a_damper_ends_name_it() {
+    let damped = |set: &[&str]| setup(1.2e-11, 5e-9, set);
+    let ended = flown(damped(&[])).expect_err("too fast");
+    assert!(matches!(ended, FlightError::JointGrows { .. }), "{ended}");
+    let said = ended.to_string();
+    for words in [
+        "joint `hinge-",
+        "dynamics.integrator = \"hamming\"",
+        "c h / I = ",
+        "take dynamics.integrator = \"bdf\"",
+        "times as many steps",
+    ] {
+        assert!(said.contains(words), "{said}\nhas no {words}");
+    }
+    let doubts = wingbeat_analysis::estimate(&damped(&[])).doubts.join("\n");
+    assert!(
+        doubts.contains("c h / I = ") && doubts.contains("\"bdf\""),
+        "{doubts}"
+    );
+    let carried = damped(&["dynamics.integrator=bdf"]);
+    assert_eq!(growing_joint(&carried), None);
+    flown(carried).expect("flown");
+    assert_eq!(growing_joint(&setup(1e-12, 1e-9, &[])), None, "slow enough");
+}

@@ -1,0 +1,95 @@
+//! Why a flight ended: errors that growth on a free joint makes are said to be its.
+
+use wingbeat_dynamics::DynamicsError;
+
+use super::Simulation;
+use crate::error::FlightError;
+use crate::joint_steps::growing_joint;
+use crate::setup::IntegratorChoice;
+
+impl Simulation {
+    /// The error `ended` of a step, or what made it: a free joint whose motion the integrator does not carry.
+    pub(super) fn explained(&self, ended: FlightError) -> FlightError {
+        let may_follow = matches!(
+            ended,
+            FlightError::Dynamics(DynamicsError::NotFinite { .. })
+                | FlightError::NotConverged { .. }
+                | FlightError::Asymmetric { .. }
+                | FlightError::TurnedPast { .. }
+        );
+        if !may_follow {
+            return ended;
+        }
+        let (setup, integrator) = (&self.setup, self.setup.integrator.name());
+        let time = self.time(self.state.step);
+        let ended = Box::new(ended);
+        if let Some(found) = growing_joint(setup) {
+            return FlightError::JointGrows {
+                time,
+                acts: Some(found.said(setup)),
+                joint: found.joint,
+                integrator,
+                remedy: found.remedy,
+                ended,
+            };
+        }
+        let is_explicit = matches!(
+            setup.integrator,
+            IntegratorChoice::Hamming | IntegratorChoice::Adams
+        );
+        match is_explicit.then(|| self.alternating_joint()).flatten() {
+            Some(joint) => FlightError::JointGrows {
+                time,
+                joint,
+                integrator,
+                acts: None,
+                remedy: "dynamics.integrator = \"bdf\", or more steps (time.steps_per_beat, or a smaller time.step_s)".into(),
+                ended,
+            },
+            None => *ended,
+        }
+    }
+
+    /// The first joint whose rate went to and fro in the last steps, farther each time.
+    fn alternating_joint(&self) -> Option<String> {
+        let equations = self.equations();
+        let (core, mechanism) = (&equations.core, &equations.mechanism);
+        let t = self.time(self.state.step);
+        let mut motions = self.scratch.motions.clone();
+        let mut rates: Vec<Vec<f64>> = vec![];
+        for y in &self.state.past.y {
+            let mut found = vec![];
+            core.motions(t, y, &mut core.workspace(), &mut motions)
+                .ok()?;
+            mechanism.coordinates(t, &motions, &mut found);
+            rates.push(found.iter().map(|[_, rate]| *rate).collect());
+        }
+        let names = mechanism.joints().iter();
+        let names = names.flat_map(|j| (0..j.model.kind.directions()).map(|_| &j.name));
+        let of = |k: usize| std::array::from_fn(|n| rates[n][k]);
+        names
+            .enumerate()
+            .find(|(k, _)| zigzags(of(*k)))
+            .map(|(_, name)| name.clone())
+    }
+}
+
+/// Whether rates at four steps, oldest first, go to and fro, farther each time.
+fn zigzags(u: [f64; 4]) -> bool {
+    let [a, b, c] = [u[1] - u[0], u[2] - u[1], u[3] - u[2]];
+    a * b < 0.0 && b * c < 0.0 && b.abs() > a.abs() && c.abs() > b.abs()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exact_rates_that_alternate_and_grow_zigzag() {
+        assert!(zigzags([1.0, -1.5, 2.25, -3.375]));
+        assert!(zigzags([10.0 + 1.0, 10.0 - 1.5, 10.0 + 2.25, 10.0 - 3.375]));
+        assert!(!zigzags([1.0, -0.5, 0.25, -0.125]), "dies out");
+        assert!(!zigzags([1.0, 2.0, 4.0, 8.0]), "grows one way");
+        assert!(!zigzags([0.0; 4]));
+    }
+}
