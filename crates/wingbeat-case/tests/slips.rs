@@ -477,34 +477,10 @@ fn behaves_masses_of_parts_in_another_unit_are_doubted() {
 #[test]
 fn refuses_too_many_steps_by_their_number_and_cases_without_a_format() {
     let said = refusal("fruit-fly-blade", &["time.beats=1e300"]);
-    assert!(said.contains("4.000e301 steps are too many"), "{said}");
+    assert!(said.contains("1.000e302 steps are too many"), "{said}");
     let said = refusal("fruit-fly-blade", &["time.beats=1e8"]);
-    assert!(said.contains("4000000000 steps are too many"), "{said}");
+    assert!(said.contains("10000000000 steps are too many"), "{said}");
     let bare = LoadedCase::from_text("bare", "name = \"x\"", Path::new(""), &[]);
     let said = bare.expect_err("no format").to_string();
     assert!(said.contains("add `format = 1`"), "{said}");
-}
-
-/// Whether wings pass through each other hangs on their motion, not on their mesh: coarse facets overlap by
-/// less than half a per cent of the chord.
-#[test]
-fn invariant_wings_cross_or_do_not_whatever_their_mesh() {
-    for [chordwise, spanwise] in [[3, 5], [4, 8], [5, 10], [8, 16]] {
-        let crossing = |more: &[String]| {
-            let mut set = vec![
-                format!("wing.right.mesh.chordwise={chordwise}"),
-                format!("wing.right.mesh.spanwise={spanwise}"),
-            ];
-            set.extend_from_slice(more);
-            let case = LoadedCase::find("fruit-fly-hover", &set).expect("a case");
-            let doubts = wingbeat_analysis::estimate(&case.setup).doubts.join("\n");
-            doubts.contains("pass through each other")
-        };
-        assert!(!crossing(&[]), "{chordwise} x {spanwise}");
-        let near = ["wing.right.hinge_m=[0.6e-3, 0.1e-3, -0.15e-3]".to_owned()];
-        assert!(
-            crossing(&near),
-            "{chordwise} x {spanwise}, hinges moved together"
-        );
-    }
 }
