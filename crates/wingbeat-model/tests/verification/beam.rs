@@ -4,7 +4,7 @@ use wingbeat_math::{DMat3, DVec3, r1, r2};
 use wingbeat_model::deformation::SpanLaw;
 use wingbeat_model::structure::{Blank, Damping};
 use wingbeat_model::{
-    BeamMass, Coupling, ElasticBody, GridMesh, Members, WingBeam, WingShell, WingStructure,
+    BeamMass, Coupling, ElasticBody, GridMesh, Members, Spacing, WingBeam, WingShell, WingStructure,
 };
 use wingbeat_structure::{
     Configuration, FrameMotion, NodeLoad, StaticSettings, equilibrium, modes,

@@ -311,7 +311,13 @@ mod tests {
         let e = Ensemble::of(&members, false).unwrap();
         assert_eq!(e.members_are, Members::Independent, "{}", e.remark());
         assert!(e.beats.iter().all(|b| b.spread > 0.02));
-        let error = e.means.as_ref().unwrap().lift_newton.standard_error;
+        let error = e
+            .means
+            .as_ref()
+            .unwrap()
+            .estimate
+            .lift_newton
+            .standard_error;
         assert!(error.is_some_and(|s| s > 2e-3), "{error:?}");
     }
 
