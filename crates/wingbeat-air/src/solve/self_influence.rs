@@ -275,7 +275,9 @@ mod tests {
 
     fn wing() -> Vec<DVec3> {
         let at = |k: usize| [k / (COLUMNS + 1), k % (COLUMNS + 1)].map(|i| i as f64);
-        let place = |[i, j]: [f64; 2]| DVec3::new(0.1 * i, 0.2 * j, 0.02 * (i * j).sin());
+        // Panels of one length along the chord: control points are the same without a shape at rest.
+        let place =
+            |[i, j]: [f64; 2]| DVec3::new(0.1 * i + 0.03 * j.cos(), 0.2 * j, 0.02 * j.sin());
         (0..(ROWS + 1) * (COLUMNS + 1))
             .map(|k| place(at(k)))
             .collect()

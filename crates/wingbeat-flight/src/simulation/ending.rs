@@ -59,7 +59,8 @@ impl Simulation {
         let mut rates: Vec<Vec<f64>> = vec![];
         for y in &self.state.past.y {
             let mut found = vec![];
-            core.motions(t, y, &mut core.workspace(), &mut motions)
+            let state = y.get(..core.dim())?; // without quadratures
+            core.motions(t, state, &mut core.workspace(), &mut motions)
                 .ok()?;
             mechanism.coordinates(t, &motions, &mut found);
             rates.push(found.iter().map(|[_, rate]| *rate).collect());

@@ -154,7 +154,7 @@ mod tests {
     /// `t = q sqrt(2 / (1 - q^2))`, `q = 2 p - 1` [Johnson, Kotz & Balakrishnan 1995, ch. 28]; with many
     /// `t = 1 + 1 / (2 nu) + 1 / (4 nu^2)` [Abramowitz & Stegun 1964, eq. 26.7.5].
     #[test]
-    fn closed_form_students_factor() {
+    fn exact_students_factor() {
         let q = 2.0 * BELOW_ONE_DEVIATION - 1.0;
         for (freedom, exact) in [
             (1.0, (0.5 * std::f64::consts::PI * q).tan()),
