@@ -111,3 +111,33 @@ fn behaves_flights_that_a_damper_ends_name_it() {
     flown(carried).expect("flown");
     assert_eq!(growing_joint(&setup(1e-12, 1e-9, &[])), None, "slow enough");
 }
+
+/// A flight that ends for another reason says that reason, by every form of the equations, with joints and without.
+#[test]
+fn behaves_flights_that_do_not_converge_say_so_by_every_form() {
+    for (preset, form) in [
+        ("fruit-fly-blade", "momentum"),
+        ("fruit-fly-blade", "euler"),
+        ("fruit-fly-blade", "quaternion"),
+        ("robobee", "momentum"),
+        ("robobee", "quaternion"),
+    ] {
+        let set = [
+            "corrector.max_passes=1".to_owned(),
+            "corrector.tolerance=1e-15".to_owned(),
+            "time.beats=0.5".to_owned(),
+            "dynamics.integrator=hamming".to_owned(),
+            format!("dynamics.formulation={form}"),
+        ];
+        let case =
+            LoadedCase::find(preset, &set).unwrap_or_else(|e| panic!("{preset} {form}: {e}"));
+        let steps = case.setup.time.steps;
+        let flown = Simulation::new(case.setup)
+            .and_then(|mut flight| (0..steps).try_for_each(|_| flight.step().map(|_| ())));
+        let ended = flown.expect_err("one pass is none");
+        assert!(
+            matches!(ended, FlightError::NotConverged { .. }),
+            "{preset} {form}: {ended:?}"
+        );
+    }
+}

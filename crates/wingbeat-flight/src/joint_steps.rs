@@ -48,7 +48,7 @@ impl JointSteps {
     /// What is said of it under the integrator of `setup`.
     pub fn said(&self, setup: &FlightSetup) -> String {
         format!(
-            "spring and damper of joint `{}` act faster than dynamics.integrator = \"{}\" carries: c h / I = {:.2}, w h = {:.2} (damping, angular frequency, and step; rigid and in a vacuum), where a disturbance becomes {:.2} times as large in every step",
+            "spring and damper of joint `{}` act faster than dynamics.integrator = \"{}\" carries: c h / I = {:.2}, w h = {:.2} (damping, angular frequency, and step; rigid, in a vacuum, on a parent that is held), where a disturbance becomes {:.2} times as large in every step",
             self.joint,
             setup.integrator.name(),
             self.damping,

@@ -5,7 +5,7 @@
 //! pressure on the sheet and the suction at its free edges. Of a segment of an edge that sheds a
 //! part is wake and feels nothing.
 
-use crate::geometry::{Edge, NodeMotion, Strip, section};
+use crate::geometry::{Edge, NodeMotion, Strip, column, section};
 use crate::lattice::Lattice;
 use crate::loads::front::add_front;
 use crate::loads::lag::add_lag;
@@ -112,18 +112,21 @@ impl Segments {
         force - force.dot(n) * n
     }
 
-    /// Suction of the leading edge of a strip [N]: what the segments along the span pull forward along the panels,
-    /// normal to the edge, `aft` being the unit vector backward. Pressure on camber is no suction, and what pulls at the
-    /// segments along the chord is that of side edges: on a wing swept back by 45 deg it has a part normal to the leading
-    /// edge a quarter as large as the suction there.
-    fn leading_suction(&self, strip: &Strip, aft: DVec3, normals: &[DVec3]) -> f64 {
+    /// Suction of the leading edge of a strip [N], normal to it: what the segments along the span pull forward along the
+    /// column of panels, over the cosine of the sweep. Pressure on camber is no suction, and what pulls at the segments
+    /// along the chord is that of side edges: on a wing swept back by 45 deg it has a part normal to the leading edge a
+    /// quarter as large as the suction there.
+    fn leading_suction(&self, strip: &Strip, position: &[DVec3], normals: &[DVec3]) -> f64 {
         let along = |&p: &usize| {
             let (force, n) = (self.spanwise_force[p], normals[p]);
             force - force.dot(n) * n
         };
         let pull: DVec3 = strip.panels.iter().map(along).sum();
         let first = normals[strip.panels[0]];
-        -pull.dot((aft - aft.dot(first) * first).normalize_or_zero())
+        let [aft, back] = [section(strip, position).0, column(strip, position)]
+            .map(|x| (x - x.dot(first) * first).normalize_or_zero());
+        // Segments farther aft may have less sweep, as those of a delta wing.
+        -pull.dot(back) / aft.dot(back)
     }
 
     /// Velocity of the air relative to the places on the segments that are wanted.
@@ -261,9 +264,9 @@ impl Segments {
         self.at_edge.clear();
         for (k, strip) in lattice.strips().iter().enumerate() {
             let strip_now = yielding((lattice, law), strip, motion, (state.fed[k], dt), out);
-            let (parts, aft) = (strip_now.parts, strip_now.aft);
+            let parts = strip_now.parts;
             out.fed[k] = strip_now.fed;
-            let suction = self.leading_suction(strip, aft, &out.panels.normal);
+            let suction = self.leading_suction(strip, &motion.position, &out.panels.normal);
             let side = strip_now.parameter.signum() * out.panels.normal[strip.panels[0]];
             self.at_edge.push(parts.vortex * suction * side);
             self.slacken(strip, 1.0 - parts.suction, &out.panels.normal);
@@ -301,8 +304,7 @@ impl Segments {
     /// which the pressure of the strip pushes. It acts where suction does, at the leading edge.
     fn polhamus(&self, lattice: &Lattice, motion: &NodeMotion, out: &mut AirLoads) {
         for strip in lattice.strips() {
-            let (aft, _) = section(strip, &motion.position);
-            let suction = self.leading_suction(strip, aft, &out.panels.normal);
+            let suction = self.leading_suction(strip, &motion.position, &out.panels.normal);
             let suction = suction.max(0.0);
             let first = strip.panels[0];
             let normal = out.panels.normal[first];

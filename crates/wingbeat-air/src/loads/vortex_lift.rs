@@ -14,8 +14,6 @@ pub(crate) struct Yielding {
     pub fed: f64,
     /// Suction parameter, positive where the leading panel lifts along its normal \[1\].
     pub parameter: f64,
-    /// Unit vector backward.
-    pub aft: DVec3,
 }
 
 /// What strip `strip` makes of its forces, `dt` [s] after its vortex had been fed for `before` chords.
@@ -37,7 +35,6 @@ pub(crate) fn yielding(
         parts: law.parts(parameter, fed),
         fed,
         parameter,
-        aft,
     }
 }
 

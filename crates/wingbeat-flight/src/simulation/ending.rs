@@ -16,6 +16,7 @@ impl Simulation {
                 | FlightError::NotConverged { .. }
                 | FlightError::Asymmetric { .. }
                 | FlightError::TurnedPast { .. }
+                | FlightError::Air(_)
         );
         if !may_follow {
             return ended;

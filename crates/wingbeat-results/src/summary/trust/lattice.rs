@@ -3,7 +3,7 @@
 use wingbeat_air::{
     AirSettings, Convection, CoreModel, Friction, LeadingEdge, LoadMethod, SectionDrag,
 };
-use wingbeat_flight::{AirOptions, FlightSetup, IntegratorChoice};
+use wingbeat_flight::{AirOptions, FlightSetup, IntegratorChoice, growing_joint};
 
 use super::motion::NO_MEANING;
 use crate::summary::beats::BeatMeans;
@@ -33,7 +33,9 @@ pub(super) fn warnings(
     failures(setup, &air.lattice, summary, list);
     let still = lattice.images.is_empty() && lattice.wind.is_none();
     if still {
-        two_ways_to_the_lift(lattice, &summary.beats, list);
+        // What a sudden start gives in no time is no part of the mean force of the first beat.
+        let later = &summary.beats[usize::from(summary.beats.len() > 1)..];
+        two_ways_to_the_lift(lattice, later, list);
     }
     wakes(summary, list);
 }
@@ -112,19 +114,26 @@ fn failures(setup: &FlightSetup, lattice: &AirSettings, summary: &Summary, list:
     if summary.alternating_steps < ALTERNATING {
         return;
     }
-    if setup.is_moved_by_forces() {
+    let turns_back = format!(
+        "Forces alternate from step to step (up to {} steps in a row)",
+        summary.alternating_steps
+    );
+    if let Some(found) = growing_joint(setup) {
+        let (said, remedy) = (found.said(setup), found.remedy);
+        list.fault(format!(
+            "{turns_back}: {said}, and the motion means nothing; take {remedy}."
+        ));
+    } else if setup.is_moved_by_forces() {
         let remedy = match setup.integrator {
             IntegratorChoice::Bdf => "take smaller steps, or larger ones",
             _ => "set dynamics.integrator = \"bdf\"",
         };
         list.fault(format!(
-            "Forces alternate from step to step (up to {} steps in a row): the air that moves with wings or body weighs too much for the integrator, and the motion means nothing; {remedy}.",
-            summary.alternating_steps
+            "{turns_back}: the air that moves with wings or body weighs too much for the integrator, and the motion means nothing; {remedy}."
         ));
     } else {
         list.note(format!(
-            "Forces alternate from step to step (up to {} steps in a row): read means{}.",
-            summary.alternating_steps,
+            "{turns_back}: read means{}.",
             match lattice.leading {
                 LeadingEdge::Suction { .. } if lattice.shedding.leading => ", or take air.leading_edge = \"suction_implicit\", which does not shed by the step before",
                 _ => "",
