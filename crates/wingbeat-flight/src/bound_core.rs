@@ -6,7 +6,6 @@
 //! goes with the mean length of the two foremost panels, 0.7 and 1.5 % with 0.14 and 0.30 of it.
 
 use crate::setup::{AirModel, FlightSetup};
-use wingbeat_air::CoreModel;
 use wingbeat_model::Wing;
 
 /// Core over the length of the foremost panels from which lift is 1 % high \[1\].
@@ -19,7 +18,7 @@ impl FlightSetup {
         let AirModel::VortexLattice(air) = &self.air else {
             return None;
         };
-        let radius = radius(&air.lattice.bound_core)?;
+        let radius = air.lattice.bound_core.radius()?;
         let parts = self.animal.wings.iter().map(|w| (w, radius / foremost(w)));
         let wide: Vec<_> = parts.filter(|(_, part)| *part > WIDE).collect();
         let most = wide.iter().map(|(_, part)| *part).reduce(f64::max)?;
@@ -39,15 +38,4 @@ fn foremost(wing: &Wing) -> f64 {
     let length = |j: usize| mesh.nodes[mesh.node(0, j)].distance(mesh.nodes[mesh.node(rows, j)]);
     let sum: f64 = (0..=mesh.cols).map(length).sum();
     sum / (rows * (mesh.cols + 1)) as f64
-}
-
-/// Radius of a core [m]; a cut-off has none.
-fn radius(core: &CoreModel) -> Option<f64> {
-    match *core {
-        CoreModel::CutOff { .. } => None,
-        CoreModel::Vatistas { radius }
-        | CoreModel::Scully { radius }
-        | CoreModel::Algebraic { radius, .. }
-        | CoreModel::LambOseen { radius, .. } => Some(radius),
-    }
 }

@@ -1,6 +1,5 @@
 //! What of an estimate is implausible: a number outside wide limits.
 
-use wingbeat_air::CoreModel;
 use wingbeat_blade::Rotation;
 use wingbeat_flight::{AirModel, AirOptions, FlightSetup, MotionMode, doubtful_masses};
 use wingbeat_math::DVec3;
@@ -382,14 +381,14 @@ fn deformation(wing: &Wing) -> [f64; 2] {
 fn lattice_sizes(air: &AirOptions, wing: &Wing, chord: f64, list: &mut Doubts) {
     let s = &air.lattice;
     if s.shedding.any() {
-        let wake = radius(&s.wake_core).map(|r| r / chord);
+        let wake = s.wake_core.radius().map(|r| r / chord);
         list.see(&WAKE_CORE, "vortex core of the wake", wake, " mean chords");
         list.see(&CLEARANCE, "clearance", s.clearance / chord, " mean chords");
     }
     let mesh = &wing.mesh;
     let edge = mesh.nodes[mesh.node(0, mesh.cols)] - mesh.nodes[mesh.node(0, 0)];
     let column = edge.y.abs() / mesh.cols as f64;
-    let across = radius(&s.bound_core).map(|r| r / column);
+    let across = s.bound_core.radius().map(|r| r / column);
     let what = "vortex core of the wing";
     list.see(&BOUND_CORE_ACROSS, what, across, " columns of panels");
 }
@@ -402,19 +401,8 @@ fn bodies(setup: &FlightSetup, list: &mut Doubts) {
     let parts = setup.animal.parts.iter().filter(|_| air.body_surfaces);
     for part in parts {
         let width = part.mesh.mean_width();
-        let core = radius(&air.lattice.bound_core).map(|r| r / width);
+        let core = air.lattice.bound_core.radius().map(|r| r / width);
         let what = format!("vortex core of the surfaces on the part `{}`", part.name);
         list.see(&BOUND_CORE_OF_BODY, &what, core, " widths of its panels");
-    }
-}
-
-/// Radius of a core \[m\]; a cut-off has none.
-fn radius(core: &CoreModel) -> Option<f64> {
-    match *core {
-        CoreModel::CutOff { .. } => None,
-        CoreModel::Vatistas { radius }
-        | CoreModel::Scully { radius }
-        | CoreModel::Algebraic { radius, .. }
-        | CoreModel::LambOseen { radius, .. } => Some(radius),
     }
 }

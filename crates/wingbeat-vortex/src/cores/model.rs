@@ -61,6 +61,17 @@ impl CoreModel {
         }
     }
 
+    /// Radius \[m\] that the core is given; a cut-off has none.
+    pub const fn radius(&self) -> Option<f64> {
+        match *self {
+            Self::CutOff { .. } => None,
+            Self::Vatistas { radius }
+            | Self::Scully { radius }
+            | Self::LambOseen { radius, .. }
+            | Self::Algebraic { radius, .. } => Some(radius),
+        }
+    }
+
     /// Viscosity \[m^2/s\] by which the core spreads; none where it stays as it is.
     ///
     /// ```
