@@ -1,5 +1,7 @@
 //! The analysing commands and the kinds of air, through the program.
 
+#[path = "commands/flutter.rs"]
+mod flutter;
 mod support;
 #[path = "commands/trims.rs"]
 mod trims;

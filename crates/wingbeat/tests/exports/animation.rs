@@ -2,15 +2,13 @@
 
 use std::fs;
 use std::path::Path;
-use std::process::Command;
 
 use wingbeat::math::{DQuat, DVec3};
 use wingbeat::results::ResultDir;
 use wingbeat::results::frames::Frame;
 
-use crate::support::readers::{readers, works};
-use crate::support::{Scratch, flown, required};
-use crate::{CASE, validator};
+use crate::support::{Scratch, flown};
+use crate::{CASE, assert_validated};
 
 /// Numbers of a key in the JSON of a .glb, and its binary part.
 fn glb(path: &Path) -> (serde_json::Value, Vec<u8>) {
@@ -232,17 +230,7 @@ fn agrees_bent_wings_of_the_animation_with_those_of_the_frames() {
             assert!(off < 1.001e-3, "{preset}: {off:e}");
             assert!(unbent > least, "{preset}: {unbent:e}");
         }
-        match validator() {
-            Err(problem) => required(&format!("no glTF validator: {problem}")),
-            Ok(folder) => {
-                let mut node = Command::new("node");
-                node.arg(readers().join("validate.js"))
-                    .arg(folder)
-                    .arg(run.join("flight.glb"));
-                let said = works(&mut node).unwrap_or_else(|e| panic!("{e}"));
-                assert!(said.contains("\"hasMorphTargets\":true"), "{said}");
-            }
-        }
+        assert_validated(&run, "\"hasMorphTargets\":true");
     }
 }
 

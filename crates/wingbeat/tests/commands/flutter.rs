@@ -1,0 +1,94 @@
+//! `wingbeat flutter` about static divergence: what is neutral is named, what is missing, too.
+
+use std::fs;
+
+use crate::support::{Scratch, said, wingbeat};
+
+/// A soft wing of strips with wakes; static divergence at 10.34 m/s.
+const SOFT: &str = r#"format = 1
+name = "soft"
+gravity_m_s2 = [0, 0, 0]
+[time]
+step_s = 0.002
+steps = 200
+[flight]
+mode = "tethered"
+[air]
+model = "blade_element"
+density_kg_m3 = 1.225
+stream_m_s = [-10, 0, 0]
+[air.blade]
+unsteady = "peters"
+own = { lift = 3.141592653589793, drag_0 = 0, drag_90 = 0 }
+centre_of_pressure.fixed = 0.25
+[output]
+frames_every = 0
+figures = false
+page = false
+[body]
+mass_kg = 1.0
+inertia_about_centre_kg_m2 = [1, 1, 1, 0, 0, 0]
+[wing.right]
+hinge_m = [0, 0, 0]
+motion.psi.constant_deg = 0.05
+[wing.right.planform.outline]
+leading_m = [[0, 0.05], [1.0, 0.05]]
+trailing_m = [[0, -0.15], [1.0, -0.15]]
+[wing.right.mesh]
+chordwise = 1
+spanwise = 24
+[wing.right.structure]
+spectral_radius = 1.0
+[wing.right.structure.beam]
+axis_fraction = 0.4
+mass_fraction = 0.4
+elements = 16
+flap_newton_m2 = [2.0, 2.0]
+torsion_newton_m2 = [1.0, 1.0]
+lag_newton_m2 = [200.0, 200.0]
+mass_kg_per_m = [0.2, 0.2]
+inertia_kg_m = [7e-4, 7e-4]
+"#;
+
+#[test]
+fn behaves_growth_without_vibration_that_is_neutral_stands_in_the_table() {
+    let scratch = Scratch::new("flutter-neutral");
+    fs::write(scratch.0.join("soft.toml"), SOFT).unwrap();
+    let text = said(
+        &scratch.0,
+        &[
+            "flutter",
+            "soft.toml",
+            "--speeds",
+            "10.6:11:2",
+            "--periods",
+            "1",
+            "--modes",
+            "1",
+            "--set",
+            "wing.right.motion.psi.constant_deg=0",
+        ],
+    );
+    let rows = text.lines().filter(|l| l.contains(" none "));
+    assert_eq!(rows.count(), 2, "{text}");
+    assert!(text.contains("are neutral within what is known"), "{text}");
+}
+
+#[test]
+fn behaves_json_of_speeds_that_fail_says_what_is_missing() {
+    let scratch = Scratch::new("flutter-missing");
+    fs::write(scratch.0.join("soft.toml"), SOFT).unwrap();
+    let asked = ["flutter", "soft.toml", "--speeds", "8:11:2", "--modes", "1"];
+    let rest = ["--periods", "0.7", "--json"];
+    let out = wingbeat(&scratch.0, &[&asked[..], &rest].concat());
+    assert_eq!(out.status.code(), Some(1));
+    let found: serde_json::Value = serde_json::from_slice(&out.stdout).unwrap();
+    assert_eq!(found["complete"], false);
+    assert_eq!(found["missing_speeds_m_s"], serde_json::json!([11.0]));
+    let error = String::from_utf8_lossy(&out.stderr).into_owned();
+    assert!(
+        error.contains("at 11 m/s no steady state was found")
+            && error.contains("static divergence"),
+        "{error}"
+    );
+}
