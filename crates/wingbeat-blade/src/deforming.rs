@@ -1,13 +1,18 @@
 //! Wings that are deformed, or not flat: every strip a rigid section that lies, moves and turns in the wing frame.
 //!
 //! The loads are those of the flat wing, with the velocity of the section's own point on the feathering axis
-//! and the angular velocity of the section itself, `Omega = w + tau' e_2`, in its own axes; `q = Omega . e2`.
-//! Camber is left to the coefficients.
+//! and the angular velocity of the section itself, `Omega = w + s`, in its own axes; `q = Omega . e2`.
+//! A section turns by the twist about axis 2 of the wing frame and then about its own chord, until its span goes
+//! along the way between the middles of its sides, which bending lifts: `s = tau' e_2 + theta' e1`. As the wing
+//! keeps its places along axis 2, the section is the wider for it; what its added mass gains by growing is left out
+//! (second order in the slope). Camber is left to the coefficients.
 //!
 //! | symbol | name in code | meaning | unit |
 //! |---|---|---|---|
 //! | e1, e2, n | `axes()` | directions of chord (forward), span and normal of a section, wing components | 1 |
 //! | tau | `twist` | turn of a section about axis 2 of the wing frame | rad |
+//! | theta | `tilt` | turn of a section about its chord | rad |
+//! | s | `spin` | angular velocity of a section in the wing frame, wing components | rad/s |
 //! | w | `motion.rate` | angular velocity of the wing frame, wing components | rad/s |
 
 use wingbeat_math::{DMat3, DVec2, DVec3};
@@ -21,15 +26,17 @@ use crate::wind::LocalWind;
 use crate::wing::{BladeWing, FrameAcceleration, Load, WingFrame};
 
 /// How a section lies and moves in the wing frame, wing components.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SectionMotion {
     /// The point that is on the feathering axis of the flat wing: place [m], velocity [m/s],
     /// acceleration [m/s2].
     pub axis: [DVec3; 3],
-    /// Turn about axis 2 of the wing frame with its first two time derivatives [rad].
-    pub twist: [f64; 3],
-    /// Directions of chord (forward), span and normal without the twist; the wing's axes for a flat wing.
-    pub rest: DMat3,
+    /// Directions of chord (forward), span and normal \[1\].
+    pub turn: DMat3,
+    /// Angular velocity \[rad/s\] and its rate \[rad/s2\].
+    pub spin: [DVec3; 2],
+    /// Its width over that of the strip \[1\].
+    pub stretch: f64,
 }
 
 impl SectionMotion {
@@ -37,38 +44,90 @@ impl SectionMotion {
     pub fn fixed(placed: &PlacedStrip) -> Self {
         Self {
             axis: [placed.axis, DVec3::ZERO, DVec3::ZERO],
-            twist: [0.0; 3],
-            rest: placed.turn,
+            turn: placed.turn,
+            spin: [DVec3::ZERO; 2],
+            stretch: 1.0,
+        }
+    }
+
+    /// A section that is turned from rest by `twist` \[rad\] about axis 2 of the wing frame, and then about its
+    /// chord, so that its span goes along the way `across` from its inner to its outer side \[m\]; both with their
+    /// first two time derivatives.
+    pub fn turned(
+        placed: &PlacedStrip,
+        axis: [DVec3; 3],
+        twist: [f64; 3],
+        across: [DVec3; 3],
+    ) -> Self {
+        let ([tau, t1, t2], rest) = (twist, placed.turn);
+        let (sin, cos) = tau.sin_cos();
+        let by_twist = |e: DVec3| DVec3::new(cos * e.x + sin * e.z, e.y, cos * e.z - sin * e.x);
+        let [e1, g2, g3] = [rest.x_axis, rest.y_axis, rest.z_axis].map(by_twist);
+        // Parts of the way along directions that turn by the twist, over the width at rest, with their derivatives.
+        let width = placed.strip.width.copysign(across[0].dot(g2));
+        let along = |g: DVec3| {
+            let (turn, again) = (about_2(g), about_2(about_2(g)));
+            let g = [g, t1 * turn, t2 * turn + t1 * t1 * again];
+            product(across, g).map(|x| x / width)
+        };
+        let (run, rise) = (along(g2), along(g3));
+        let [tilt, tilt_rate, tilt_acceleration] = angle(rise, run);
+        let (sin, cos) = tilt.sin_cos();
+        let spin = [
+            t1 * DVec3::Y + tilt_rate * e1,
+            t2 * DVec3::Y + tilt_acceleration * e1 + tilt_rate * t1 * about_2(e1),
+        ];
+        Self {
+            axis,
+            turn: DMat3::from_cols(e1, cos * g2 + sin * g3, cos * g3 - sin * g2),
+            spin,
+            stretch: rise[0].hypot(run[0]),
         }
     }
 
     /// Directions of chord (forward), span and normal.
     fn axes(&self) -> [DVec3; 3] {
-        let (sin, cos) = self.twist[0].sin_cos();
-        let turned = |e: DVec3| DVec3::new(cos * e.x + sin * e.z, e.y, cos * e.z - sin * e.x);
-        [self.rest.x_axis, self.rest.y_axis, self.rest.z_axis].map(turned)
+        [self.turn.x_axis, self.turn.y_axis, self.turn.z_axis]
     }
 
     /// Place, velocity, acceleration of the point `x` ahead of the axis.
     fn point(&self, x: f64) -> [DVec3; 3] {
-        let ([e1, ..], [p, p1, p2], [_, t1, t2]) = (self.axes(), self.axis, self.twist);
-        let turn = about_2(e1); // its derivative by the twist
+        let ([p, p1, p2], [spin, spin_rate]) = (self.axis, self.spin);
+        let e1 = self.turn.x_axis;
+        let turning = spin.cross(e1);
         [
             p + x * e1,
-            p1 + x * t1 * turn,
-            p2 + x * (t2 * turn + t1 * t1 * about_2(turn)),
+            p1 + x * turning,
+            p2 + x * (spin_rate.cross(e1) + spin.cross(turning)),
         ]
     }
 
     /// Angular velocity of the section, wing components, in a frame that turns with `rate`.
     fn turning(&self, rate: DVec3) -> DVec3 {
-        rate.with_y(rate.y + self.twist[1])
+        rate + self.spin[0]
     }
 }
 
 /// `e_2 x e`.
 fn about_2(e: DVec3) -> DVec3 {
     DVec3::new(e.z, 0.0, -e.x)
+}
+
+/// A scalar product with its first two derivatives.
+fn product([a, a1, a2]: [DVec3; 3], [b, b1, b2]: [DVec3; 3]) -> [f64; 3] {
+    [
+        a.dot(b),
+        a1.dot(b) + a.dot(b1),
+        a2.dot(b) + 2.0 * a1.dot(b1) + a.dot(b2),
+    ]
+}
+
+/// The angle \[rad\] whose tangent is `rise` over `run`, with its first two derivatives.
+fn angle([a, a1, a2]: [f64; 3], [b, b1, b2]: [f64; 3]) -> [f64; 3] {
+    let size = a * a + b * b;
+    let rate = (a1 * b - a * b1) / size;
+    let growth = 2.0 * (a * a1 + b * b1) / size;
+    [a.atan2(b), rate, (a2 * b - a * b2) / size - rate * growth]
 }
 
 /// Loads on a wing, and what deforming it takes.
@@ -81,12 +140,13 @@ pub struct DeformingLoad {
 }
 
 impl DeformingLoad {
-    /// Adds `force` at the axis of a section and the `couple`, wing components.
+    /// Adds `force` at the axis of a section and the `couple`, wing components, of the width of the strip.
     fn add(&mut self, section: &SectionMotion, force: DVec3, couple: DVec3) {
         let [p, p1, _] = section.axis;
+        let [force, couple] = [force, couple].map(|x| section.stretch * x);
         self.load.force += force;
         self.load.moment += couple + p.cross(force);
-        self.power -= force.dot(p1) + couple.y * section.twist[1];
+        self.power -= force.dot(p1) + couple.dot(section.spin[0]);
     }
 }
 
@@ -201,16 +261,17 @@ impl BladeWing {
             };
             let v = through.hinge + through.w.cross(p) + p1;
             let v_rate = through.hinge_rate + through.turn.cross(p) + through.w.cross(p1) + p2;
-            // Rate of v . n; the twist turns the normal.
-            let rate = v_rate.dot(n) + s.twist[1] * v.dot(about_2(n));
+            // Rate of v . n; the section turns the normal.
+            let [spin, spin_rate] = s.spin;
+            let rate = v_rate.dot(n) + v.dot(spin.cross(n));
             let force = -strip.added_mass(self.settings().density) * rate;
             let inertia = match self.settings().added_mass.has_inertia() {
                 true => strip.added_inertia(self.settings().density),
                 false => 0.0,
             };
             // Rate of Omega . e2, likewise.
-            let carried = s.twist[1] * s.turning(through.w).dot(about_2(e2));
-            let turn = through.turn.with_y(through.turn.y + s.twist[2]).dot(e2) + carried;
+            let carried = s.turning(through.w).dot(spin.cross(e2));
+            let turn = (through.turn + spin_rate).dot(e2) + carried;
             sum.add(&s, force * n, (-x * force - inertia * turn) * e2);
         }
         sum
@@ -285,7 +346,7 @@ impl BladeWing {
         let (w, rho) = (motion.rate, self.settings().density);
         let (here, turning) = (v + w.cross(p) + p1, s.turning(w));
         let impulse = strip.added_mass(rho) * here.dot(n);
-        let mut normal_rate = w.cross(n) + s.twist[1] * about_2(n);
+        let mut normal_rate = turning.cross(n);
         if self.has_suction() {
             normal_rate -= turning.dot(e2) * e1;
         }
@@ -293,8 +354,7 @@ impl BladeWing {
         let spin = strip.added_inertia(rho) * turning.dot(e2);
         let munk = here.cross(n);
         let couple = -impulse * (munk - munk.dot(e2) * e2) - spin * turning.cross(e2);
-        sum.load.force += force;
-        sum.load.moment += p.cross(force) + couple;
-        sum.power -= force.dot(p1) + couple.y * s.twist[1];
+        let moment = couple + (p - s.axis[0]).cross(force);
+        sum.add(s, force, moment);
     }
 }

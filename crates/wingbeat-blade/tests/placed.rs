@@ -129,27 +129,48 @@ fn exact_strips_in_the_plane_of_the_wing_are_measured_along_its_axes() {
     assert_eq!(skewed.strip, strip);
 }
 
-/// A section with dihedral and incidence that moves, and is turned about axis 2 of the wing frame, is a flat
-/// strip in a frame that moves and turns so; the power is that of its load on this motion.
-#[test]
-fn agrees_twist_of_a_section_with_dihedral_with_a_frame_that_turns() {
+/// A strip that lies on `turn`, and ways between its sides \[m\] with their first two time derivatives: one along
+/// the strip, and one that sweeps, rises and grows.
+fn ways(turn: DMat3) -> (PlacedStrip, [[DVec3; 3]; 2]) {
     let strip = Strip {
         y: 0.0,
         x_leading: 0.075,
         chord: 0.3,
         width: 0.2,
     };
+    let axis = DVec3::ZERO;
+    let way = 0.2 * turn.y_axis;
+    let lifted = [
+        way + DVec3::new(-0.03, 0.01, 0.05),
+        DVec3::new(0.1, -0.2, -0.22),
+        DVec3::new(0.3, -0.5, 1.2),
+    ];
+    let placed = PlacedStrip { strip, axis, turn };
+    (placed, [[way, DVec3::ZERO, DVec3::ZERO], lifted])
+}
+
+/// A section with dihedral and incidence that moves, is turned about axis 2 of the wing frame and follows the
+/// way between its sides, is a flat strip in a frame that moves and turns so; the power is that of its load on this
+/// motion.
+#[test]
+fn agrees_twist_of_a_section_with_dihedral_with_a_frame_that_turns() {
     let twist = [0.3, 1.7, -4.0];
     let axis = [
         DVec3::new(0.02, 0.6, -0.1),
         DVec3::new(0.3, -0.2, 0.7),
         DVec3::new(1.0, 2.0, -3.0),
     ];
-    for (law, rest) in LAWS.iter().flat_map(|l| turns().map(|q| (*l, q))) {
+    let turned = turns().into_iter().flat_map(|q| {
+        let (placed, ways) = ways(q);
+        ways.map(|way| {
+            let section = SectionMotion::turned(&placed, axis, twist, way);
+            (placed.strip, section)
+        })
+    });
+    for (law, (strip, s)) in turned.flat_map(|s| LAWS.map(|l| (l, s))) {
         let wing = BladeWing::new(vec![strip], settings(law)).unwrap();
-        let section = |_: usize| SectionMotion { axis, twist, rest };
-        let (q, [p, p1, p2]) = (r2(twist[0]) * rest, axis);
-        let [spin, spin_rate] = [twist[1], twist[2]].map(|t| t * DVec3::Y);
+        let section = |_: usize| s;
+        let (q, [p, p1, p2], [spin, spin_rate]) = (s.turn, axis, s.spin);
         for (m, acc) in motions() {
             let (r, w) = (m.rotation, m.rate);
             let turning = acc.angular.cross(p) + w.cross(w.cross(p) + 2.0 * p1) + p2;
@@ -163,7 +184,7 @@ fn agrees_twist_of_a_section_with_dihedral_with_a_frame_that_turns() {
                 angular: q.transpose() * (acc.angular + spin_rate + w.cross(spin)),
             };
             let check = |got: DeformingLoad, flat: Load| {
-                let (force, moment) = (q * flat.force, q * flat.moment);
+                let [force, moment] = [flat.force, flat.moment].map(|x| s.stretch * (q * x));
                 let expected = Load {
                     force,
                     moment: moment + p.cross(force),
@@ -178,5 +199,39 @@ fn agrees_twist_of_a_section_with_dihedral_with_a_frame_that_turns() {
             let mass = wing.deforming_acceleration_load(&m, &acc, section, Calm);
             check(mass, wing.acceleration_load(&own, &own_acc));
         }
+    }
+}
+
+/// Axes of a section, differenced in time, turn by its angular velocity, and that changes by its rate; the span is
+/// the way between the sides but for its part along the chord.
+#[test]
+fn agrees_spin_of_a_section_with_differences_of_its_axes() {
+    let (twist, h) = ([0.3, 1.7, -4.0], 1e-5);
+    let cases = turns().into_iter().flat_map(|q| {
+        let (placed, ways) = ways(q);
+        ways.map(|w| (placed, w))
+    });
+    for (placed, [w, w1, w2]) in cases {
+        let at = |t: f64| {
+            let across = [w + t * (w1 + 0.5 * t * w2), w1 + t * w2, w2];
+            let [q, q1, q2] = twist;
+            let twist = [q + t * (q1 + 0.5 * t * q2), q1 + t * q2, q2];
+            SectionMotion::turned(&placed, [DVec3::ZERO; 3], twist, across)
+        };
+        let (before, now, after) = (at(-h), at(0.0), at(h));
+        for k in 0..3 {
+            let rate = (after.turn.col(k) - before.turn.col(k)) / (2.0 * h);
+            // h^2 / 6 of third derivatives of some 100 1/s3, and roundings over h.
+            assert!((rate - now.spin[0].cross(now.turn.col(k))).length() < 1e-8);
+        }
+        let rate = (after.spin[0] - before.spin[0]) / (2.0 * h);
+        assert!(
+            (rate - now.spin[1]).length() < 1e-7,
+            "{rate} {:?}",
+            now.spin[1]
+        );
+        let across = w.reject_from(now.turn.x_axis);
+        let width = now.stretch * placed.strip.width;
+        assert!((across - width * now.turn.y_axis).length() < 1e-15);
     }
 }

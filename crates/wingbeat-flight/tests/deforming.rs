@@ -137,6 +137,31 @@ fn exact_constant_deformation_is_a_wing_of_that_shape() {
     assert!(power < 1e-9 * scale, "{power} of {scale}"); // nothing is deformed against the air
 }
 
+/// Strips of a bent wing lie on it and are as wide as it is.
+#[test]
+fn exact_strips_of_a_wing_bent_for_good_are_those_of_a_wing_of_that_shape() {
+    let constant = Deformation {
+        bending: vec![Term::steady(SpanLaw::Linear {
+            root: 0.0,
+            tip: 6e-4,
+        })],
+        ..Deformation::default()
+    };
+    for added in [AddedMass::None, AddedMass::Section, AddedMass::Impulse] {
+        let setup = blade(Fly::default().setup(40, 0.5), added);
+        let mut shaped = setup.clone();
+        for wing in &mut shaped.animal.wings {
+            wing.mesh.nodes = DeformingMesh::new(&wing.mesh, &constant).places(0.0);
+        }
+        let (a, b) = (fly(shaped), fly(deformed(setup.clone(), &constant)));
+        let [force, place] = difference(&a, &b);
+        let [flat, _] = difference(&a, &fly(setup));
+        println!("{added:?}: bent for good {force:.1e}, flat {flat:.1e}");
+        assert!(force < 1e-10 && place < 1e-10); // roundings
+        assert!(flat > 0.05);
+    }
+}
+
 /// Wings without mass, tethered, the body without weight to carry: hinges work against the air alone.
 fn massless(mut setup: FlightSetup) -> FlightSetup {
     setup.mode = MotionMode::Tethered(PrescribedMotion::at_rest(

@@ -138,7 +138,8 @@ fn exact_nodes_that_move_as_a_rigid_wing_carry_its_loads() {
 
 #[test]
 fn agrees_with_sections_whose_twist_is_prescribed_in_force_moment_and_power() {
-    // All sections twist and move alike, so that two columns lie in line with the section between them.
+    // All sections twist and move alike on a plane that rises along the span, so that two columns lie in line with
+    // the section between them.
     let (tau, moved) = (
         [0.4, 3.0, -7.0],
         [
@@ -147,23 +148,39 @@ fn agrees_with_sections_whose_twist_is_prescribed_in_force_moment_and_power() {
             DVec3::new(2.0, 0.0, 5.0),
         ],
     );
-    for (law, side) in LAWS.iter().flat_map(|l| [(*l, 1.0), (*l, -1.0)]) {
+    let cases = LAWS.iter().flat_map(|l| [(*l, 1.0), (*l, -1.0)]);
+    let slopes = [[0.0; 3], [0.25, -1.1, 6.0]];
+    for ((law, side), slope) in cases.flat_map(|c| slopes.map(|s| (c, s))) {
         let bent = bent(law, side);
         let (sin, cos) = f64::sin_cos(tau[0]);
+        let rise = |y: f64| slope.map(|s| DVec3::new(0.0, 0.0, s * y));
         let (e1, n) = (DVec3::new(cos, 0.0, -sin), DVec3::new(sin, 0.0, cos));
-        let place = |r: &DVec3| moved[0] + DVec3::new(0.0, r.y, 0.0) + r.x * e1;
-        let speed = |r: &DVec3| moved[1] - r.x * tau[1] * n;
-        let bend = |r: &DVec3| moved[2] - r.x * (tau[2] * n + tau[1] * tau[1] * e1);
+        let place = |r: &DVec3| moved[0] + DVec3::new(0.0, r.y, 0.0) + rise(r.y)[0] + r.x * e1;
+        let speed = |r: &DVec3| moved[1] + rise(r.y)[1] - r.x * tau[1] * n;
+        let bend = |r: &DVec3| moved[2] + rise(r.y)[2] - r.x * (tau[2] * n + tau[1] * tau[1] * e1);
         let r: Vec<DVec3> = bent.nodes.iter().map(place).collect();
         let u: Vec<DVec3> = bent.nodes.iter().map(speed).collect();
-        let section = |k: usize| SectionMotion {
-            axis: [
-                moved[0] + DVec3::new(0.0, bent.wing.strips()[k].y, 0.0),
-                moved[1],
-                moved[2],
-            ],
-            twist: tau,
-            ..SectionMotion::default()
+        let section = |k: usize| {
+            let y = bent.wing.strips()[k].y;
+            let [rise, rise_rate, rise_acceleration] = rise(y);
+            let axis = [
+                moved[0] + DVec3::new(0.0, y, 0.0) + rise,
+                moved[1] + rise_rate,
+                moved[2] + rise_acceleration,
+            ];
+            let strip = bent.wing.strips()[k];
+            let placed = PlacedStrip {
+                strip,
+                axis: DVec3::ZERO,
+                turn: DMat3::IDENTITY,
+            };
+            let across = [1.0, 0.0, 0.0];
+            let across = [0, 1, 2].map(|i| strip.width * DVec3::new(0.0, across[i], slope[i]));
+            // Strips of a wing that loads bend keep their area.
+            SectionMotion {
+                stretch: 1.0,
+                ..SectionMotion::turned(&placed, axis, tau, across)
+            }
         };
         for m in motions() {
             let acc = acceleration(&m);

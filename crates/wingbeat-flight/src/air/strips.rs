@@ -34,21 +34,45 @@ struct Deformed {
     motion: WingMotion,
     /// Distance of the feathering axis ahead of the twist axis, strip by strip \[m\].
     ahead: Vec<f64>,
+    /// The sides of the strips, one more than there are strips.
+    sides: Stations,
+    /// Mid chord of the sides \[m\], and its distance ahead of the twist axis \[m\].
+    middles: Vec<(DVec3, f64)>,
 }
 
 impl Deformed {
     fn new(wing: &Wing, deformation: &Deformation, placed: &[PlacedStrip]) -> Self {
         let tip = wing.report().length;
+        let mesh = &wing.mesh;
         let r: Vec<f64> = placed.iter().map(|s| s.strip.y.abs() / tip).collect();
         let ahead = |(j, s): (usize, &PlacedStrip)| {
             let [lead, trail] = edges(wing, j).map(|[a, b]| 0.5 * (a.x + b.x));
             deformation.axis_fraction * (lead - trail) - lead + s.axis.x
         };
+        let middle = |j: usize| {
+            let [lead, trail] = [0, mesh.rows].map(|i| mesh.nodes[mesh.node(i, j)]);
+            let ahead = (deformation.axis_fraction - 0.5) * (lead.x - trail.x);
+            (0.5 * (lead + trail), ahead)
+        };
+        let middles: Vec<(DVec3, f64)> = (0..=mesh.cols).map(middle).collect();
+        let sides: Vec<f64> = middles.iter().map(|(x, _)| x.y.abs() / tip).collect();
         Self {
             stations: Stations::new(deformation, &r, wing.root()),
             motion: wing.motion.clone(),
             ahead: placed.iter().enumerate().map(ahead).collect(),
+            sides: Stations::new(deformation, &sides, wing.root()),
+            middles,
         }
+    }
+
+    /// The way between the middles of the sides of strip `k` \[m\], outwards, with its first two time derivatives.
+    fn across(&self, k: usize, phase: [f64; 3]) -> [DVec3; 3] {
+        let [inner, outer] = [k, k + 1].map(|j| {
+            let (rest, ahead) = self.middles[j];
+            let [d, v, a] = (self.sides.at(j, phase)).displacement(ahead, rest.z, 0.0);
+            [rest + d, v, a]
+        });
+        [0, 1, 2].map(|i| outer[i] - inner[i])
     }
 }
 
@@ -82,10 +106,7 @@ impl MovingStrips {
         };
         let s = deformed.stations.at(k, phase);
         let [d, v, a] = s.displacement(deformed.ahead[k], placed.axis.z, 0.0);
-        SectionMotion {
-            axis: [placed.axis + d, v, a],
-            twist: s.twist,
-            rest: placed.turn,
-        }
+        let axis = [placed.axis + d, v, a];
+        SectionMotion::turned(placed, axis, s.twist, deformed.across(k, phase))
     }
 }
