@@ -9,6 +9,7 @@ mod formulations;
 mod joints;
 mod mechanism_motions;
 mod mechanisms;
+mod mobility;
 mod refusals;
 mod solutions;
 mod spherical;

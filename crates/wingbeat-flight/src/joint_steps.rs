@@ -3,21 +3,26 @@
 //!
 //! | symbol | name in code | meaning | unit |
 //! |---|---|---|---|
-//! | c, k, I | | damping, stiffness and inertia along a free direction | N m s, N m, kg m2 (N s/m, N/m, kg) |
+//! | c, k, I | | damping, stiffness and inertia that is moved along a free direction | N m s, N m, kg m2 (N s/m, N/m, kg) |
 //! | c h / I | `damping` | what of a rate the damper takes in a step | 1 |
 //! | w h | `vibration` | angular frequency `sqrt(k / I)` times the step | 1 |
 //! | | `growth` | largest root of the method there ([`EqualSteps::growth`]) | 1 |
 //!
-//! What a joint carries is rigid, in a vacuum, and what it hangs on stands still: the air's mass and damping,
-//! which help, and a light parent, which does not, are left out. Stops are left out: they act for a few steps.
+//! The inertia is what moves where the flight starts, rigid and in a vacuum, when the flyer and all of its joints give
+//! way: its fastest vibration is at least as fast. The air's mass and damping, which help, are left out, and so are
+//! stops: they act for a few steps.
 
-use wingbeat_dynamics::{ElementLaw, Joint, JointType};
+use std::sync::Arc;
+
+use wingbeat_dynamics::{
+    ElementLaw, Formulation, Joint, JointType, QuaternionForm, Stabilization, mobilities,
+};
 use wingbeat_math::DVec3;
 use wingbeat_math::ode::EqualSteps;
 
 use crate::bodies::system_of;
 use crate::joints::closes_loop;
-use crate::setup::{FlightSetup, IntegratorChoice};
+use crate::setup::{FlightSetup, IntegratorChoice, MotionMode};
 
 /// Growth a step from which a joint is not carried by the steps \[1\]: a hundred steps make it e times as
 /// large. Vibrations that grow less are those the air damps.
@@ -48,7 +53,7 @@ impl JointSteps {
     /// What is said of it under the integrator of `setup`.
     pub fn said(&self, setup: &FlightSetup) -> String {
         format!(
-            "spring and damper of joint `{}` act faster than dynamics.integrator = \"{}\" carries: c h / I = {:.2}, w h = {:.2} (damping, angular frequency, and step; rigid, in a vacuum, on a parent that is held), where a disturbance becomes {:.2} times as large in every step",
+            "spring and damper of joint `{}` act faster than dynamics.integrator = \"{}\" carries: c h / I = {:.2}, w h = {:.2} (damping, angular frequency, and step; rigid and in a vacuum), where a disturbance becomes {:.2} times as large in every step",
             self.joint,
             setup.integrator.name(),
             self.damping,
@@ -65,10 +70,12 @@ pub fn growing_joint(setup: &FlightSetup) -> Option<JointSteps> {
     let joints = setup.joints.iter().enumerate();
     let open = joints.filter(|(k, _)| !closes_loop(&setup.joints, *k));
     let directions = open.flat_map(|(_, j)| (0..j.model.kind.directions()).map(move |k| (j, k)));
-    let of = |(joint, k): (&Joint, usize)| {
+    let acted = directions.filter(|(j, k)| acting(j, *k) != [0.0; 2]);
+    let acted: Vec<(&Joint, usize)> = acted.collect();
+    let found = mobilities_of(setup, &acted)?;
+    let of = |(&(joint, k), mobility): (&(&Joint, usize), f64)| {
         let [damping, stiffness] = acting(joint, k);
-        let inertia = carried_inertia(setup, joint, k)?;
-        let both = [damping / inertia, stiffness.max(0.0) / inertia];
+        let both = [damping * mobility, stiffness.max(0.0) * mobility];
         let growth = method.growth(both, h);
         let found = JointSteps {
             joint: joint.name.clone(),
@@ -79,8 +86,27 @@ pub fn growing_joint(setup: &FlightSetup) -> Option<JointSteps> {
         };
         (growth > GROWS).then_some(found)
     };
-    let all = directions.filter_map(of);
+    let all = acted.iter().zip(found).filter_map(of);
     all.max_by(|a, b| a.growth.total_cmp(&b.growth))
+}
+
+/// One over the inertia that is moved along free directions of joints \[1/(kg m2) or 1/kg\]; none where there are none,
+/// or where the flight cannot start.
+fn mobilities_of(setup: &FlightSetup, directions: &[(&Joint, usize)]) -> Option<Vec<f64>> {
+    let system = system_of(setup).ok().filter(|_| !directions.is_empty())?;
+    let hinge = |joint: &Joint| system.hinges().iter().position(|h| h.child == joint.child);
+    let places = directions.iter().map(|&(j, k)| hinge(j).map(|h| (h, k)));
+    let places: Vec<(usize, usize)> = places.collect::<Option<_>>()?;
+    let form = QuaternionForm::new(system, Stabilization::None);
+    let form = match &setup.mode {
+        MotionMode::Tethered(motion) => {
+            let motion = Arc::new(motion.clone());
+            form.supported(motion.clone(), motion)
+        }
+        MotionMode::Free(_) => form,
+    };
+    let y = form.initial(0.0, &setup.root_at_start()).ok()?;
+    mobilities(&form, (0.0, &y), &places).ok()
 }
 
 /// What a joint that carries `both` c / I \[1/s\] and k / I \[1/s^2\] wants instead of `method`.
@@ -134,30 +160,6 @@ fn acting(joint: &Joint, k: usize) -> [f64; 2] {
         let [c, k] = of(&e.law);
         [sum[0] + c, sum[1] + k]
     })
-}
-
-/// Inertia along free direction `k` of a joint \[kg m2 or kg\], of its child and of what hangs on that; the
-/// latter is counted about the joint that carries each.
-fn carried_inertia(setup: &FlightSetup, joint: &Joint, k: usize) -> Option<f64> {
-    let own = inertia_about(setup, joint, joint, k)?;
-    let hangs = |mut body: usize| {
-        // As many joints as there are lead from any body to the central one.
-        for _ in 0..setup.joints.len() {
-            let Some(next) = setup.joints.iter().find(|j| j.child == body) else {
-                return false;
-            };
-            match next.parent {
-                Some(parent) if parent == joint.child => return true,
-                Some(parent) => body = parent,
-                None => return false,
-            }
-        }
-        false
-    };
-    let outer = setup.joints.iter().enumerate();
-    let outer = outer.filter(|(n, j)| !closes_loop(&setup.joints, *n) && hangs(j.child));
-    let outer = outer.filter_map(|(_, j)| inertia_about(setup, j, joint, k));
-    Some(own + outer.sum::<f64>())
 }
 
 /// Moment of inertia \[kg m2\] about the axis of free direction `k` of `joint`, one that turns, of the child of
