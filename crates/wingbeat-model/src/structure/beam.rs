@@ -6,7 +6,7 @@ mod mass;
 pub use coupling::Coupling;
 pub use mass::BeamMass;
 
-use wingbeat_math::{DQuat, DVec3, MassProperties};
+use wingbeat_math::{DMat3, DQuat, DVec3, MassProperties, outer, trace};
 use wingbeat_structure::{
     Beam, Configuration, Damping, Follower, Section, Stiffness, StructureBuilder, StructureError,
 };
@@ -45,7 +45,8 @@ pub struct WingBeam {
     pub mass: Option<SpanLaw>,
     /// Place of the mass centre behind the leading edge over the chord \[1\].
     pub mass_fraction: f64,
-    /// Moment of inertia about the mass centre of a section and its axis along the beam, per length \[kg m\],
+    /// Moment of inertia about the mass centre of a section, which lies along the chord, and an axis along the beam,
+    /// per length of the span \[kg m\],
     /// over r/R; none is that of the mass spread evenly over the chord.
     pub inertia: Option<SpanLaw>,
     /// Lumped masses.
@@ -92,6 +93,8 @@ struct Piece {
     along: f64,
     /// Direction of the chord there (forward), wing components.
     chordwise: DVec3,
+    /// How far that goes along the beam and across it \[1\].
+    lies: [f64; 2],
 }
 
 /// Part of an element within which a lumped mass lies at its node \[1\].
@@ -197,11 +200,13 @@ impl WingBeam {
                     (e1, (line - line.dot(e1) * e1).length())
                 }
             };
+            let along_beam = chordwise.dot(line.normalize());
             Piece {
                 r,
                 width,
                 along: width / line.length(),
                 chordwise,
+                lies: [along_beam, (1.0 - along_beam * along_beam).sqrt()],
             }
         };
         at.windows(2).map(piece).collect()
@@ -253,14 +258,18 @@ impl WingBeam {
         let left = side(wing.mesh) < 0.0;
         self.coupling.add(r / tip, left, &mut section.stiffness);
         let mass = along * self.mass.as_ref().map_or(whole.even * chord, value);
-        // Thin: all its inertia about the beam is that of the chord; a hundredth of the chord thick.
+        let [along_beam, across] = piece.lies;
+        let direction = DVec3::new(along_beam, across, 0.0);
+        // Thin: all its inertia about the beam is that of the chord, which may be oblique to it; a hundredth of
+        // the chord thick.
         let even = mass * chord * chord / 12.0;
-        let roll = self.inertia.as_ref().map_or(even, |law| along * value(law));
-        section.with_mass(
-            mass,
-            [(self.axis_fraction - self.mass_fraction) * chord, 0.0],
-            [1e-4 * roll, roll],
-        )
+        let roll = |law: &SpanLaw| along * value(law) / (across * across);
+        let spread = self.inertia.as_ref().map_or(even, roll);
+        let moments = spread * outer(direction) + 1e-4 * spread * outer(DVec3::Z);
+        let inertia = trace(moments) * DMat3::IDENTITY - moments;
+        let behind = (self.axis_fraction - self.mass_fraction) * chord;
+        section.mass = MassProperties::about_centre(mass, behind * direction, inertia);
+        section
     }
 
     pub(super) fn scaled(&self, s: f64) -> Self {

@@ -1,6 +1,6 @@
 //! Beams of wings: lumped masses, coupled sections, the left wing as the mirror image, bad input.
 
-use wingbeat_math::{DMat3, DVec3, r1, r2};
+use wingbeat_math::{DMat3, DVec3, outer, r1, r2, trace};
 use wingbeat_model::deformation::SpanLaw;
 use wingbeat_model::structure::{Blank, Damping};
 use wingbeat_model::{
@@ -427,6 +427,40 @@ fn invariant_elastic_wings_of_a_turned_mesh_have_the_same_modes_and_mass() {
             }
             let centre = (own.first_moment - q * mass.first_moment).length();
             assert!((own.mass / mass.mass - 1.0).abs() < 1e-12 && centre < 1e-12);
+        }
+    }
+}
+
+/// Sections lie along the chord, oblique to a beam that is swept: masses and moments are those of the plate.
+#[test]
+fn exact_a_swept_beam_has_the_masses_of_its_plate() {
+    let (sweep, mass) = (30f64.to_radians(), 0.8);
+    for side in [1.0, -1.0] {
+        let swept = |x: DVec3| DVec3::new(x.x - x.y * sweep.tan(), side * x.y, 0.0);
+        let mut plate = mesh();
+        plate.nodes.iter_mut().for_each(|x| *x = swept(*x));
+        // Of the plate, chord 1 and span 2, about the hinge: a rod along the chord, wherever its middle is.
+        let centre = swept(DVec3::new(0.0, 0.5 * SPAN, 0.0));
+        let along = DVec3::new(-sweep.tan(), side, 0.0);
+        let second =
+            mass * (outer(centre) + SPAN * SPAN / 12.0 * outer(along) + outer(DVec3::X) / 12.0);
+        let inertia = trace(second) * DMat3::IDENTITY - second;
+        for elements in [1, 7] {
+            let beam = WingBeam {
+                axis_fraction: 0.2,
+                mass: None,
+                inertia: None,
+                elements,
+                ..beam()
+            };
+            let body = made(&beam, &plate, mass);
+            let found = (body.structure).mass_properties(body.structure.rest());
+            assert!((found.mass / mass - 1.0).abs() < 1e-12);
+            assert!((found.first_moment - mass * centre).length() < 1e-12);
+            // The thickness of a hundredth of the chord has a ten thousandth of its moment.
+            let thick = 1e-4 / 12.0 * mass * (DMat3::IDENTITY - outer(DVec3::Z));
+            let apart = (found.inertia - inertia - thick).to_cols_array();
+            assert!(apart.iter().all(|x| x.abs() < 1e-14), "{apart:?}"); // roundings
         }
     }
 }
