@@ -67,8 +67,8 @@ pub use loads::{AirLoads, SurfaceLoads};
 pub use response::NodeWash;
 pub use settings::{
     AIR_VISCOSITY, AirSettings, CirculationRate, Convection, Friction, Gust, GustShape,
-    LeadingEdge, LoadMethod, NEUTRAL_WIDTH, NewestRow, ParticleSettings, SectionDrag, Spectrum,
-    Turbulence, VortexLift, VortexStreet, Wind,
+    LeadingEdge, LoadMethod, NEUTRAL_WIDTH, NewestRow, OVERLAP_SLOPE, ParticleSettings,
+    SectionDrag, Spectrum, Turbulence, VortexLift, VortexStreet, Wind,
 };
 pub use state::{AirState, ImpulseAccount, InnerFlow, Particles, WakeEvents, WakeSheet};
 pub use wake::Filaments;

@@ -1,7 +1,7 @@
 //! From the raw case to the resolved one: keys that follow from others where the case leaves them
 //! out get their values, so that what comes after has nothing to decide.
 
-use wingbeat_air::{AIR_VISCOSITY, AirSettings};
+use wingbeat_air::{AIR_VISCOSITY, AirSettings, OVERLAP_SLOPE};
 use wingbeat_math::DVec3;
 
 use crate::data::find_data;
@@ -52,6 +52,11 @@ fn time(case: &mut TimeCase, beats: bool) {
     }
 }
 
+/// Whether cores of the wake are as wide as a part of the way along the sheet.
+pub(crate) fn has_slope(case: &AirCase) -> bool {
+    matches!(case.wake_core, CoreCase::Algebraic(_)) && case.wake_overlap.value() > 0.0
+}
+
 /// What the scheme says; cores that spread in air and widen where they have a radius; distance of the wake.
 pub(crate) fn air(case: &mut AirCase) {
     let scheme = match case.scheme {
@@ -67,6 +72,9 @@ pub(crate) fn air(case: &mut AirCase) {
     }
     let has_radius = !matches!(case.wake_core, CoreCase::CutOff { .. });
     case.wake_overlap.decide(if has_radius { 1.0 } else { 0.0 });
+    if has_slope(case) {
+        case.wake_overlap_slope.get_or_insert(OVERLAP_SLOPE);
+    }
     if case.clearance_m.is_none() {
         case.clearance_chords.get_or_insert(CLEARANCE);
     }

@@ -292,6 +292,16 @@ const TABLE: &[(&[&str], &str, &str)] = &[
     ),
     (&["air.shed=[]"], "air.clearance_m=1e-4", ""),
     (&["air.shed=[]"], "air.wake_overlap=0.3", ""),
+    (&["air.shed=[]"], "air.wake_overlap_slope=0.1", ""),
+    (&["air.wake_overlap=0"], "air.wake_overlap_slope=0.1", ""),
+    (
+        &[
+            "air.bound_core.lamb_oseen={ radius_m = 1e-5 }",
+            "air.wake_core.lamb_oseen={ radius_m = 1e-4 }",
+        ],
+        "air.wake_overlap_slope=0.1",
+        "",
+    ),
     (&["air.shed=[]"], "air.convection=euler", ""),
     (
         &["air.shed=[]"],

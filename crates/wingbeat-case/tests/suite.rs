@@ -2,6 +2,7 @@
 
 mod absurd;
 mod angle_tables;
+mod attached_wakes;
 mod bodies_in_wind;
 mod counterparts;
 mod defaults;

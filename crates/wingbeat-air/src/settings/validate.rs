@@ -71,6 +71,12 @@ impl AirSettings {
             "a finite number from 0; above 0 only if wake_core has a radius, which a cut-off has not",
         )?;
         require(
+            is_positive(self.overlap_slope),
+            "overlap_slope",
+            self.overlap_slope,
+            "a finite number above 0",
+        )?;
+        require(
             self.wake_blob_length
                 .is_none_or(|l| is_positive(l) && self.wake_overlap >= 0.5),
             "wake_blob_length",

@@ -5,18 +5,9 @@ use crate::settings::AirSettings;
 use crate::state::WakeSheet;
 use wingbeat_math::DVec3;
 
-/// Core radius of a node over its way along the sheet from the edge, at most (or as wide as vorticity of its age is).
-///
-/// Cores as wide as filaments are long blunt what a sheet does to anything nearer than that. Without this limit
-/// a row loses its effect on the panels at its edge the moment it leaves it, later if steps are longer: the
-/// lift of a hovering fly went up by a seventh from 40 to 160 steps a beat, and by a seventh with half the
-/// overlap. With this share of the way the velocity of a sheet is right to 3 parts in a hundred at any
-/// distance, and where filaments stretch, a chord or two from the edge, cores are as wide as they are long.
-const SHARE_OF_WAY: f64 = 0.25;
-
 /// Appends the squared core radii \[m2\] of the free nodes of a sheet, whose shedding edge is `edge`: as wide
 /// with age as viscosity makes them, and at least as wide as the longest filament there is long, times the
-/// overlap, but no wider than [`SHARE_OF_WAY`] for that.
+/// overlap, but no wider than [`AirSettings::overlap_slope`] allows for that.
 pub(super) fn add_cores(
     cores: &mut Vec<f64>,
     sheet: &WakeSheet,
@@ -35,7 +26,8 @@ pub(super) fn add_cores(
             let age = t - sheet.shed_time[r];
             let wide = settings.free_core(longest(sheet, [r, c], x).max(step), age);
             let aged = settings.wake_core.core(0.0, age);
-            cores[first + r * width + c] = wide.min(aged.max((SHARE_OF_WAY * way).powi(2)));
+            cores[first + r * width + c] =
+                wide.min(aged.max((settings.overlap_slope * way).powi(2)));
             newer = x;
         }
     }

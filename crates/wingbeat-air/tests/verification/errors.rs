@@ -65,11 +65,12 @@ fn exact_topology_errors() {
 #[test]
 fn exact_setting_errors_name_the_key() {
     type Spoil = fn(&mut AirSettings);
-    let spoil: [(&str, Spoil); 13] = [
+    let spoil: [(&str, Spoil); 14] = [
         ("density", |s| s.density = -1.0),
         ("free_stream", |s| s.free_stream.y = f64::NAN),
         ("max_displacement", |s| s.max_displacement = Some(0.0)),
         ("wake_overlap", |s| s.wake_overlap = f64::NAN),
+        ("overlap_slope", |s| s.overlap_slope = 0.0),
         // The cut-off has no radius to widen.
         ("wake_overlap", |s| s.wake_overlap = 1.0),
         ("wake_blob_length", |s| s.wake_blob_length = Some(f64::NAN)),

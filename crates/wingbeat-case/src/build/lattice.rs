@@ -2,12 +2,12 @@
 
 use wingbeat_air::{
     AIR_VISCOSITY, AirError, AirSettings, CoreModel, EdgeKind, Friction, LeadingEdge,
-    ParticleSettings, SectionDrag, SheddingKinds, VortexLift,
+    OVERLAP_SLOPE, ParticleSettings, SectionDrag, SheddingKinds, VortexLift,
 };
 use wingbeat_flight::AirOptions;
 use wingbeat_model::Animal;
 
-use super::fault::Built;
+use super::fault::{Built, idle};
 use super::lengths::Chord;
 use super::numbers::vector;
 use super::{deformation, wind};
@@ -16,6 +16,7 @@ use crate::raw::{
     AirCase, Case, CoreCase, FrictionCase, LeadingEdgeCase, ParticlesCase, SchemeCase,
     SectionDragCase,
 };
+use crate::resolve;
 
 /// The lattice and what of the animal it sees.
 pub(super) fn options(whole: &Case, animal: &Animal) -> Built<AirOptions> {
@@ -45,6 +46,7 @@ fn settings(case: &AirCase, chord: &Chord) -> Built<AirSettings> {
         bound_core: bound_core(chord, &case.bound_core, wake_core)?,
         wake_core,
         wake_overlap: case.wake_overlap.value(),
+        overlap_slope: overlap_slope(case)?,
         wake_blob_length: length(
             "wake_blob_length",
             case.wake_blob_length_m,
@@ -79,6 +81,17 @@ fn settings(case: &AirCase, chord: &Chord) -> Built<AirSettings> {
         tolerance: case.summation_tolerance,
         ..scheme(case.density_kg_m3, stream)
     })
+}
+
+/// [`AirSettings::overlap_slope`], which a case may change only where it acts.
+fn overlap_slope(case: &AirCase) -> Built<f64> {
+    match case.wake_overlap_slope {
+        Some(slope) if slope != OVERLAP_SLOPE && !resolve::has_slope(case) => Err(idle(
+            "air.wake_overlap_slope",
+            "without algebraic cores of the wake, as wide as air.wake_overlap (above 0) has them",
+        )),
+        slope => Ok(slope.unwrap_or(OVERLAP_SLOPE)),
+    }
 }
 
 /// What the lattice refuses, at the key it is about.
@@ -148,6 +161,7 @@ pub(super) fn key_of(setting: &str) -> &'static str {
         "bound_core" => "air.bound_core",
         "wake_core" => "air.wake_core",
         "wake_overlap" => "air.wake_overlap",
+        "overlap_slope" => "air.wake_overlap_slope",
         "wake_blob_length" => "air.wake_blob_length_m",
         "max_displacement" => "air.max_displacement_m",
         "plane_wakes" => "air.plane_wakes",

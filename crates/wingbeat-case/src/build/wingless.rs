@@ -11,9 +11,10 @@ use crate::source::CaseSource;
 const WITHOUT_WINGS: &str = "without wings";
 
 /// Keys of the lattice that act on wings and their wakes alone.
-const LATTICE: [&str; 22] = [
+const LATTICE: [&str; 23] = [
     "shed",
     "wake_overlap",
+    "wake_overlap_slope",
     "wake_blob_length_m",
     "wake_blob_length_chords",
     "convection",

@@ -69,19 +69,26 @@ pub struct AirCase {
     /// algebraic, from 0.07 mean chords on.
     ///
     /// Change it by a factor of two both ways to see what hangs on it; for the drag of attached wings in a
-    /// stream to 0.01 chords, with `wake_overlap = 0` (docs/wings.md, "Induced drag of attached wings").
+    /// stream to 0.01 chords, with `wake_overlap_slope` = 0.03 (docs/wings.md, "Induced drag of attached wings").
     #[default(LambOseenCase::chords(0.07))]
     #[schemars(extend("with" = LATTICE))]
     pub wake_core: CoreCase,
     /// Least core radius of a free wake filament over its length: keeps wakes resolved that the flow stretches.
     /// Default: 1, or 0 where `wake_core` is a cut-off, which has no radius. Algebraic cores are no wider for
-    /// it than a quarter of the way along the sheet from its edge.
+    /// it than `wake_overlap_slope` allows.
     ///
-    /// Change it to 0 for the drag of attached wings in a stream, and to compare with codes whose cores do not
-    /// widen; long hover then blows up.
+    /// Change it to 0 to compare with codes whose cores do not widen; wakes that roll up lose their impulse then, and
+    /// long hover blows up.
     #[schemars(extend("minimum" = 0, "with" = [LATTICE, SHEDDING]))]
     #[serde(skip_serializing_if = "Open::is_open")]
     pub wake_overlap: Open<f64>,
+    /// Radius of a core of the wake over the way along the sheet from its edge, at most, for the sake of
+    /// `wake_overlap`. Default: 0.25. Only with algebraic cores and a `wake_overlap` above 0.
+    ///
+    /// Change it to 0.03 for the drag of attached wings in a stream (docs/wings.md, "Induced drag of attached wings").
+    #[schemars(extend("exclusiveMinimum" = 0, "with" = [LATTICE, SHEDDING]))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub wake_overlap_slope: Option<f64>,
     /// Length from which a wake filament turns into a vortex blob, wholly at 1.25 times this
     /// length; left out: never. Blobs are summed on a mesh: the cost of long flights then grows
     /// with the wake and not with its square. Needs `wake_overlap` of 0.5 or more, and as

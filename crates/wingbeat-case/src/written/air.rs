@@ -220,6 +220,7 @@ fn settings(lattice: &AirSettings) -> AirCase {
         bound_core,
         wake_core,
         wake_overlap,
+        overlap_slope,
         wake_blob_length,
         shedding,
         rate,
@@ -250,6 +251,7 @@ fn settings(lattice: &AirSettings) -> AirCase {
         bound_core: without_viscosity(core(bound_core)),
         wake_core: core(wake_core),
         wake_overlap: wake_overlap.into(),
+        wake_overlap_slope: (lattice.is_symmetric() && wake_overlap > 0.0).then_some(overlap_slope),
         wake_blob_length_m: wake_blob_length,
         scheme: match newest_row {
             NewestRow::Constant => SchemeCase::Benchmark,

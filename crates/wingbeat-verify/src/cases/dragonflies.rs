@@ -82,7 +82,6 @@ impl Dragonfly {
             // The air comes against the flight; n3 is down.
             stream: [-self.flight[0] * c, 0.0, self.flight[0] * s],
             chord: 0.5 * (fore.area / fore.length + hind.area / hind.length),
-            length: fore.length,
             frequency: self.frequency,
         });
         let apart = WIDEST * hind.area / hind.length;

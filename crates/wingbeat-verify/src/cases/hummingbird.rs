@@ -152,7 +152,6 @@ fn fly(choice: Choice, surface: SurfaceCase) -> Result<Means, VerifyError> {
         viscosity: VISCOSITY,
         stream: [0.0; 3],
         chord: CHORD,
-        length: LENGTH,
         frequency: FREQUENCY,
     });
     let still = WingMotionCase {

@@ -55,12 +55,8 @@ pub(crate) struct Choice {
 pub(crate) enum Cut {
     /// Nowhere.
     Nowhere,
-    /// After so many rows.
-    Rows(usize),
     /// After so many beats.
     Beats(f64),
-    /// So many wing lengths from their edges.
-    Lengths(f64),
 }
 
 pub(crate) const DEFAULT: Choice = Choice {
@@ -83,7 +79,6 @@ pub(crate) struct Fluid {
     pub viscosity: f64,
     pub stream: [f64; 3],
     pub chord: f64,
-    pub length: f64,
     pub frequency: f64,
 }
 
@@ -139,16 +134,8 @@ impl Choice {
         };
         match self.cut {
             Cut::Nowhere => air,
-            Cut::Rows(rows) => AirCase {
-                max_wake_rows: Some(rows),
-                ..air
-            },
             Cut::Beats(n) => AirCase {
                 max_wake_age_s: Some(n / fluid.frequency),
-                ..air
-            },
-            Cut::Lengths(n) => AirCase {
-                max_wake_distance_m: Some(n * fluid.length),
                 ..air
             },
         }
@@ -222,7 +209,6 @@ impl Insect {
             viscosity: self.viscosity,
             stream: [0.0; 3],
             chord: self.area / (self.length - self.root),
-            length: self.length,
             frequency: self.frequency,
         });
         case.motion.stroke_plane_pitch_deg = 90.0.into();

@@ -73,6 +73,10 @@ pub(crate) enum Command {
     /// Trim, disturb, and fly under feedback.
     Stabilise(analyse::stabilise::StabiliseArgs),
     /// The velocity of the air at points, on a line or on a plane, from a run.
+    ///
+    /// A point has no core, and with algebraic cores the squared core of a pair is the mean of both: the speed
+    /// about a filament whose core is radius_m is Gamma / (2 pi) h / (h^2 + radius_m^2 / 2), largest at 0.71
+    /// radius_m from it.
     Velocity(velocity::VelocityArgs),
     /// Run the verification suite and write its report: what is claimed of the air, against what,
     /// how far off.
