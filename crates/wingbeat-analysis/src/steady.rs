@@ -376,7 +376,7 @@ pub(crate) fn check(setup: &FlightSetup, problem: &TrimProblem) -> Result<(), An
     }
     match problem.turn_rate {
         0.0 => Ok(()),
-        _ => check_turn(setup),
+        rate => check_turn(setup, rate),
     }
 }
 
@@ -424,8 +424,20 @@ pub(crate) fn check_determined(
     }
 }
 
-/// An error if what surrounds the flight does not look the same from all headings.
-fn check_turn(setup: &FlightSetup) -> Result<(), AnalysisError> {
+/// An error if the flight turns by more than half a turn in a wingbeat, of which nobody can tell which way it
+/// went round, or if what surrounds it does not look the same from all headings.
+fn check_turn(setup: &FlightSetup, rate: f64) -> Result<(), AnalysisError> {
+    let turned = rate * setup.time.period.unwrap_or(0.0);
+    if turned.abs() > std::f64::consts::PI {
+        return Err(AnalysisError::not_covered(
+            format!(
+                "a turn by {:.6} deg/s is {:.3} whole turns in a wingbeat",
+                rate.to_degrees(),
+                turned.abs() / std::f64::consts::TAU
+            ),
+            "a steady turn has at most half a turn in a wingbeat: choose a lower turn rate",
+        ));
+    }
     let horizontal = |v: DVec3| v.x != 0.0 || v.y != 0.0;
     let refused = |key: &str, v: DVec3, what: &str, remedy: &'static str| {
         let [x, y, z] = v.to_array();
