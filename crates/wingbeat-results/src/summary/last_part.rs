@@ -64,3 +64,48 @@ impl Bounds {
         })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use wingbeat_case::LoadedCase;
+    use wingbeat_flight::TimeGrid;
+    use wingbeat_math::DVec3;
+
+    use super::*;
+
+    /// A lift of `2 t` N and a dynamic pressure of 3 N from 0 to 20 s: 36 N on average over the last 4 s, 34 and 38 N
+    /// over its halves.
+    #[test]
+    fn exact_last_fifth_of_a_lift_that_rises_steadily() {
+        let mut setup = LoadedCase::find("rectangular-wing", &[]).unwrap().setup;
+        setup.time = TimeGrid {
+            step: 1.0,
+            steps: 20,
+            period: None,
+        };
+        let record = |k: usize| Record {
+            step: k,
+            time: k as f64,
+            air_impulse: DVec3::new(0.0, 0.0, -((k * k) as f64)),
+            dynamic_impulse: 3.0 * k as f64,
+            ..Record::default()
+        };
+        let part = |setup: &FlightSetup, rows: &[usize]| {
+            let mut bounds = Bounds::default();
+            rows.iter().for_each(|&k| bounds.take(&record(k), setup));
+            bounds.ended_by(&record(rows[rows.len() - 1]), setup)
+        };
+        let every: Vec<usize> = (0..=20).collect();
+        let last = part(&setup, &every).unwrap();
+        assert_eq!([last.from_s, last.to_s], [16.0, 20.0]);
+        assert_eq!(last.mean.lift_newton, 36.0);
+        assert_eq!(last.mean.lift_coefficient, Some(12.0));
+        assert_eq!(last.change_of_lift, 4.0 / 36.0);
+        assert_eq!(part(&setup, &[0, 16, 18, 20]), Some(last));
+        // Ended early; too few rows; wingbeats.
+        assert_eq!(part(&setup, &every[..20]), None);
+        assert_eq!(part(&setup, &[0, 10, 20]), None);
+        setup.time.period = Some(5.0);
+        assert_eq!(part(&setup, &every), None);
+    }
+}
