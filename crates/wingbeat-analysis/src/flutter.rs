@@ -17,12 +17,14 @@
 //! | - | [`Condition::uncertainty`] | what is not known of sigma | 1/s |
 //! | omega | [`Vibration::frequency`] | angular frequency of a mode | rad/s |
 //!
-//! A motion that grows without vibrating is static divergence ([`Condition::divergence`]).
+//! A motion that grows without vibrating is static divergence ([`Condition::divergence`]); wings with incidence
+//! pass it by a steep rise of the steady deflection ([`steep`]).
 //!
 //! The step of the setup goes with the speed: the stream passes the same way in a step as in the setup.
 
 mod condition;
 mod crossing;
+mod deflection;
 mod disturbance;
 mod response;
 mod settings;
@@ -33,5 +35,6 @@ mod uncertainty;
 pub use crate::realisation::{NOISE, Realisation, Vibration, realise};
 pub use condition::{Condition, MAX_DAMPING, MIN_SHARE, condition};
 pub use crossing::{Crossing, by_wing, crossings, growing, likely};
+pub use deflection::{Steep, steep};
 pub use settings::FlutterSettings;
 pub use steady::{ElasticRig, SteadyWing};

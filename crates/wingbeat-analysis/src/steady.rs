@@ -353,7 +353,7 @@ pub(crate) fn check(setup: &FlightSetup, problem: &TrimProblem) -> Result<(), An
             "leave gravity_m_s2 out, or give the animal a weight to carry",
         ));
     }
-    check_numbers(problem)?;
+    check_numbers(setup, problem)?;
     let all = problem.with_given(&[]).0;
     check_unknowns(setup, &all)?;
     let (residuals, named) = (Residuals::of(problem), problem.unknowns.len());
@@ -381,7 +381,7 @@ pub(crate) fn check(setup: &FlightSetup, problem: &TrimProblem) -> Result<(), An
 }
 
 /// An error if speeds, turn or steps are out of range.
-fn check_numbers(problem: &TrimProblem) -> Result<(), AnalysisError> {
+fn check_numbers(setup: &FlightSetup, problem: &TrimProblem) -> Result<(), AnalysisError> {
     let speeds = problem.velocity.to_array();
     if let Some(speed) = speeds
         .iter()
@@ -396,6 +396,19 @@ fn check_numbers(problem: &TrimProblem) -> Result<(), AnalysisError> {
         return Err(AnalysisError::not_covered(
             format!("a turn by {} rad/s", problem.turn_rate),
             "give a finite number",
+        ));
+    }
+    // Of more than half a turn in a wingbeat nobody can tell which way it went round.
+    let rate = problem.turn_rate;
+    let turned = rate * setup.time.period.unwrap_or(0.0);
+    if turned.abs() > std::f64::consts::PI {
+        return Err(AnalysisError::not_covered(
+            format!(
+                "a turn by {:.6} deg/s is {:.3} whole turns in a wingbeat",
+                rate.to_degrees(),
+                turned.abs() / std::f64::consts::TAU
+            ),
+            "a steady turn has at most half a turn in a wingbeat: choose a lower turn rate",
         ));
     }
     let ([least, most], steps) = (TRIM_STEPS, problem.settings.steps);

@@ -48,7 +48,7 @@ fn refuses_wings_that_differ_before_it_searches() {
 #[test]
 fn refuses_trims_out_of_range_before_they_search() {
     type Change = fn(&mut TrimProblem);
-    let cases: [(Change, &str); 6] = [
+    let cases: [(Change, &str); 7] = [
         (|p| p.velocity.x = 340.0, "below that of sound"),
         (
             |p| p.velocity = DVec3::new(500.0, 0.0, -500.0),
@@ -56,6 +56,7 @@ fn refuses_trims_out_of_range_before_they_search() {
         ),
         (|p| p.velocity.z = f64::NAN, "below that of sound"),
         (|p| p.turn_rate = f64::INFINITY, "a turn by inf rad/s"),
+        (|p| p.turn_rate = -1e4, "whole turns in a wingbeat"),
         (|p| p.settings.steps = 19, "in 19 steps per wingbeat"),
         (|p| p.settings.steps = 2_001, "in 2001 steps per wingbeat"),
     ];

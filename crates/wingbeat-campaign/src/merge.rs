@@ -6,6 +6,7 @@ use std::ops::Range;
 use std::path::PathBuf;
 
 use wingbeat_case::IoError;
+use wingbeat_case::keys::described;
 use wingbeat_results::export::parquet::{Cell, Cells, ParquetWriter};
 use wingbeat_results::file::{Existing, NewFile};
 use wingbeat_results::manifest::hexadecimal;
@@ -185,18 +186,27 @@ fn parquet(campaign: &Campaign, rows: &[Row], path: &std::path::Path) -> std::io
         let all = (head.chain([Cell::Number(success), Cell::Text(verdict(row))])).chain(numbers);
         table.cells(all.chain([Cell::Text(reason(row))]))?;
     }
-    let note = |of: &dyn Fn(&crate::number::Number) -> String| {
-        let all = campaign
-            .numbers
-            .iter()
-            .map(|n| (n.name.clone(), of(n).into()));
-        serde_json::Value::Object(all.collect()).to_string()
-    };
+    let [units, meanings] = notes(campaign);
     table.finish(&[
         ("wingbeat_version", env!("CARGO_PKG_VERSION")),
         ("campaign_toml", campaign.text()),
         ("case_toml", campaign.base().text()),
-        ("units", &note(&|n| n.unit.clone())),
-        ("meanings", &note(&|n| n.about.clone())),
+        ("units", &units),
+        ("meanings", &meanings),
     ])
+}
+
+/// Units and meanings of the columns of keys and numbers by their names, as JSON.
+fn notes(campaign: &Campaign) -> [String; 2] {
+    let keys = campaign.plan().keys().iter();
+    let keys = keys.filter_map(|key| Some((key.clone(), described(key)?)));
+    let numbers = campaign.numbers.iter();
+    let numbers = numbers.map(|n| (n.name.clone(), [n.unit.clone(), n.about.clone()]));
+    let all: Vec<(String, [String; 2])> = keys.chain(numbers).collect();
+    [0, 1].map(|k| {
+        let notes = all
+            .iter()
+            .map(|(name, of)| (name.clone(), of[k].clone().into()));
+        serde_json::Value::Object(notes.collect()).to_string()
+    })
 }

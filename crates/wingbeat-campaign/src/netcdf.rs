@@ -5,6 +5,7 @@
 
 use std::path::Path;
 
+use wingbeat_case::keys::described;
 use wingbeat_results::export::hdf5::{Attribute, Hdf5File, Kind, Layout};
 
 use crate::campaign::Campaign;
@@ -52,6 +53,14 @@ impl File {
         let texts: Vec<String> = values.iter().map(Value::shown).collect();
         self.data.push(Data::There);
         self.layout.texts(name, texts)
+    }
+
+    /// Gives the values of a key of the case their unit and their meaning.
+    fn describe(&mut self, dataset: usize, key: &str) {
+        if let Some([unit, about]) = described(key) {
+            self.layout.text(dataset, "units", &unit);
+            self.layout.text(dataset, "long_name", &about);
+        }
     }
 
     /// Makes a dataset the coordinate of a dimension.
@@ -124,9 +133,13 @@ fn axes(campaign: &Campaign, file: &mut File) -> (Vec<usize>, Vec<String>) {
             false => file.values(&axis.name, &numbered(axis.len())),
         };
         file.scale(scale, &axis.name);
+        if own {
+            file.describe(scale, &axis.name);
+        }
         scales.push(scale);
         for (key, values) in axis.keys.iter().zip(&axis.values).skip(usize::from(own)) {
             let dataset = file.values(key, values);
+            file.describe(dataset, key);
             file.along(dataset, &[scale]);
             beside.push(key.clone());
         }
@@ -143,6 +156,7 @@ fn axes(campaign: &Campaign, file: &mut File) -> (Vec<usize>, Vec<String>) {
                 &[plan.samples],
                 Data::Float(drawn),
             );
+            file.describe(dataset, sampler.key());
             file.along(dataset, &[scale]);
             beside.push(sampler.key().to_owned());
         }

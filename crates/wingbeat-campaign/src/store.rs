@@ -12,7 +12,7 @@
 //! ```
 //!
 //! Results are not put onto the disk one by one (`fsync`): a power failure may lose or damage those of the last
-//! seconds. Their checksums tell, and they are flown again.
+//! seconds. Their checksums, each of a record and its point, tell, and they are flown again.
 
 use std::collections::HashMap;
 use std::fs;
@@ -27,7 +27,9 @@ use wingbeat_results::summary::Verdict;
 
 /// The copy of the campaign's file; where it is, there is a campaign.
 pub const FILE: &str = "campaign.toml";
-const MAGIC: &str = "wingbeat-point 1 ";
+const MAGIC: &str = "wingbeat-point 2 ";
+/// Of records of before, whose checksum is of the result alone and not of the point.
+const WITHOUT_POINT: &str = "wingbeat-point 1 ";
 
 /// Why a point has no numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -203,7 +205,7 @@ impl Store {
     /// A file that cannot be written.
     pub fn put(&self, hash: &str, result: &PointResult) -> Result<(), IoError> {
         let body = serde_json::to_string(result).expect("a result is JSON");
-        let text = format!("{MAGIC}{}\n{body}\n", sha256(body.as_bytes()));
+        let text = format!("{MAGIC}{}\n{body}\n", checksum(hash, &body));
         let ending = if result.failed.is_some() {
             "failed"
         } else {
@@ -217,7 +219,8 @@ impl Store {
         Ok(())
     }
 
-    /// The result of a point that is done; none where there is none, or a damaged one, which is removed.
+    /// The result of a point that is done; none where there is none, or a damaged one or that of another point,
+    /// which is removed.
     ///
     /// # Errors
     /// A file that cannot be read.
@@ -228,7 +231,7 @@ impl Store {
                 Err(e) if e.kind() == ErrorKind::NotFound => continue,
                 read => read.map_err(IoError::read(&path))?,
             };
-            if let Some(result) = decoded(&bytes) {
+            if let Some(result) = decoded(hash, &bytes) {
                 return Ok(Some(result));
             }
             fs::remove_file(&path).map_err(IoError::write(&path))?;
@@ -298,11 +301,25 @@ impl Store {
     }
 }
 
-fn decoded(bytes: &[u8]) -> Option<PointResult> {
+fn decoded(hash: &str, bytes: &[u8]) -> Option<PointResult> {
     let text = std::str::from_utf8(bytes).ok()?;
-    let (sum, body) = text.strip_prefix(MAGIC)?.split_once('\n')?;
+    let of = |magic| text.strip_prefix(magic)?.split_once('\n');
+    let (sum, body, is_bound) = match (of(MAGIC), of(WITHOUT_POINT)) {
+        (Some((sum, body)), _) => (sum, body, true),
+        (None, Some((sum, body))) => (sum, body, false),
+        (None, None) => return None,
+    };
     let body = body.strip_suffix('\n')?;
-    (sha256(body.as_bytes()) == sum).then(|| serde_json::from_str(body).ok())?
+    let expected = match is_bound {
+        true => checksum(hash, body),
+        false => sha256(body.as_bytes()),
+    };
+    (expected == sum).then(|| serde_json::from_str(body).ok())?
+}
+
+/// Checksum of the result of a point: of both, so that a record under the name of another point is found.
+fn checksum(hash: &str, body: &str) -> String {
+    sha256(format!("{hash}\n{body}").as_bytes())
 }
 
 #[cfg(test)]
@@ -334,6 +351,16 @@ mod tests {
             fs::write(&path, &whole[..k]).unwrap();
             assert_eq!(store.get(&hash).unwrap(), None, "cut to {k}");
         }
+        let other = hexadecimal(&[0x3c; 32]);
+        store
+            .make(store.place(&other, "ok").parent().unwrap())
+            .unwrap();
+        fs::write(store.place(&other, "ok"), &whole).unwrap();
+        assert_eq!(store.get(&other).unwrap(), None, "of another point");
+        let old = format!("{WITHOUT_POINT}{}\n{before}\n", sha256(before.as_bytes()));
+        fs::write(&path, old).unwrap();
+        let found = store.get(&hash).unwrap();
+        assert_eq!(found.map(|r| r.values[0]), Some(Some(0.5)), "of before");
         assert_eq!(store.count_death(&hash, 0).unwrap(), 1);
         assert_eq!(store.count_death(&hash, 0).unwrap(), 2);
         assert_eq!(store.count_death(&hash, 40).unwrap(), 1, "it advanced");

@@ -11,6 +11,10 @@ use crate::raw::{AngleCase, BodyCase, OutlineCase, PlanformCase, SurfaceCase, Wi
 /// Angles of a table that are all below this could be radians \[deg\].
 const HALF_A_TURN: f64 = 3.2;
 
+/// Swings of stroke and feathering to either side in radians, 11 to 100 deg, which no wing has in degrees: it
+/// would be held still.
+const SWINGS: std::ops::Range<f64> = 0.2..1.75;
+
 /// A sample that stands this far from both neighbours, alone in its value, was hardly measured \[deg\].
 const LEAP_DEG: f64 = 10.0;
 
@@ -73,12 +77,10 @@ fn tables(motion: &WingMotionCase) -> Vec<(&'static str, &[[f64; 2]])> {
     angles.into_iter().filter_map(rows).collect()
 }
 
-/// Tables whose angles are all small, counted from what their 0 stands for.
-fn radians(
-    wing: &str,
-    tables: &[(&str, &[[f64; 2]])],
-    zero: impl Fn(&str) -> f64,
-) -> Option<String> {
+/// Tables whose angles are all small, counted from what their 0 stands for, or one of stroke or feathering
+/// beside others that are not.
+fn radians(wing: &str, tables: &[(&str, &[[f64; 2]])], zero: impl Fn(&str) -> f64) -> Vec<String> {
+    const CONVENTION: &str = "are they radians? Tables are in degrees, and columns of files in radians where their name says so";
     let largest = |(angle, rows): &(&str, &[[f64; 2]])| {
         let from = zero(angle);
         rows.iter()
@@ -87,9 +89,30 @@ fn radians(
     };
     let most = tables.iter().map(largest).fold(0.0, f64::max);
     let has_stroke = tables.iter().any(|t| t.0 == "phi");
-    (has_stroke && most > 0.0 && most < HALF_A_TURN).then(|| {
-        format!("all angles in the tables of wing.{wing}.motion are below {HALF_A_TURN} deg: are they radians? Tables are in degrees, and columns of files in radians where their name says so (phi_rad)")
-    })
+    if has_stroke && most > 0.0 && most < HALF_A_TURN {
+        return vec![format!(
+            "all angles in the tables of wing.{wing}.motion are below {HALF_A_TURN} deg: {CONVENTION} (phi_rad)"
+        )];
+    }
+    let is_doubtful = |table: &&(&str, &[[f64; 2]])| {
+        table.0 != "theta" && largest(table) < HALF_A_TURN && SWINGS.contains(&swing(table.1))
+    };
+    let say = |table: &(&str, &[[f64; 2]])| {
+        let (angle, swing) = (table.0, swing(table.1));
+        format!(
+            "wing.{wing}.motion.{angle}.table swings by {swing:.2} deg to either side: {CONVENTION} ({angle}_rad)"
+        )
+    };
+    tables.iter().filter(is_doubtful).map(say).collect()
+}
+
+/// Half of the range of the angles of a table \[deg\].
+fn swing(rows: &[[f64; 2]]) -> f64 {
+    let angles = rows.iter().map(|row| row[1]);
+    let range = angles.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], q| {
+        [low.min(q), high.max(q)]
+    });
+    0.5 * (range[1] - range[0])
 }
 
 /// Neighbours that differ by most of a turn.

@@ -178,6 +178,11 @@ fn exact_angles_of_a_file_are_in_the_unit_that_their_column_says() {
     }
     let said = load("psi_rad_deg", 20.0).unwrap_err();
     assert!(said.contains("both radians and degrees"), "{said}");
+    let said = load("psi_rad", 20.0).unwrap_err();
+    assert!(
+        said.contains("it holds 0 to 60, more than a whole turn") && said.contains("`psi_deg`"),
+        "{said}"
+    );
 }
 
 /// Signs of angles on a tethered animal: both wings, or a left one with the signs of a right one; and samples

@@ -259,6 +259,32 @@ fn behaves_air_from_behind_and_drag_of_small_insects_are_named() {
 }
 
 #[test]
+fn behaves_one_table_in_radians_beside_others_in_degrees_is_named() {
+    let phi = table("phi", &samples(|_, q| q), "");
+    let said = |psi: &dyn Fn(f64) -> f64| {
+        let rows = samples(|k, _| psi(TAU * k as f64 / 50.0));
+        fly(&[phi.clone(), table("psi", &rows, "")]).doubtful_measurements()
+    };
+    let [radians] = &said(&|x| -0.96 * x.sin())[..] else {
+        panic!("a table in radians")
+    };
+    assert!(
+        radians.contains("motion.psi.table swings by 0.96 deg") && radians.contains("radians?"),
+        "{radians}"
+    );
+    // Held at a small angle, with the noise of a measurement or without; far from it; not small.
+    for psi in [
+        &|_| 1.5 as f64,
+        &|x: f64| 1.5 + 0.1 * x.sin(),
+        &|x: f64| 30.0 + x.sin(),
+        &|x: f64| 40.0 * x.sin(),
+    ] as [&dyn Fn(f64) -> f64; 4]
+    {
+        assert_eq!(said(psi), [""; 0]);
+    }
+}
+
+#[test]
 fn behaves_a_force_of_feathering_that_jumps_is_named() {
     let doubts = |set: &[String]| {
         let case = LoadedCase::find("bumblebee-blade", set).unwrap();
@@ -312,6 +338,26 @@ fn behaves_wings_that_fly_with_the_trailing_edge_ahead_are_named() {
         };
         let wanted = format!("ahead in the {strokes} (wings `left`, `right`)");
         assert!(said.contains(&wanted), "{law}: {said}");
+    }
+    // Feathering a quarter of a beat late or early, or read from the column of the stroke; not a tenth of a
+    // beat.
+    for law in ["sine_deg=[-55]", "sine_deg=[55]", "sine_deg=[70]"] {
+        let [said] = &ahead_of(&psi(law))[..] else {
+            panic!("{law}")
+        };
+        assert!(
+            said.contains("broadside")
+                && said.contains("quarter of a beat off")
+                && said.contains("`left`, `right`"),
+            "{law}: {said}"
+        );
+    }
+    for law in [
+        "cosine_deg=[-36],sine_deg=[26]",
+        "cosine_deg=[-36],sine_deg=[-26]",
+        "sine_deg=[20]",
+    ] {
+        assert_eq!(ahead_of(&psi(law)), [""; 0], "{law}");
     }
     // A stream that comes from behind faster than the wings stroke.
     let [said] = &ahead(

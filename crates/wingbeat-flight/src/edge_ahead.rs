@@ -1,9 +1,11 @@
-//! Wings whose prescribed motion moves them with the trailing edge ahead.
+//! Wings whose prescribed motion moves them with the trailing edge ahead, or broadside.
 //!
 //! The air past a section, weighted by its dynamic pressure, goes from the leading to the trailing edge in both
 //! strokes of every wing that flies, hovering or not: the mean of the cosine of the angle of attack is above 0.
 //! In hover angles in another convention (a rotation angle counted from the stroke plane, a sign) turn it round
-//! in one of the strokes, and the lift, which a plate has both ways round, hardly tells.
+//! in one of the strokes, and the lift, which a plate has both ways round, hardly tells. Feathering that is a
+//! quarter of a beat off, or the angle of another column, turns the wing while it is fastest: it stands
+//! broadside there in both strokes, though it feathers far.
 
 use std::ops::AddAssign;
 
@@ -18,6 +20,13 @@ const INSTANTS: usize = 100;
 /// Mean cosine of the angle of attack below which the trailing edge is ahead \[1\]: plates that stroke
 /// broadside have 0.
 const BACKWARDS: f64 = -0.2;
+
+/// Mean cosine of the angle of attack below which a stroke is broadside \[1\]: within some 70 to 110 deg.
+const BROADSIDE: f64 = 0.35;
+
+/// Half of the range of the feathering angle from which on a wing that strokes broadside was meant to feather
+/// \[rad\].
+const FEATHERS: f64 = 25.0 * std::f64::consts::PI / 180.0;
 
 /// Part of the dynamic pressure of a beat that a stroke has at least to count \[1\].
 const COUNTS: f64 = 0.05;
@@ -34,6 +43,64 @@ struct Stroke {
     psi: f64,
 }
 
+/// A beat of a wing.
+struct Beat {
+    /// Its down- and upstroke.
+    strokes: [Stroke; 2],
+    /// Half of the range of the feathering angle \[rad\].
+    feathers: f64,
+}
+
+/// What is doubted of a wing, and what to look at.
+#[derive(PartialEq)]
+struct Doubt {
+    what: String,
+    remedy: &'static str,
+}
+
+impl Beat {
+    /// Which strokes move the trailing edge ahead.
+    fn turned_round(&self) -> Option<Doubt> {
+        const REMEDY: &str = "in the convention of this program psi is below 0 in the downstroke and above 0 in the upstroke of a \
+             hovering animal; a rotation angle counted from the stroke plane, 0 to 180 deg, becomes psi by factor = -1 and offset_deg = 90 \
+             in its table, or by offset_deg = -90 (ANGLES.md)";
+        let all: f64 = self.strokes.iter().map(|s| s.pressure).sum();
+        let both = ["downstroke", "upstroke"].into_iter().zip(&self.strokes);
+        let wrong =
+            both.filter(|(_, s)| s.pressure > COUNTS * all && s.along < BACKWARDS * s.pressure);
+        let said: Vec<String> = wrong
+            .map(|(name, s)| {
+                format!(
+                    "{name} (psi = {:.0} deg at its fastest)",
+                    s.psi.to_degrees()
+                )
+            })
+            .collect();
+        (!said.is_empty()).then(|| Doubt {
+            what: format!(
+                "the trailing edge is ahead in the {}",
+                said.join(" and the ")
+            ),
+            remedy: REMEDY,
+        })
+    }
+
+    /// What is said of a wing that feathers far, and yet strokes broadside both ways.
+    fn broadside(&self) -> Option<Doubt> {
+        let is_broadside = |s: &Stroke| s.pressure > 0.0 && s.along.abs() < BROADSIDE * s.pressure;
+        let psi = self.strokes.map(|s| s.psi.to_degrees());
+        (self.feathers > FEATHERS && self.strokes.iter().all(is_broadside)).then(|| Doubt {
+            what: format!(
+                "the wing stands broadside to its way where it is fastest, psi = {:.0} deg in the downstroke and {:.0} deg in the upstroke, though it feathers by {:.0} deg to either side",
+                psi[0],
+                psi[1],
+                self.feathers.to_degrees()
+            ),
+            remedy: "is the feathering a quarter of a beat off, or another column? Look at the phase of motion.psi, or at its angle_column (ANGLES.md)",
+        })
+    }
+}
+
 impl AddAssign<(f64, f64, f64)> for Stroke {
     /// Adds pressure and its part along the chord of an instant with this feathering angle.
     fn add_assign(&mut self, (pressure, along, psi): (f64, f64, f64)) {
@@ -46,41 +113,40 @@ impl AddAssign<(f64, f64, f64)> for Stroke {
 }
 
 impl FlightSetup {
-    /// Says which wings move with the trailing edge ahead in one of their strokes, and what angles do so. Wings
-    /// that do not beat, or have joints of their own, are left out.
+    /// Says which wings move with the trailing edge ahead in one of their strokes, and what angles do so, or
+    /// feather and yet stroke broadside. Wings that do not beat, or have joints of their own, are left out.
     pub fn trailing_edges_ahead(&self) -> Vec<String> {
         let has_joint = |w: usize| self.joints.iter().any(|j| j.child == w + 1);
-        let mut found: Vec<(String, Vec<&str>)> = vec![];
+        let mut found: Vec<(Doubt, Vec<&str>)> = vec![];
         for (w, wing) in self.animal.wings.iter().enumerate() {
             if has_joint(w) || wing.motion.frequency <= 0.0 {
                 continue;
             }
-            let Some(text) = say(&self.strokes(wing)) else {
+            let beat = self.beat(wing);
+            let Some(doubt) = beat.turned_round().or_else(|| beat.broadside()) else {
                 continue;
             };
-            match found.iter_mut().find(|f| f.0 == text) {
+            match found.iter_mut().find(|f| f.0 == doubt) {
                 Some((_, wings)) => wings.push(&wing.name),
-                None => found.push((text, vec![&wing.name])),
+                None => found.push((doubt, vec![&wing.name])),
             }
         }
-        let named = |(text, wings): (String, Vec<&str>)| {
-            format!(
-                "{text} (wings `{}`): in the convention of this program psi is below 0 in the downstroke and above 0 in the upstroke of a \
-                 hovering animal; a rotation angle counted from the stroke plane, 0 to 180 deg, becomes psi by factor = -1 and offset_deg = 90 \
-                 in its table, or by offset_deg = -90 (ANGLES.md)",
-                wings.join("`, `")
-            )
+        let named = |(doubt, wings): (Doubt, Vec<&str>)| {
+            let wings = wings.join("`, `");
+            format!("{} (wings `{wings}`): {}", doubt.what, doubt.remedy)
         };
         found.into_iter().map(named).collect()
     }
 
     /// Down- and upstroke of a wing in its prescribed motion; the body goes on as it starts.
-    fn strokes(&self, wing: &Wing) -> [Stroke; 2] {
+    fn beat(&self, wing: &Wing) -> Beat {
         let motion = wing.motion.impulsive();
         let mut strokes = [Stroke::default(); 2];
+        let mut feathering = [f64::INFINITY, f64::NEG_INFINITY];
         for k in 0..INSTANTS {
             let t = k as f64 / INSTANTS as f64 / motion.frequency;
             let [[_, rate, _], _, [psi, ..]] = motion.angles(t);
+            feathering = [feathering[0].min(psi), feathering[1].max(psi)];
             let goes_up = wing.side.sign() * rate < 0.0;
             let past = self.air_past(wing, &motion, t);
             let (mut pressure, mut along) = (0.0, 0.0);
@@ -95,7 +161,10 @@ impl FlightSetup {
             }
             strokes[usize::from(goes_up)] += (pressure, along, psi);
         }
-        strokes
+        Beat {
+            strokes,
+            feathers: 0.5 * (feathering[1] - feathering[0]),
+        }
     }
 }
 
@@ -106,26 +175,5 @@ fn strips(wing: &Wing) -> impl Iterator<Item = [DVec3; 3]> {
     (0..mesh.cols).map(move |j| {
         let [front, rear] = [0, mesh.rows].map(|i| at(i, j).midpoint(at(i, j + 1)));
         [front, rear, at(0, j + 1) - at(0, j)]
-    })
-}
-
-/// Which strokes move the trailing edge ahead.
-fn say(strokes: &[Stroke; 2]) -> Option<String> {
-    let all: f64 = strokes.iter().map(|s| s.pressure).sum();
-    let both = ["downstroke", "upstroke"].into_iter().zip(strokes);
-    let wrong = both.filter(|(_, s)| s.pressure > COUNTS * all && s.along < BACKWARDS * s.pressure);
-    let said: Vec<String> = wrong
-        .map(|(name, s)| {
-            format!(
-                "{name} (psi = {:.0} deg at its fastest)",
-                s.psi.to_degrees()
-            )
-        })
-        .collect();
-    (!said.is_empty()).then(|| {
-        format!(
-            "the trailing edge is ahead in the {}",
-            said.join(" and the ")
-        )
     })
 }

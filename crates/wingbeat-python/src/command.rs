@@ -4,6 +4,8 @@ use std::ffi::OsString;
 
 use pyo3::prelude::*;
 use wingbeat::case::{self, presets::PRESETS};
+use wingbeat::results::Summary;
+use wingbeat::results::summary::PerBeat;
 
 use crate::threads::detached;
 
@@ -23,6 +25,16 @@ pub fn presets() -> Vec<(&'static str, &'static str)> {
 #[pyfunction]
 pub fn schema() -> String {
     case::schema()
+}
+
+/// What a number that a flight gives, or a key of a case, is; an empty text of names that are neither.
+#[pyfunction]
+pub fn described(name: &str) -> String {
+    let of_beats = PerBeat::QUANTITIES.iter().find(|q| q.name == name);
+    let of_flight = Summary::NUMBERS.iter().find(|q| q.name == name);
+    let about = of_beats.map(|q| q.about).or(of_flight.map(|q| q.about));
+    let of_key = || case::keys::described(name).map(|[_, about]| about);
+    about.map(str::to_owned).or_else(of_key).unwrap_or_default()
 }
 
 /// Version of the program.

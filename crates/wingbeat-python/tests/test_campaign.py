@@ -309,10 +309,24 @@ def test_behaves_a_table_is_a_dataset_with_units(serial, tmp_path):
 
     data = serial.dataset
     assert data["power_watt"].attrs["units"] == "W" and data["motion.frequency_hz"].attrs["units"] == "Hz"
+    assert "wingbeat" in data["motion.frequency_hz"].attrs["long_name"].lower() and data["power_watt"].attrs["long_name"]
     assert data["reason"].values.tolist() == [""] * 24 and "fruit-fly" in data.attrs["case_toml"]
     data.to_netcdf(tmp_path / "table.nc", engine="h5netcdf")
     with xarray.open_dataset(tmp_path / "table.nc", engine="h5netcdf") as read:
         assert read["power_watt"].values.tobytes() == serial["power_watt"].tobytes()
+
+
+def test_behaves_values_of_several_types_stay_what_they_are():
+    points = {"motion.frequency_hz": [200, "fast", 210.5], "time.beats": 1}
+    table = campaign.map(points, campaign.Serial(), base="fruit-fly-blade")
+    assert table.ok.tolist() == [True, False, True] and "fast" in table.reasons[1]
+    assert table["motion.frequency_hz"].tolist() == [200, "fast", 210.5]
+    mixed = campaign.grid({"a": [1, True, None, "x"], "b": [1, 2.5]})
+    assert [type(value) for value in mixed["a"][::2]] == [int, bool, type(None), str]
+    assert mixed["b"].dtype == float
+    for wrong in ({"a": [1, {}]}, {"a": [1, [2, 3]]}):
+        with pytest.raises(CaseError):
+            campaign.map(wrong, campaign.Serial(), base="fruit-fly-blade")
 
 
 def test_behaves_points_may_be_tables_texts_and_vectors():

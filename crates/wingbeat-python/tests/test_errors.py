@@ -92,6 +92,7 @@ BAD: dict[str, Bad] = {
     "unknown figure": lambda blade, _: blade.fly().plot("wake"),
     "frame that is not there": lambda blade, _: blade.fly().frame(7),
     "last frame of none": lambda blade, _: blade.fly().frame(-1),
+    "frame of half a step": lambda blade, _: blade.fly().frame(1.5),
     "negative steps": lambda blade, _: blade.start().step(-1),
     "half a step": lambda blade, _: blade.start().step(0.5),
     "velocity without a lattice": lambda blade, _: blade.start().air_velocity([[0.0, 0.0, 0.0]]),

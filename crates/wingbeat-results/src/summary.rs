@@ -10,6 +10,7 @@ mod ensemble;
 mod estimate;
 mod held;
 mod impulse;
+mod last_part;
 mod listed;
 mod means;
 mod numbers;
@@ -32,6 +33,7 @@ pub use ensemble::{Ensemble, EnsembleBeat, Members};
 pub use estimate::Estimate;
 pub use held::{Departure, Departures};
 pub use impulse::ImpulseBudget;
+pub use last_part::LastPart;
 pub use means::{LEFT_OUT, ManyBeats};
 pub use numbers::Summary;
 pub use per_beat::{PerBeat, Quantity};
@@ -124,6 +126,7 @@ impl Summary {
             departures: each.departures.clone(),
             warnings: vec![],
             means: ManyBeats::of(&s.beats),
+            last_part: s.bounds.ended_by(&s.last, setup),
             beats: s.beats,
         };
         let mut warnings = trust::warnings(setup, &summary);

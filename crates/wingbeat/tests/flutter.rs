@@ -5,7 +5,7 @@ use std::f64::consts::{PI, TAU};
 use wingbeat::analysis::AnalysisError;
 use wingbeat::analysis::flutter::{
     Condition, FlutterSettings, Realisation, SteadyWing, Vibration, condition, crossings, growing,
-    likely,
+    likely, steep,
 };
 use wingbeat::case::LoadedCase;
 use wingbeat::flight::FlightSetup;
@@ -199,6 +199,32 @@ fn refuses_flutter_in_strips_without_wakes() {
         told.contains("no wakes") && told.contains("air.blade.unsteady"),
         "{told}"
     );
+}
+
+/// `d = a q / (1 - q / q_D)` of a linear wing: the exponent is above 3 from two thirds of `q_D` on, and
+/// Southwell's line through any two speeds meets 0 at `q_D`, to rounding.
+#[test]
+fn exact_deflections_of_a_linear_wing_tell_its_divergence() {
+    const DIVERGENCE: f64 = 7.5;
+    let at = |speed: f64| {
+        let (q, q_d) = (speed * speed, DIVERGENCE * DIVERGENCE);
+        let turn = 1e-4 * q / (1.0 - q / q_d);
+        let mut c = with_modes(speed, &[]);
+        c.steady.tip = wingbeat::math::DVec3::Z * 0.7 * turn;
+        c.steady.turn = wingbeat::math::DVec3::X * turn;
+        c
+    };
+    // sqrt(2 / 3) of 7.5 m/s is 6.12 m/s.
+    assert!(steep(&[at(5.8), at(6.0)]).is_empty());
+    let found = steep(&[at(6.0), at(6.2), at(6.5), at(7.0)]);
+    assert_eq!(found.len(), 2);
+    for s in &found {
+        let off = s.divergence.unwrap() / DIVERGENCE - 1.0;
+        assert!(off.abs() < 1e-13, "{off}");
+    }
+    // Loads that do not grow with the air, and deflections too small to tell.
+    let still = [with_modes(6.0, &[]), with_modes(7.0, &[])];
+    assert!(steep(&still).is_empty());
 }
 
 /// A condition that has modes of frequency, growth and its uncertainty.

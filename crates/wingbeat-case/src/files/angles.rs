@@ -95,6 +95,9 @@ fn rows(
     }
     let unit = degrees(&table.names[1]);
     let to_degrees = unit.map_err(|problem| csv.bad(&problem))?;
+    if to_degrees != 1.0 {
+        check_radians(csv, &table.names[1], &table.rows)?;
+    }
     let converted = |&[x, angle]: &[f64; 2]| convention.apply([x, to_degrees * angle]);
     let rows: Vec<_> = table.rows.iter().map(converted).collect();
     check(csv, &rows, &table.lines, harmonics).map_err(|fault| {
@@ -144,6 +147,28 @@ fn degrees(column: &str) -> Result<f64, String> {
         (true, false) => Ok(1f64.to_degrees()),
         (false, _) => Ok(1.0),
     }
+}
+
+/// Refuses angles of a column that says radians which range over more than a whole turn: they are degrees.
+fn check_radians(csv: &CsvFile, column: &str, rows: &[[f64; 2]]) -> Result<(), Fault> {
+    // Angles that were wrapped range over a whole turn, and some are rounded.
+    const TURN: f64 = 1.01 * std::f64::consts::TAU;
+    let angles = || rows.iter().map(|row| row[1]);
+    let (least, most) = (
+        angles().fold(f64::INFINITY, f64::min),
+        angles().fold(f64::NEG_INFINITY, f64::max),
+    );
+    if most - least <= TURN {
+        return Ok(());
+    }
+    let mut fault = csv.bad(&format!(
+        "the name of the column `{column}` says radians, and it holds {least} to {most}, more than a whole turn"
+    ));
+    fault.remedy = format!(
+        "name the column after degrees where its angles are (`{}`), or correct the rows",
+        column.replace("rad", "deg")
+    );
+    Err(fault)
 }
 
 /// Words in the name of a column that say a unit of angles which is not read.

@@ -1,6 +1,24 @@
 //! Where in a case a key of some name stands.
 
+use super::page::meaning;
 use super::schema::Shape;
+use super::unit::{unit, with_exponents};
+
+/// Unit of the key at a path as tables write units (`m s-1`; 1 of what has none), and what the key is; none of
+/// paths at which a case has no key. `wing.right.mass_kg` and `air.stream_m_s[0]` are paths.
+pub fn described(path: &str) -> Option<[String; 2]> {
+    let mut shape = Shape::case();
+    let (mut name, mut about) = ("", String::new());
+    for step in path.split('.') {
+        let (key, elements) = step.split_once('[').unwrap_or((step, ""));
+        shape = shape.at(key)?;
+        (name, about) = (key, meaning(shape).0);
+        for k in elements.split('[').filter(|k| !k.is_empty()) {
+            shape = shape.element(k.strip_suffix(']')?.parse().ok()?)?;
+        }
+    }
+    Some([with_exponents(unit(name)), about])
+}
 
 /// The paths of all keys and tables with this name, `NAME` and `[]` for names and numbers of the user's choice.
 pub(crate) fn places(name: &str) -> Vec<String> {
@@ -33,5 +51,26 @@ fn visit(shape: Shape, path: &str, name: &str, found: &mut Vec<String>) {
                 visit(there, &inside(key), name, found);
             }
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::described;
+
+    #[test]
+    fn behaves_keys_are_described_by_their_paths() {
+        for (path, unit, word) in [
+            ("motion.frequency_hz", "Hz", "beat"),
+            ("wing.right.mass_kg", "kg", "ass"),
+            ("air.stream_m_s[1]", "m s-1", "air"),
+            ("time.beats", "1", "beats"),
+        ] {
+            let found = described(path).unwrap_or_else(|| panic!("{path}"));
+            assert_eq!(found[0], unit, "{path}");
+            assert!(found[1].contains(word), "{path}: {}", found[1]);
+        }
+        assert_eq!(described("motion.frequncy_hz"), None);
+        assert_eq!(described("trim.forward_m_per_s"), None);
     }
 }

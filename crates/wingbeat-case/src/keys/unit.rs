@@ -52,7 +52,46 @@ pub(super) fn unit(key: &str) -> Option<&'static str> {
         .map(|u| u.1)
 }
 
+/// A unit of [`unit`] as tables of numbers write units, with exponents in place of fractions, `m s-1`; "1" of
+/// pure numbers, which lengths in chords and times in wingbeats are.
+pub(super) fn with_exponents(unit: Option<&str>) -> String {
+    let unit = match unit {
+        None | Some("mean chords" | "chords" | "wingbeats") => return "1".to_owned(),
+        Some("deg") => return "degree".to_owned(),
+        Some(unit) => unit,
+    };
+    let (above, below) = unit.split_once('/').unwrap_or((unit, ""));
+    let inverse = |symbol: &str| match symbol.find(|c: char| c.is_ascii_digit()) {
+        Some(k) => format!("{}-{}", &symbol[..k], &symbol[k..]),
+        None => format!("{symbol}-1"),
+    };
+    let above = above.split(' ').filter(|symbol| *symbol != "1");
+    let above = above.map(|symbol| symbol.replace("deg", "degree"));
+    let below = below.split_whitespace().map(inverse);
+    above.chain(below).collect::<Vec<_>>().join(" ")
+}
+
 /// The name of a key without its unit; none for names without one.
 pub(crate) fn without_unit(key: &str) -> Option<&str> {
     UNITS.iter().find_map(|(end, _)| key.strip_suffix(end))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::with_exponents;
+
+    #[test]
+    fn behaves_units_have_exponents_in_tables() {
+        for (unit, written) in [
+            (None, "1"),
+            (Some("Hz"), "Hz"),
+            (Some("m/s2"), "m s-2"),
+            (Some("1/rad2"), "rad-2"),
+            (Some("N m s/rad"), "N m s rad-1"),
+            (Some("deg/s"), "degree s-1"),
+            (Some("wingbeats"), "1"),
+        ] {
+            assert_eq!(with_exponents(unit), written);
+        }
+    }
 }

@@ -8,13 +8,14 @@ from numpy.typing import NDArray
 
 from wingbeat._flight import Progress
 
-__all__ = ["Course", "Fleet", "Flight", "Frame", "Run", "Sensed", "Stepper", "Trim", "TrimSolution", "WakeTrim", "hash_of_files", "main", "presets", "schema", "version"]
+__all__ = ["Course", "Fleet", "Flight", "Frame", "Run", "Sensed", "Stepper", "Trim", "TrimSolution", "WakeTrim", "described", "hash_of_files", "main", "presets", "schema", "version"]
 
 _Array = NDArray[Any]
 _Mode = tuple[str, str, float, float, list[float], list[tuple[str, float, float]]]
 _Asked = tuple[tuple[float, float, float], float, list[str] | None, list[tuple[str, float, float]]]
 _Panel = tuple[str, list[tuple[str, list[float]]], list[list[float]]]
 
+def described(name: str) -> str: ...
 def main(args: Sequence[str]) -> int: ...
 def presets() -> list[tuple[str, str]]: ...
 def schema() -> str: ...

@@ -21,7 +21,9 @@ class Surface:
     panels: NDArray[Any]
     """Corners of the panels, shape (panels, 4): rows of ``nodes_m``."""
     circulation_m2_per_s: NDArray[Any]
-    """Ring circulation of each panel, right-handed about its corners in their order."""
+    """Ring circulation of each panel, right-handed about its corners in their order: filaments along the edges 0-1-2-3-0 of
+    ``panels`` with it induce the velocity of the air [m2/s].
+    """
     pressure_jump_pascal: NDArray[Any]
     """Pressure jump of each panel, positive along its normal."""
     surface: NDArray[Any]
@@ -35,9 +37,14 @@ class Wake:
     nodes_m: NDArray[Any]
     """Nodes, N components, shape (rows + 1, columns + 1, 3) [m]."""
     circulation_m2_per_s: NDArray[Any]
-    """Of the rings, shape (rows, columns)."""
+    """Of the rings, shape (rows, columns), right-handed about the nodes (r, c), (r + 1, c), (r + 1, c + 1), (r, c + 1) in this
+    order: filaments along these edges with it induce the velocity of the air. Neighbours share an edge, which carries the
+    difference of their circulations [m2/s].
+    """
     shared_circulation_m2_per_s: NDArray[Any]
-    """Of rings that have become particles, in the edges that they share with rings, shape (rows, columns); 0 elsewhere."""
+    """Of rings that have become particles, in the edges that they share with rings, shape (rows, columns), right-handed as
+    ``circulation_m2_per_s``; 0 elsewhere [m2/s].
+    """
 
 
 @dataclass(frozen=True, slots=True)

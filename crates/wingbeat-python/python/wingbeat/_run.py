@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import html
 import json
+import operator
 import os
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
@@ -183,20 +184,26 @@ class Run:
 
     def frame(self, step: int) -> Frame:
         """Surfaces and wakes of one of :attr:`frame_steps`; negative numbers count from the last of them."""
-        if step < 0:
-            steps = self.frame_steps
-            if -step > len(steps):
-                raise CaseError(
-                    f"step = {step}: there are {len(steps)} frames", key="step", remedy="output.frames_every keeps more"
-                )
+        try:
+            step = operator.index(step)
+        except TypeError:
+            raise CaseError(f"step = {step!r}: a frame is that of a step", key="step", remedy="a whole number, one of frame_steps") from None
+        steps = self.frame_steps
+        if step < 0 and -step <= len(steps):
             step = steps[step]
+        if step not in steps:
+            few = ", ".join(map(str, steps[:3])) + (f", ... {steps[-1]}" if len(steps) > 3 else "")
+            have = f"there are frames of the steps {few}" if steps else "there are none"
+            raise CaseError(
+                f"step = {step}: there is no frame of it, {have}", key="step", remedy="one of frame_steps; output.frames_every keeps more"
+            )
         return Frame(self._core.frame(step))
 
     def plot(self, kind: str | None = None) -> Figure:
         """A figure over time drawn with matplotlib, of the same definitions as ``wingbeat plot``.
 
-        ``kind`` is ``forces``, ``trajectory``, ``angles``, ``commands`` or ``balances``; the first that the flight
-        has if it is left out. The program draws all others, from a result directory.
+        ``kind`` is ``forces``, ``trajectory``, ``angles``, ``commands``, ``bending`` (of elastic wings) or ``balances``; the
+        first that the flight has if it is left out. The program draws all others, from a result directory.
         """
         charts = dict(self._core.charts())
         name = next(iter(charts)) if kind is None else kind

@@ -5,7 +5,7 @@ use super::per_beat::Quantity;
 
 impl Summary {
     /// Its numbers in the order of comparisons; those of wingbeats are [`super::PerBeat::QUANTITIES`].
-    pub const NUMBERS: [Quantity<Self>; 26] = [
+    pub const NUMBERS: [Quantity<Self>; 28] = [
         Quantity {
             name: "steps",
             unit: "1",
@@ -82,6 +82,20 @@ impl Summary {
             label: Some("forward force at the end [N]"),
             about: "air force along n1, forward, at the end",
             of: |s| Some(s.final_thrust_newton),
+        },
+        Quantity {
+            name: "last_lift_coefficient",
+            unit: "1",
+            label: Some("lift coefficient, last fifth [1]"),
+            about: "lift coefficient over the last fifth of a flight without wingbeats",
+            of: |s| s.last_part.as_ref()?.mean.lift_coefficient,
+        },
+        Quantity {
+            name: "last_thrust_coefficient",
+            unit: "1",
+            label: Some("thrust coefficient, last fifth [1]"),
+            about: "thrust coefficient over the last fifth of a flight without wingbeats",
+            of: |s| s.last_part.as_ref()?.mean.thrust_coefficient,
         },
         Quantity {
             name: "energy_residual_relative",

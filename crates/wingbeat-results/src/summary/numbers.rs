@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::beats::BeatMeans;
 use super::held::Departures;
 use super::impulse::ImpulseBudget;
+use super::last_part::LastPart;
 use super::means::ManyBeats;
 use super::verdict::Verdict;
 use crate::Outcome;
@@ -33,6 +34,9 @@ pub struct Summary {
     /// Means over all but the first two of them, with standard errors; none of fewer than five.
     #[serde(default)]
     pub means: Option<ManyBeats>,
+    /// Means over the last fifth of a flight without wingbeats; none of one with them, or that ended early.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub last_part: Option<LastPart>,
     /// Air force against gravity at the end \[N\].
     pub final_lift_newton: f64,
     /// Air force along n1 (forward) at the end \[N\].
@@ -118,12 +122,16 @@ impl Summary {
 }
 
 /// The vectors of two flights with 0 for components that are rounding beside the largest of them all, or beside
-/// `least`.
-fn without_rounding([a, b]: [[f64; 3]; 2], least: f64) -> [[f64; 3]; 2] {
+/// `least`. What a flight that broke down has beyond a kilometre, or some turns, does not count for the other.
+fn without_rounding(both: [[f64; 3]; 2], least: f64) -> [[f64; 3]; 2] {
     const ROUNDING: f64 = 1e-12;
-    let largest = a.iter().chain(&b).fold(least, |m, x| m.max(x.abs()));
-    let kept = |x: f64| if x.abs() > ROUNDING * largest { x } else { 0.0 };
-    [a.map(kept), b.map(kept)]
+    const FAR: f64 = 1e3;
+    let size = |v: &[f64; 3]| v.iter().fold(least, |m, x| m.max(x.abs()));
+    let all = size(&both[0]).max(size(&both[1]));
+    both.map(|v| {
+        let largest = all.min(size(&v).max(FAR));
+        v.map(|x| if x.abs() > ROUNDING * largest { x } else { 0.0 })
+    })
 }
 
 #[cfg(test)]
@@ -137,5 +145,7 @@ mod tests {
         assert_eq!(kept, [[2e-3, 0.0, 1e-3], [1e-9, 0.0, 0.0]]);
         let turned = without_rounding([[0.0, 3e-15, 1e-6], [0.0; 3]], 1.0);
         assert_eq!(turned[0], [0.0, 0.0, 1e-6]);
+        let broken = without_rounding([[2e-3, 1e-5, 0.0], [3e20, 1e5, -1e19]], 0.0);
+        assert_eq!(broken, [[2e-3, 1e-5, 0.0], [3e20, 0.0, -1e19]]);
     }
 }

@@ -6,6 +6,7 @@ use wingbeat_flight::{FlightSetup, Record};
 
 use super::beats::{BeatMeans, Beats};
 use super::each_step::EachStep;
+use super::last_part::Bounds;
 use crate::records::Records;
 use wingbeat_case::IoError;
 
@@ -20,6 +21,8 @@ pub(super) struct Statistics {
     pub regularised: usize,
     /// Means over whole wingbeats.
     pub beats: Vec<BeatMeans>,
+    /// Where the last part of a flight without wingbeats begins.
+    pub bounds: Bounds,
     is_begun: bool,
 }
 
@@ -29,7 +32,7 @@ impl Statistics {
         let mut records = Records::open(path, setup)?;
         let (mut s, mut beats) = (Self::new(setup, each.is_none()), Beats::new(setup));
         while let Some(record) = records.next_record()? {
-            s.take(record, &mut beats);
+            s.take(record, setup, &mut beats);
             if each.is_none() {
                 s.each.take(record, setup);
             }
@@ -42,7 +45,7 @@ impl Statistics {
     pub fn of(records: &[Record], setup: &FlightSetup) -> Self {
         let (mut s, mut beats) = (Self::new(setup, true), Beats::new(setup));
         for record in records {
-            s.take(record, &mut beats);
+            s.take(record, setup, &mut beats);
             s.each.take(record, setup);
         }
         s
@@ -58,7 +61,8 @@ impl Statistics {
         }
     }
 
-    fn take(&mut self, r: &Record, beats: &mut Beats<'_>) {
+    fn take(&mut self, r: &Record, setup: &FlightSetup, beats: &mut Beats<'_>) {
+        self.bounds.take(r, setup);
         self.beats.extend(beats.take(r));
         if !self.is_begun {
             self.first.clone_from(r);

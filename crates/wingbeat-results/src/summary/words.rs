@@ -5,6 +5,7 @@ use std::fmt::Write as _;
 use super::beats::BeatMeans;
 use super::estimate::Estimate;
 use super::impulse::ImpulseBudget;
+use super::last_part::LastPart;
 use super::means::ManyBeats;
 use super::numbers::Summary;
 use crate::Outcome;
@@ -73,6 +74,9 @@ impl Summary {
                 alone(self.final_thrust_newton, "N")
             );
         }
+        if let Some(text) = self.last_part.as_ref().and_then(last_coefficients) {
+            out.push_str(&wrapped("", &text));
+        }
         if self.beats.is_empty() {
             return;
         }
@@ -132,7 +136,7 @@ impl Summary {
             None => [last.mean.lift_coefficient?, last.mean.thrust_coefficient?],
         };
         Some(format!(
-            "Lift and force forward over the mean of 1/2 rho U^2 on the wings, U the speed of the feathering axes through the undisturbed air: coefficients {} and {}.",
+            "{OVER_PRESSURE}: coefficients {} and {}.",
             fixed(lift, 3),
             fixed(thrust, 3)
         ))
@@ -174,6 +178,24 @@ impl Summary {
             impulse_rows(budget, out);
         }
     }
+}
+
+/// What coefficients are, as the beginning of a sentence that gives them.
+const OVER_PRESSURE: &str = "Lift and force forward over the mean of 1/2 rho U^2 on the wings, U the speed of the feathering axes through the undisturbed air";
+
+/// Coefficients over the last part of a flight without wingbeats; none where no wing moves through air of a
+/// known density.
+fn last_coefficients(part: &LastPart) -> Option<String> {
+    let [lift, thrust] = [part.mean.lift_coefficient?, part.mean.thrust_coefficient?];
+    let changes = [part.change_of_lift, part.change_of_thrust];
+    let [of_lift, of_thrust] = changes.map(|x| signed(100.0 * x, 2));
+    Some(format!(
+        "{OVER_PRESSURE}: coefficients {} and {} on average from {} to {}; from the first half of this time to the second, lift changes by {of_lift} % of the force, the force forward by {of_thrust} %.",
+        fixed(lift, 4),
+        fixed(thrust, 4),
+        alone(part.from_s, "s"),
+        alone(part.to_s, "s")
+    ))
 }
 
 /// What became of the impulse that surfaces gave to the air.

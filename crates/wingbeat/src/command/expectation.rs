@@ -250,6 +250,9 @@ pub(crate) fn cost(flight: &mut Simulation) -> Result<Cost, FlightError> {
     })
 }
 
+/// A year \[s\].
+const YEAR: f64 = 365.25 * 86400.0;
+
 /// A time as people say it.
 pub(crate) fn time(seconds: f64) -> String {
     match seconds {
@@ -257,6 +260,8 @@ pub(crate) fn time(seconds: f64) -> String {
         s if s < 100.0 => format!("{s:.0} s"),
         s if s < 100.0 * 60.0 => format!("{:.0} min", s / 60.0),
         s if s < 100.0 * 3600.0 => format!("{:.0} h", s / 3600.0),
-        s => format!("{:.0} days", s / 86400.0),
+        s if s < 1000.0 * 86400.0 => format!("{:.0} days", s / 86400.0),
+        s if s < 1000.0 * YEAR => format!("{:.0} years", s / YEAR),
+        _ => "more than a thousand years".to_owned(),
     }
 }

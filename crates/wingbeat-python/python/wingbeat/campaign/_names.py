@@ -31,6 +31,8 @@ SUMMARY = (
     "roll_deg",
     "final_lift_newton",
     "final_thrust_newton",
+    "last_lift_coefficient",
+    "last_thrust_coefficient",
     "energy_residual_relative",
     "joint_residual_relative",
     "momentum_residual_relative",

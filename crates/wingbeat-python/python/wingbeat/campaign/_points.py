@@ -60,7 +60,7 @@ def grid(axes: Mapping[str, Iterable[Any]]) -> dict[str, NDArray[Any]]:
     values = []
     for key, axis in axes.items():
         try:
-            values.append(np.asarray(None if isinstance(axis, str) else list(axis)))
+            values.append(np.asarray(None) if isinstance(axis, str) else _column(list(axis)))
         except (TypeError, ValueError):  # one value alone, lists of several lengths
             values.append(np.asarray(None))
         if values[-1].ndim != 1 or values[-1].size == 0:
@@ -76,13 +76,13 @@ def _of_columns(given: Mapping[Any, Any]) -> Points:
         if not isinstance(key, str) or not key:
             raise _wrong(f"{key!r} is no key")
         try:
-            columns[key] = np.asarray(_texts(column))
+            columns[key] = _column(_texts(column))
         except ValueError:
             raise _wrong(f"{key}: values of several shapes") from None
         if columns[key].dtype == object and all(isinstance(item, str) for item in columns[key].flat):
             columns[key] = columns[key].astype(str)  # texts of pandas
         if columns[key].dtype == object:
-            columns[key] = _with_gaps(columns[key], key)
+            columns[key] = _checked(columns[key], key)
     lengths = {key: len(column) for key, column in columns.items() if column.ndim}
     if not columns or not min(lengths.values(), default=1):
         raise _wrong("there are none")
@@ -106,12 +106,39 @@ def _texts(column: Any) -> Any:
     return [os.fspath(x) if p else x for x, p in zip(items, is_path, strict=True)] if any(is_path) else column
 
 
-def _with_gaps(column: NDArray[Any], key: str) -> NDArray[Any]:
-    """A column in which some points have no value, None: the key is taken out of the case there."""
+def _column(values: Any) -> NDArray[Any]:
+    """Values as an array; as they are, one by one, where they are of several types, of which numpy would make one: texts
+    of numbers, numbers of True.
+    """
     import numpy as np
 
-    found = [item for item in column.flat if item is not None]
-    if column.ndim > 1 or len(found) == column.size or np.asarray(found).dtype == object or np.ndim(found) > 1:
+    array = np.asarray(values)
+    if array.dtype == object or not isinstance(values, list | tuple):
+        return array
+    if len({_kind(value) for value in values}) < 2:
+        return array
+    mixed = np.empty(len(values), dtype=object)
+    mixed[:] = [_plain(value) for value in values]
+    return mixed
+
+
+def _kind(value: Any) -> str:
+    """What a value is, as cases tell values apart: a list of values is none of these."""
+    import numpy as np
+
+    if isinstance(value, bool | np.bool_):
+        return "true or false"
+    return "text" if isinstance(value, str) else "number" if np.isscalar(value) else "list"
+
+
+def _checked(column: NDArray[Any], key: str) -> NDArray[Any]:
+    """A column of values of several types, or one in which some points have no value, None: the key is taken out of
+    the case there.
+    """
+    import numpy as np
+
+    values = str | bool | int | float | np.generic | None
+    if column.ndim > 1 or not all(isinstance(item, values) for item in column.flat):
         raise _wrong(f"{key}: values that are neither numbers nor texts")
     return column
 

@@ -76,8 +76,8 @@ class Table(Mapping[str, "NDArray[Any]"]):
 
     @cached_property
     def dataset(self) -> xarray.Dataset:
-        """The table as a dataset over ``point``, the keys as coordinates, with ``units``, ``reason`` and the case
-        (``case_toml``) as an attribute. Needs xarray.
+        """The table as a dataset over ``point``, the keys as coordinates, with ``units`` and ``long_name`` (of
+        keys, and of what flights give), ``reason`` and the case (``case_toml``) as an attribute. Needs xarray.
         """
         needs("xarray", "data", "dataset")
         import numpy as np
@@ -88,7 +88,8 @@ class Table(Mapping[str, "NDArray[Any]"]):
         def variable(name: str) -> tuple[list[str], NDArray[Any], dict[str, str]]:
             array = self[name]
             inner = [f"{name}_{k}" for k in range(1, array.ndim)]
-            return ["point", *inner], array, {"units": units[name]}
+            about = _core.described(name)
+            return ["point", *inner], array, {"units": units[name]} | ({"long_name": about} if about else {})
 
         numbers: dict[str, Any] = {name: variable(name) for name in self._values}
         numbers["reason"] = ("point", np.array(self._reasons, dtype=str), {"long_name": "why a point has no numbers"})

@@ -89,6 +89,10 @@ def of_summary(summary: Mapping[str, Any]) -> dict[str, Any]:
     numbers = dict(summary)
     numbers |= zip(("forward_m", "right_m", "down_m"), summary["displacement_m"], strict=True)
     numbers |= zip(("pitch_deg", "yaw_deg", "roll_deg"), summary["turn_deg"], strict=True)
+    last = summary.get("last_part") or {}  # of flights without wingbeats
+    for name in ("lift_coefficient", "thrust_coefficient"):
+        value = last.get(name)
+        numbers[f"last_{name}"] = float("nan") if value is None else value
     return numbers | {
         "verdict": ("green", "amber", "red").index(summary["verdict"]),
         "warnings": len(summary["warnings"]),

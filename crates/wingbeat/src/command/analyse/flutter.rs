@@ -7,7 +7,8 @@ use std::path::PathBuf;
 use clap::Args;
 use serde_json::{Value, json};
 use wingbeat::analysis::flutter::{
-    Condition, Crossing, FlutterSettings, Vibration, by_wing, condition, crossings, growing, likely,
+    Condition, Crossing, FlutterSettings, Steep, Vibration, by_wing, condition, crossings, growing,
+    likely, steep,
 };
 use wingbeat::case::LoadedCase;
 
@@ -73,7 +74,7 @@ pub(crate) fn run(args: &FlutterArgs) -> Result<(), Failure> {
             let next = match watched("flutter", || condition(&case.setup, speed, &settings)) {
                 Ok(next) => next,
                 Err(error) => {
-                    conclude_all(report, &case, &found);
+                    conclude_all(report, &case, &found, false);
                     report.value("missing_speeds_m_s", &asked[done..]);
                     report.value("error", error.to_string());
                     return Err(error.into());
@@ -90,7 +91,7 @@ pub(crate) fn run(args: &FlutterArgs) -> Result<(), Failure> {
             let all = found.iter().map(|c| values(c, name(c)));
             report.value("speeds", all.collect::<Vec<_>>());
         }
-        conclude_all(report, &case, &found);
+        conclude_all(report, &case, &found, true);
         report.value("complete", true);
         Ok(())
     })
@@ -254,21 +255,56 @@ fn doubtful(speeds: &[f64], found: &[Crossing]) -> Option<String> {
     })
 }
 
-/// What follows for each wing.
-fn conclude_all(report: &mut Report, case: &LoadedCase, found: &[Condition]) {
+/// What follows for each wing, of all speeds or of those before one that failed.
+fn conclude_all(report: &mut Report, case: &LoadedCase, found: &[Condition], is_complete: bool) {
     let wings = by_wing(found);
-    let mut onsets = vec![];
+    let (mut onsets, mut rises) = (vec![], vec![]);
     for of_wing in &wings {
         let wing = &case.setup.animal.wings[of_wing[0].steady.wing].name;
         if wings.len() > 1 {
             line!(report, "\nThe wing `{wing}`:");
         }
-        conclude(report, of_wing, &crossings(of_wing));
+        conclude(report, of_wing, &crossings(of_wing), is_complete);
         onsets.extend(onset_values(of_wing, wing));
+        let steep = steep(of_wing);
+        if let Some(text) = rise(&steep) {
+            line!(report, "\n{text}");
+        }
+        rises.extend(steep.iter().map(|s| rise_value(s, wing)));
     }
     if !found.is_empty() {
         report.value("flutter", onsets);
+        report.value("steep_deflections", rises);
     }
+}
+
+/// That a steady deflection grows as about static divergence, though no motion need grow.
+fn rise(steep: &[Steep]) -> Option<String> {
+    let (first, last) = (steep.first()?, steep.last()?);
+    let (low, high) = (first.between[0], last.between[1]);
+    // The line through the lowest speeds: deflections are smallest there.
+    let at = match steep.iter().find_map(|s| s.divergence) {
+        Some(speed) => {
+            format!("about {speed:.2} m/s, of Southwell's line through q over deflection")
+        }
+        None => "lower speeds, whose deflections are small, tell where".to_owned(),
+    };
+    Some(format!(
+        "The steady deflection grows much faster than the dynamic pressure: at the tip from {:.3e} m at {low:.3} m/s to {:.3e} m at {high:.3} m/s, where the pressure grows {:.2} times. \
+         Wings with incidence pass static divergence in this way, bending far without a motion that grows ({at}); loads that cancel at the lower speed, as weight may, look the same.",
+        first.tip[0],
+        last.tip[1],
+        (high / low).powi(2)
+    ))
+}
+
+fn rise_value(steep: &Steep, wing: &str) -> Value {
+    json!({
+        "wing": wing,
+        "between_m_s": steep.between,
+        "tip_m": steep.tip,
+        "divergence_m_s": steep.divergence,
+    })
 }
 
 /// Onsets and ends, certain or likely.
@@ -288,7 +324,7 @@ fn onset_values(conditions: &[Condition], wing: &str) -> Vec<Value> {
     certain.chain(likely).map(value).collect()
 }
 
-fn conclude(report: &mut Report, conditions: &[Condition], found: &[Crossing]) {
+fn conclude(report: &mut Report, conditions: &[Condition], found: &[Crossing], is_complete: bool) {
     for c in found {
         let what = if c.begins { "begins" } else { "ends" };
         line!(
@@ -324,7 +360,7 @@ fn conclude(report: &mut Report, conditions: &[Condition], found: &[Crossing]) {
         line!(report, "\n{text}");
     }
     if found.is_empty() && likely.is_empty() && through.is_empty() {
-        line!(report, "\n{}", unchanged(conditions));
+        line!(report, "\n{}", unchanged(conditions, is_complete));
     }
     let noted = conditions.iter().filter(|c| !notes(c).is_empty());
     let speeds: Vec<f64> = noted.map(|c| c.speed).collect();
@@ -351,16 +387,26 @@ fn neutral(conditions: &[Condition]) -> Option<String> {
     ))
 }
 
-/// What is said where no growth changes its sign and none is positive throughout.
-fn unchanged(conditions: &[Condition]) -> String {
+/// What is said where no growth changes its sign and none is positive throughout, at all speeds that were asked
+/// for or only at those of `conditions`.
+fn unchanged(conditions: &[Condition], is_complete: bool) -> String {
+    let at = match is_complete {
+        true => "at any of these speeds".to_owned(),
+        false => {
+            let last = conditions.last().map_or(f64::NAN, |c| c.speed);
+            format!(
+                "up to {last:.3} m/s; nothing is known of the speeds beyond, which were not reached"
+            )
+        }
+    };
     let grows = |c: &&Condition| (0..c.modes.len()).any(|k| c.grows(k) == Some(true));
     let speeds = conditions.iter().filter(grows);
     let speeds: Vec<String> = speeds.map(|c| format!("{:.3}", c.speed)).collect();
     match speeds.is_empty() {
         true if conditions.iter().any(Condition::diverges) => {
-            "No vibration grows, beyond what is known of it, at any of these speeds.".into()
+            format!("No vibration grows, beyond what is known of it, {at}.")
         }
-        true => "No growth is positive, beyond what is known of it, at any of these speeds.".into(),
+        true => format!("No growth is positive, beyond what is known of it, {at}."),
         false => format!(
             "Growth is positive at {} m/s, but its mode cannot be followed to other speeds: try --speeds that lie closer together.",
             speeds.join(", ")
