@@ -239,7 +239,7 @@ impl CampaignFile {
             let place = format!("keep[{k}]");
             let number = number::find(&all, name).map_err(|remedy| {
                 let problem = format!("there is no number called `{name}`");
-                self.fault(&place, problem, "a column of the history, lift_over_weight, power_watt, efficiency, error.*, summary.*, trim.*, stability.*, power.*", &remedy)
+                self.fault(&place, problem, "a column of the history, or max., min. or end. before one, lift_over_weight, power_watt, efficiency, error.*, summary.*, trim.*, stability.*, power.*", &remedy)
             })?;
             if kept.iter().any(|n| n.name == number.name) {
                 let problem = format!("`{name}` is kept twice");

@@ -174,7 +174,7 @@ pub enum IoError {
         remedy: &'static str,
     },
     /// A figure that cannot be drawn.
-    #[error("the figure `{}` cannot be drawn: {problem}", path.display())]
+    #[error("`{}` cannot be drawn: {problem}", path.display())]
     Figure {
         /// The file.
         path: PathBuf,

@@ -135,7 +135,7 @@ impl Simulation {
     /// # Errors
     /// As [`Self::new`]; the state does not fit the setup.
     pub fn resume(setup: FlightSetup, state: FlightState) -> Result<Self, FlightError> {
-        if matches!(setup.air, AirModel::External(_)) {
+        if !setup.air.is_saved() {
             return Err(FlightError::External(
                 "the partner's memory is not in the saved state; fly from the start".into(),
             ));

@@ -58,7 +58,7 @@ impl RecordedFlight {
 
     /// Makes and writes the steps to the end, or as long as `each` lets it, which sees the flight as it is and
     /// after every step, once that is written. A checkpoint is saved where one is due and where `each` stops
-    /// the flight.
+    /// the flight, of air whose memory is in it.
     ///
     /// # Errors
     /// Those of `each`, after which no checkpoint is saved; a step that fails; a file that cannot be written.
@@ -73,9 +73,11 @@ impl RecordedFlight {
                 writer.write(flight.record(), || flight.snapshot())?;
             }
             let next = each(flight)?;
-            match next {
-                ControlFlow::Break(()) => writer.save(flight.state())?,
-                ControlFlow::Continue(()) => writer.save_if_due(flight.state())?,
+            if flight.setup().air.is_saved() {
+                match next {
+                    ControlFlow::Break(()) => writer.save(flight.state())?,
+                    ControlFlow::Continue(()) => writer.save_if_due(flight.state())?,
+                }
             }
             Ok::<_, E>(next)
         })?;

@@ -205,7 +205,7 @@ fn timing(case: &Case, control: &ControlCase) -> Built<Timing> {
     if (looks - latency).abs() > 1e-9 * looks {
         return Err(Fault::new(
             "control.latency_beats",
-            format!("a command begins to act at a look, and there are {parts} in a wingbeat"),
+            format!("a command begins to act at a look, and looks in a wingbeat are {parts}"),
             format!("a multiple of {}", 1.0 / parts as f64),
             "round it, or change control.looks_per_beat",
         ));

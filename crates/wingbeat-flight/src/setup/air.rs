@@ -83,6 +83,11 @@ impl AirModel {
         }
     }
 
+    /// Whether all of its memory is in the state of a flight, which can then go on from there; that of a program is not.
+    pub fn is_saved(&self) -> bool {
+        !matches!(self, Self::External(_))
+    }
+
     /// Whether half of the air stands for the whole.
     pub fn is_mirrored(&self) -> bool {
         matches!(self, Self::VortexLattice(options) if options.mirror)

@@ -178,7 +178,7 @@ fn feedback(setup: &FlightSetup, summary: &Summary, list: &mut Warnings) {
     let (place, away) = match &departures.place_wing_lengths {
         Some(d) => (
             format!(
-                "{:.1} wing lengths from its place at most and {:.1} in the end, ",
+                "{:.1} wing lengths from its place at most and {:.1} in the end, and ",
                 d.largest, d.last
             ),
             Some(d.last),
@@ -187,7 +187,7 @@ fn feedback(setup: &FlightSetup, summary: &Summary, list: &mut Warnings) {
     };
     let limited = 100.0 * departures.limited;
     let text = format!(
-        "commands stood at their limits at {limited:.0} % of the looks; at these it was {place}its attitude {:.0} deg from that of the release at most and {:.0} in the end.",
+        "commands stood at their limits at {limited:.0} % of the looks; at these it was {place}{:.0} deg from the attitude that it is to hold (that of the release, turned by the heading of waypoints) at most and {:.0} in the end.",
         turn.largest, turn.last
     );
     let [over, near] = TURNED;

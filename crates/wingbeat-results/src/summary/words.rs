@@ -29,7 +29,7 @@ impl Summary {
         let end = match &self.outcome {
             Outcome::Finished => "flew to its end".to_owned(),
             Outcome::Interrupted => {
-                "was interrupted; everything up to there is written, and `wingbeat resume` goes on"
+                "was interrupted; everything up to there is written, and `wingbeat resume` takes it up again"
                     .to_owned()
             }
             Outcome::Unwritten(why) => format!("stopped because {why}"),

@@ -165,10 +165,11 @@ fn go_back(
     let case = dir.case()?;
     let Some((header, state)) = saved.checkpoint else {
         if saved.manifest.steps > 0 {
-            tell!(
-                "{}: its checkpoint (checkpoint.bin) is missing: it is flown from the start again",
-                case.name
-            );
+            let why = match case.setup.air.is_saved() {
+                true => "its checkpoint (checkpoint.bin) is missing",
+                false => "the memory of the program that computes its air is not saved",
+            };
+            tell!("{}: {why}: it is flown from the start again", case.name);
         }
         let flight = build(&case, interrupts)?;
         return begin(dir, case, flight, threads).map(Some);
@@ -247,7 +248,7 @@ fn report(outcome: &Outcome, path: &Path) -> Result<(), Failure> {
         Outcome::Finished | Outcome::Running => Ok(()),
         Outcome::Interrupted => {
             tell!(
-                "interrupted: everything up to here is written to {dir}; `wingbeat resume {dir}` goes on"
+                "interrupted: everything up to here is written to {dir}; `wingbeat resume {dir}` takes it up again"
             );
             Err(Failure::Told(INTERRUPTED))
         }
