@@ -30,7 +30,7 @@ pub fn schema() -> String {
 /// What a number that a flight gives, or a key of a case, is; an empty text of names that are neither.
 #[pyfunction]
 pub fn described(name: &str) -> String {
-    let of_beats = PerBeat::QUANTITIES.iter().find(|q| q.name == name);
+    let of_beats = PerBeat::<f64>::QUANTITIES.iter().find(|q| q.name == name);
     let of_flight = Summary::NUMBERS.iter().find(|q| q.name == name);
     let about = of_beats.map(|q| q.about).or(of_flight.map(|q| q.about));
     let of_key = || case::keys::described(name).map(|[_, about]| about);
