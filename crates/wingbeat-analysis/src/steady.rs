@@ -404,7 +404,7 @@ fn check_numbers(setup: &FlightSetup, problem: &TrimProblem) -> Result<(), Analy
     if turned.abs() > std::f64::consts::PI {
         return Err(AnalysisError::not_covered(
             format!(
-                "a turn by {:.6} deg/s is {:.3} whole turns in a wingbeat",
+                "a turn by {:.3} deg/s is {:.3} whole turns in a wingbeat",
                 rate.to_degrees(),
                 turned.abs() / std::f64::consts::TAU
             ),

@@ -274,7 +274,7 @@ fn behaves_one_table_in_radians_beside_others_in_degrees_is_named() {
     );
     // Held at a small angle, with the noise of a measurement or without; far from it; not small.
     for psi in [
-        &|_| 1.5 as f64,
+        &|_| 1.5_f64,
         &|x: f64| 1.5 + 0.1 * x.sin(),
         &|x: f64| 30.0 + x.sin(),
         &|x: f64| 40.0 * x.sin(),

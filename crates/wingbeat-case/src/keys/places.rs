@@ -4,8 +4,8 @@ use super::page::meaning;
 use super::schema::Shape;
 use super::unit::{unit, with_exponents};
 
-/// Unit of the key at a path as tables write units (`m s-1`; 1 of what has none), and what the key is; none of
-/// paths at which a case has no key. `wing.right.mass_kg` and `air.stream_m_s[0]` are paths.
+/// Unit of the key at a path as tables write units (`m s-1`; 1 of what has none), and what the key is, in a
+/// sentence; none of paths at which a case has no key. `wing.right.mass_kg` and `air.stream_m_s[0]` are paths.
 pub fn described(path: &str) -> Option<[String; 2]> {
     let mut shape = Shape::case();
     let (mut name, mut about) = ("", String::new());
@@ -17,7 +17,17 @@ pub fn described(path: &str) -> Option<[String; 2]> {
             shape = shape.element(k.strip_suffix(']')?.parse().ok()?)?;
         }
     }
-    Some([with_exponents(unit(name)), about])
+    Some([
+        with_exponents(unit(name)),
+        first_sentence(&about).to_owned(),
+    ])
+}
+
+/// The first sentence of a text, without its full stop.
+fn first_sentence(text: &str) -> &str {
+    let begins = |k: &usize| text[k + 2..].starts_with(char::is_uppercase);
+    let end = text.match_indices(". ").map(|(k, _)| k).find(begins);
+    text[..end.unwrap_or(text.len())].trim_end_matches('.')
 }
 
 /// The paths of all keys and tables with this name, `NAME` and `[]` for names and numbers of the user's choice.
@@ -70,6 +80,8 @@ mod tests {
             assert_eq!(found[0], unit, "{path}");
             assert!(found[1].contains(word), "{path}: {}", found[1]);
         }
+        let [_, about] = described("body.mass_kg").unwrap();
+        assert_eq!(about, "Mass of the body without wings");
         assert_eq!(described("motion.frequncy_hz"), None);
         assert_eq!(described("trim.forward_m_per_s"), None);
     }
