@@ -104,8 +104,8 @@ impl Lattice {
     }
 
     /// Circulations of the panels and velocities at their control points. As far as there was next to no
-    /// circulation before it is not known what leading edges will hold: that follows from the flow in which they
-    /// hold all.
+    /// circulation before it is not known what leading edges will hold: that follows from the flow in which
+    /// they hold all.
     fn solve_circulations(
         &self,
         state: &AirState,

@@ -6,8 +6,8 @@
 //! 1:59; Katz & Plotkin, Low-Speed Aerodynamics, sec. 11.1]. Rings that lie on the edges of the panels have
 //! them at zero and at half: they are those of a wing a quarter panel ahead, and what they feel acts a quarter
 //! panel farther aft. Where the flow leaves both edges or none, neither side has an advantage; what leaves an
-//! edge whose suction is solved for is vorticity beside an attached wing. What left is that of the step before; as far as
-//! nothing moved then, nothing has.
+//! edge whose suction is solved for is vorticity beside an attached wing. What left is that of the step before;
+//! as far as nothing moved then, nothing has.
 
 use crate::lattice::Lattice;
 use crate::loads::values::AirLoads;

@@ -33,8 +33,8 @@ use wingbeat_math::{DVec3, smoothstep};
 const THIN: f64 = 1e-3;
 /// Part of the clearance by which a node must be moved to be counted.
 const COUNTED: f64 = 1e-2;
-/// Distance from the sphere around a surface, in clearances, from which on nothing is pushed. Thin surfaces push
-/// from there on in no case: the path is at most twice as high where they look for it as where it ends.
+/// Distance from the sphere around a surface, in clearances, from which on nothing is pushed. Thin surfaces
+/// push from there on in no case: the path is at most twice as high where they look for it as where it ends.
 const REACH: f64 = 2.0;
 
 /// A panel at the start and at the end of the step.
@@ -173,8 +173,8 @@ impl Obstacle {
         self.radius = far(0).max(far(1));
     }
 
-    /// Whether a path comes so near that the surface may push its end: as seen from the surface, the whole path to
-    /// a thin one, the end to a closed one.
+    /// Whether a path comes so near that the surface may push its end: as seen from the surface, the whole path
+    /// to a thin one, the end to a closed one.
     fn is_near(&self, from: DVec3, to: DVec3, clearance: f64) -> bool {
         let [from, to] = [from - self.sphere[0], to - self.sphere[1]];
         let from = if self.closed { to } else { from };

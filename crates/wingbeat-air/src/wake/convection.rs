@@ -73,7 +73,8 @@ impl WakeMotion {
         self.flow.take(lattice, state, sums);
     }
 
-    /// Moves all sheets by `dt` [s], sheds a row from each and drops what is due; `newest` are the newest rows. Returns what had to be limited.
+    /// Moves all sheets by `dt` [s], sheds a row from each and drops what is due; `newest` are the newest rows.
+    /// Returns what had to be limited.
     ///
     /// # Errors
     /// Velocities that are not finite.

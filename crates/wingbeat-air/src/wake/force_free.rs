@@ -42,8 +42,9 @@ const HANDED_ON: usize = 32;
 /// What a node has less of than this part of the most is a rounding, whose direction says nothing.
 const ROUNDING: f64 = 1e-12;
 
-/// Size of a node, over the largest of the wakes' nodes and of the lattice's filaments, below which it yields the less
-/// the smaller it is: it left wings that were next to at rest, and whether they were says nothing of where it goes.
+/// Size of a node, over the largest of the wakes' nodes and of the lattice's filaments, below which it yields
+/// the less the smaller it is: it left wings that were next to at rest, and whether they were says nothing of
+/// where it goes.
 const HARDLY: f64 = 1e-9;
 
 /// Size of a node that left the root of a wing on a body, over those of the nodes around it, below which it

@@ -149,9 +149,9 @@ impl Share {
         }
     }
 
-    /// How far the filament of the circulation `net` along the edge is one beside others, 0 to 1: as far as it takes
-    /// part in what leaves the edge within the step, be its circulation zero, a rounding or more; where that is
-    /// unknown with the circulations of the panels, it has one.
+    /// How far the filament of the circulation `net` along the edge is one beside others, 0 to 1: as far as it
+    /// takes part in what leaves the edge within the step, be its circulation zero, a rounding or more; where
+    /// that is unknown with the circulations of the panels, it has one.
     pub(crate) fn joint(&self, net: f64) -> f64 {
         let [a, b] = self.part;
         let is_joint = match self.leaving {

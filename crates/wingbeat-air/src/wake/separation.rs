@@ -14,8 +14,8 @@ use crate::state::{AirState, WakeSheet};
 use crate::wake::near_wake::{RowShape, released};
 use wingbeat_math::smoothstep;
 
-/// Part of the circulations of a flow below which those of the step before say nothing of it, far above roundings: so
-/// wings that start from rest fly as those that start from next to rest do.
+/// Part of the circulations of a flow below which those of the step before say nothing of it, far above
+/// roundings: so wings that start from rest fly as those that start from next to rest do.
 const HARDLY: f64 = 1e-6;
 
 impl Lattice {
@@ -53,7 +53,8 @@ impl Lattice {
 
     /// How far the flow leaves the edge of a column of wake sheet `k`, which is `sheet`, by itself, 0 to 1: the
     /// newest ring differs from the one before. Where flow has hardly left, by less than [`HARDLY`] of the
-    /// circulation `scale` [m2/s], it does so by as much: a rounding, or a flow at rest but for one, decides nothing.
+    /// circulation `scale` [m2/s], it does so by as much: a rounding, or a flow at rest but for one, decides
+    /// nothing.
     pub(crate) fn feeding(&self, k: usize, sheet: &WakeSheet, column: usize, scale: f64) -> f64 {
         if self.leads_within(k, column) {
             return 0.0;
@@ -71,8 +72,9 @@ impl Lattice {
         smoothstep(left / (HARDLY * scale).max(f64::MIN_POSITIVE))
     }
 
-    /// How far the circulations that the state has kept tell what leading edges hold in a flow in which the panels
-    /// have these [m2/s], 0 to 1: not after a start from rest, and not at all where all of them are zero.
+    /// How far the circulations that the state has kept tell what leading edges hold in a flow in which the
+    /// panels have these [m2/s], 0 to 1: not after a start from rest, and not at all where all of them are
+    /// zero.
     pub(crate) fn known_part(&self, state: &AirState, gamma: &[f64]) -> f64 {
         let most = |list: &[f64]| list.iter().fold(0.0_f64, |most, g| most.max(g.abs()));
         smoothstep(most(&state.gamma) / (HARDLY * most(gamma)).max(f64::MIN_POSITIVE))

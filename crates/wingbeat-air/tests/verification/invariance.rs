@@ -83,8 +83,8 @@ fn invariant_under_the_motion_of_the_observer() {
     assert!((ma - mb).length() < 1e-9 * ma.length());
 }
 
-/// A body behind the right wing and the wake that goes by it at less than the clearance, seen by observers of several
-/// times the speed of the flow: every node is pushed as far.
+/// A body behind the right wing and the wake that goes by it at less than the clearance, seen by observers of
+/// several times the speed of the flow: every node is pushed as far.
 #[test]
 fn invariant_wakes_kept_off_bodies_under_the_motion_of_the_observer() {
     let (nodes, quads) = sphere(2);
@@ -123,8 +123,8 @@ fn invariant_wakes_kept_off_bodies_under_the_motion_of_the_observer() {
     }
 }
 
-/// Wings that begin to beat smoothly in air at rest fly as those whose air is next to at rest, whatever its direction:
-/// of circulations that are next to zero it matters neither what left the edges nor what these held.
+/// Wings that begin to beat smoothly in air at rest fly as those whose air is next to at rest, whatever its
+/// direction: of circulations that are next to zero it matters neither what left the edges nor what these held.
 #[test]
 fn invariant_start_from_rest_under_motions_that_are_next_to_none() {
     let suction = LeadingEdge::Suction {

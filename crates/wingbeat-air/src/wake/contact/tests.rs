@@ -150,8 +150,8 @@ fn spheroid(way: DVec3) -> Obstacles {
     }
 }
 
-/// Places in even directions all around, at distances from the centre that grow by a thousandth of a clearance from
-/// inside the body to three clearances beyond it.
+/// Places in even directions all around, at distances from the centre that grow by a thousandth of a clearance
+/// from inside the body to three clearances beyond it.
 fn rays(clearance: f64) -> impl Iterator<Item = Vec<DVec3>> {
     (0..200).map(move |n| {
         let x = (2 * n + 1) as f64 / 200.0 - 1.0;
@@ -177,8 +177,8 @@ fn invariant_push_of_a_coarse_body_is_continuous_and_ends_two_clearances_from_it
         }
     }
     println!("steepest {steepest:.2}, beyond a clearance {beyond:.3} clearances");
-    // Of a distance, and what fades out; a jump of a hundredth of a clearance has a slope of 10. Planes that are tilted
-    // push beyond a clearance.
+    // Of a distance, and what fades out; a jump of a hundredth of a clearance has a slope of 10. Planes that
+    // are tilted push beyond a clearance.
     assert!(steepest < 1.5 && beyond > 0.01);
 }
 
