@@ -39,13 +39,9 @@ const CANCELLED: f64 = 0.6;
 /// their filaments, too; by 1 with 32.
 const HANDED_ON: usize = 32;
 
-/// What a node has less of than this part of the most is a rounding, whose direction says nothing.
+/// What a node has less of than this part of the most is a rounding, whose direction says nothing. Beside what the
+/// lattice has it yields the less the smaller it is: it left wings that were next to at rest.
 const ROUNDING: f64 = 1e-12;
-
-/// Size of a node, over the largest of the wakes' nodes and of the lattice's filaments, below which it yields
-/// the less the smaller it is: it left wings that were next to at rest, and whether they were says nothing of
-/// where it goes.
-const HARDLY: f64 = 1e-9;
 
 /// Size of a node that left the root of a wing on a body, over those of the nodes around it, below which it
 /// yields little: there the sheet goes on through the body, and by as much as left and right are alike the node
@@ -141,7 +137,7 @@ impl ForceFree {
             let (a, b) = bound.ends(e);
             bound.gamma[e].abs() * a.distance(b)
         };
-        self.whole = HARDLY * (0..bound.len()).map(lattice_size).fold(0.0, f64::max);
+        self.whole = ROUNDING * (0..bound.len()).map(lattice_size).fold(0.0, f64::max);
         self.annul(velocity, lattice);
         for (i, &one) in self.same.iter().enumerate().filter(|(i, one)| i != *one) {
             velocity.set(i, velocity.get(one));
@@ -363,7 +359,7 @@ impl ForceFree {
             self.left.push(*force - velocity.get(i).cross(*vorticity));
         }
         let most = self.sizes.iter().fold(0.0, |most, size| size.max(most));
-        self.whole = self.whole.max(HARDLY * most);
+        self.whole = self.whole.max(ROUNDING * most);
         let roundings = self
             .sizes
             .iter_mut()
