@@ -142,7 +142,7 @@ impl Lattice {
             let edge = &topology.edges[e.edge];
             let [a, b]: [DVec3; 2] = [edge.from, edge.to].map(|n| bound.nodes.get(n));
             let net = bound.gamma[e.edge];
-            let weight = self.felt_part(state, edge, net, &ws.filaments.lengths);
+            let weight = self.felt_part(state, edge, net, &ws.filaments.newest);
             let weight = rho * weight * relative.dot((b - a).cross(normal));
             let minus = edge.minus.map(|q| (q, -weight));
             std::iter::once((edge.plus, weight)).chain(minus)

@@ -103,8 +103,9 @@ impl Lattice {
         }
     }
 
-    /// Circulations of the panels and velocities at their control points. Without circulation before it is not
-    /// known what leading edges will hold: that follows from the flow in which they hold all.
+    /// Circulations of the panels and velocities at their control points. As far as there was next to no
+    /// circulation before it is not known what leading edges will hold: that follows from the flow in which
+    /// they hold all.
     fn solve_circulations(
         &self,
         state: &AirState,
@@ -112,14 +113,24 @@ impl Lattice {
         ws: &mut AirWorkspace,
         out: &mut AirLoads,
     ) -> Result<(), AirError> {
-        let lengths = std::mem::take(&mut ws.filaments.lengths);
-        self.take_wash(ws, &out.panels, |k| self.held_of_strip(state, k, &lengths));
-        ws.filaments.lengths = lengths;
+        let newest = std::mem::take(&mut ws.filaments.newest);
+        let held_before = |k: usize| self.held_of_strip(state, k, &newest);
+        self.take_wash(ws, &out.panels, held_before);
+        ws.filaments.newest = newest;
         self.solve_with_wash(state, motion, ws, out)?;
-        if self.settings().held_shift() > 0.0 && state.gamma.iter().all(|g| *g == 0.0) {
+        let known = self.known_part(state, &out.gamma);
+        if self.settings().held_shift() > 0.0 && known < 1.0 {
+            self.take_wash(ws, &out.panels, |_| 1.0);
+            self.solve_with_wash(state, motion, ws, out)?;
             leading_values((self, state), &ws.filaments, (&[], &motion.position), out);
-            let held = |k: usize| out.hold[k] / (out.gamma[self.strips()[k].panels[0]].abs());
-            self.take_wash(ws, &out.panels, |k| held(k).min(1.0));
+            let newest = std::mem::take(&mut ws.filaments.newest);
+            let held = |k: usize| {
+                let now = out.hold[k] / out.gamma[self.strips()[k].panels[0]].abs();
+                let before = self.held_of_strip(state, k, &newest);
+                known * before + (1.0 - known) * now.min(1.0)
+            };
+            self.take_wash(ws, &out.panels, held);
+            ws.filaments.newest = newest;
             self.solve_with_wash(state, motion, ws, out)?;
         }
         Ok(())
@@ -219,7 +230,7 @@ impl Lattice {
             ..
         } = ws;
         wakes.take_velocities(self, state, filaments, sums);
-        let events = wakes.move_sheets(self, state, dt, &filaments.lengths)?;
+        let events = wakes.move_sheets(self, state, dt, &filaments.newest)?;
         state.events += events;
         state.leaving.fill(0.0); // it is in the wakes now
         state.wake_due = false;

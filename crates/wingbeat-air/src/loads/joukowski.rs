@@ -184,7 +184,7 @@ impl Segments {
             let edge = &lattice.topology().edges[e];
             let l = bound.nodes.get(edge.to) - bound.nodes.get(edge.from);
             let circulation = rho * bound.gamma[e] / count as f64;
-            let part = lattice.felt_part(state, edge, bound.gamma[e], &filaments.lengths);
+            let part = lattice.felt_part(state, edge, bound.gamma[e], &filaments.newest);
             for k in at * count..(at + 1) * count {
                 let share = part * (circulation * self.velocity.get(k).cross(l));
                 for p in [Some(edge.plus), edge.minus].into_iter().flatten() {

@@ -6,7 +6,8 @@
 //! 1:59; Katz & Plotkin, Low-Speed Aerodynamics, sec. 11.1]. Rings that lie on the edges of the panels have
 //! them at zero and at half: they are those of a wing a quarter panel ahead, and what they feel acts a quarter
 //! panel farther aft. Where the flow leaves both edges or none, neither side has an advantage; what leaves an
-//! edge whose suction is solved for is vorticity beside an attached wing.
+//! edge whose suction is solved for is vorticity beside an attached wing. What left is that of the step before;
+//! as far as nothing moved then, nothing has.
 
 use crate::lattice::Lattice;
 use crate::loads::values::AirLoads;
@@ -28,6 +29,7 @@ pub(crate) fn add_lag(
     out: &mut AirLoads,
 ) {
     let (topology, settings) = (lattice.topology(), lattice.settings());
+    let known = lattice.known_part(state, &out.gamma);
     let middle = |n: [usize; 2]| position[n[0]].midpoint(position[n[1]]);
     for (k, strip) in lattice.strips().iter().enumerate() {
         let leading = &topology.edges[strip.edge];
@@ -35,7 +37,7 @@ pub(crate) fn add_lag(
         let forward = match (leading.wake, settings.leading) {
             (None, _) => 0.0,
             (_, LeadingEdge::SuctionImplicit { .. }) => 0.0,
-            _ => 1.0 - lattice.held_of_strip(state, k, &filaments.lengths),
+            _ => known * (1.0 - lattice.held_of_strip(state, k, &filaments.newest)),
         };
         let part = VORTEX * (aft - forward) - settings.ring_shift();
         if part == 0.0 {

@@ -22,7 +22,7 @@ fn shares<'a>(
         let edge = &topology.edges[e.edge];
         let [a, b] = [edge.from, edge.to].map(|n| bound.nodes.get(n));
         let net = bound.gamma[e.edge];
-        let weight = lattice.felt_part(state, edge, net, &filaments.lengths);
+        let weight = lattice.felt_part(state, edge, net, &filaments.newest);
         [weight * net * (b - a), a.midpoint(b)]
     })
 }

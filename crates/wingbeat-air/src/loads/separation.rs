@@ -47,7 +47,7 @@ pub(crate) fn leading_values(
             LeadingEdge::Suction { threshold, .. } => {
                 let section = LeadingSection::of((lattice, &out.panels, out.time), strip, position);
                 let net = filaments.bound.gamma[strip.edge];
-                let [_, beside] = lattice.held_and_beside(state, k, &filaments.lengths);
+                let [_, beside] = lattice.held_and_beside(state, k, &filaments.newest);
                 let [_, second] = foremost(strip, &out.gamma).map(|g| (g - beside) * net.signum());
                 // Flow that leaves the edge smoothly has no next mode there.
                 let even = threshold * section.unit();

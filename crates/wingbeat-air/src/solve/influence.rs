@@ -215,12 +215,12 @@ impl Sources {
         }
         let keeps = |edge: &Edge| {
             let part = edge.wake.map_or(0.0, |w| {
-                let (s, lengths) = (w.sheet, &filaments.lengths[w.sheet]);
+                let (s, shape) = (w.sheet, &filaments.newest[w.sheet]);
                 let row = Row {
                     lattice,
                     state: now.state,
                     s,
-                    lengths,
+                    shape,
                 };
                 at_edge(&row, w.column)[1]
             });

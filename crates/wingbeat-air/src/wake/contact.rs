@@ -14,7 +14,11 @@
 //! - it is blocked by the wing where it crosses it, `x(s)` with `s = |h0| / (|h0| + |h1|)` for heights h0 at
 //!   the start and h1 at the end (both raised by half of what is no height); what is not blocked there, near an
 //!   edge, is kept off on the side where it ends;
-//! - pushes of several surfaces add up, each one computed from the same path.
+//! - pushes of several surfaces add up, each one computed from the same path;
+//! - what closed parts do fades out from one to two clearances beyond the sphere around them: coarse panels
+//!   are so tilted that their planes ask for a clearance still where the part is farther away.
+//!
+//! Everything is decided on the path as the surface sees it, so that it does not depend on the inertial frame.
 //!
 //! The surfaces at the end of the step are not known yet (the wake is moved before the bodies):
 //! they are extrapolated with the velocities of the accepted step, an error of half the
@@ -29,6 +33,9 @@ use wingbeat_math::{DVec3, smoothstep};
 const THIN: f64 = 1e-3;
 /// Part of the clearance by which a node must be moved to be counted.
 const COUNTED: f64 = 1e-2;
+/// Distance from the sphere around a surface, in clearances, from which on nothing is pushed. Thin surfaces
+/// push from there on in no case: the path is at most twice as high where they look for it as where it ends.
+const REACH: f64 = 2.0;
 
 /// A panel at the start and at the end of the step.
 struct Panel {
@@ -41,15 +48,15 @@ struct Panel {
     radius: f64,
 }
 
-/// One surface, or several joined ones, with a sphere that holds it at the start and at the end of
-/// the step.
+/// One surface, or several joined ones, with the sphere that holds it.
 #[derive(Default)]
 struct Obstacle {
     closed: bool,
     panels: Vec<Panel>,
     /// The sides no other panel shares: both ends, at the start and at the end of the step.
     border: Vec<[[DVec3; 2]; 2]>,
-    centre: DVec3,
+    /// Centre of the sphere at the start and at the end of the step; its radius holds for both.
+    sphere: [DVec3; 2],
     radius: f64,
 }
 
@@ -113,10 +120,7 @@ impl Obstacles {
 
     /// What is to be added to the end of a path [m].
     fn push(&self, from: DVec3, to: DVec3) -> DVec3 {
-        let near = |s: &&Obstacle| {
-            let reach = s.radius + self.clearance;
-            distance_to_segment(s.centre, from, to) <= reach
-        };
+        let near = |s: &&Obstacle| s.is_near(from, to, self.clearance);
         let of = |s: &Obstacle| match s.closed {
             true => s.push_out(to, self.clearance),
             false => s.hold_back(from, to, self.clearance),
@@ -159,11 +163,22 @@ impl Obstacle {
 
     /// Finds the sphere.
     fn enclose(&mut self) {
-        let corners = || self.panels.iter().flat_map(|p| p.corners.iter().flatten());
-        let count = corners().count().max(1);
-        let centre = corners().sum::<DVec3>() / count as f64;
-        self.radius = corners().fold(0.0_f64, |r, x| r.max(x.distance(centre)));
-        self.centre = centre;
+        let corners = |end: usize| self.panels.iter().flat_map(move |p| p.corners[end]);
+        let count = corners(0).count().max(1) as f64;
+        self.sphere = [0, 1].map(|end| corners(end).sum::<DVec3>() / count);
+        let far = |end: usize| {
+            let distances = corners(end).map(|x| x.distance(self.sphere[end]));
+            distances.fold(0.0, f64::max)
+        };
+        self.radius = far(0).max(far(1));
+    }
+
+    /// Whether a path comes so near that the surface may push its end: as seen from the surface, the whole path
+    /// to a thin one, the end to a closed one.
+    fn is_near(&self, from: DVec3, to: DVec3, clearance: f64) -> bool {
+        let [from, to] = [from - self.sphere[0], to - self.sphere[1]];
+        let from = if self.closed { to } else { from };
+        distance_to_segment(DVec3::ZERO, from, to) < self.radius + REACH * clearance
     }
 
     /// A convex body: out to the clearance from the plane of the nearest panel, of several where
@@ -182,7 +197,8 @@ impl Obstacle {
             push += share * lack.max(0.0) * panel.normal[1];
             shares += share;
         }
-        push / shares.max(1.0)
+        let beyond = (to.distance(self.sphere[1]) - self.radius) / clearance;
+        smoothstep(REACH - beyond) * push / shares.max(1.0)
     }
 
     /// A thin surface: a node that crosses it or ends too near goes back to its own side.

@@ -10,6 +10,7 @@ use crate::wake::filaments::Filaments;
 use crate::wake::force_free::ForceFree;
 use crate::wake::joined_nodes::merge_joined_nodes;
 use crate::wake::mover::Mover;
+use crate::wake::near_wake::RowShape;
 use crate::wake::particle_flow::ParticleFlow;
 use crate::wake::summation::Sums;
 use std::ops::Range;
@@ -72,8 +73,8 @@ impl WakeMotion {
         self.flow.take(lattice, state, sums);
     }
 
-    /// Moves all sheets by `dt` [s], sheds a row from each and drops what is due; `lengths` are those of the
-    /// newest rows. Returns what had to be limited.
+    /// Moves all sheets by `dt` [s], sheds a row from each and drops what is due; `newest` are the newest rows.
+    /// Returns what had to be limited.
     ///
     /// # Errors
     /// Velocities that are not finite.
@@ -82,7 +83,7 @@ impl WakeMotion {
         lattice: &Lattice,
         state: &mut AirState,
         dt: f64,
-        lengths: &[Vec<f64>],
+        newest: &[RowShape],
     ) -> Result<WakeEvents, AirError> {
         self.obstacles.take(lattice, state, dt);
         let looks_back = lattice.settings().convection == Convection::AdamsBashforth;
@@ -112,7 +113,7 @@ impl WakeMotion {
         };
         let mut sheets = std::mem::take(&mut state.sheets);
         self.accounts.clear();
-        let moved = move_each(&mut mover, state, &mut sheets, lengths, &mut self.accounts);
+        let moved = move_each(&mut mover, state, &mut sheets, newest, &mut self.accounts);
         (self.from, self.to, self.unhindered) = (mover.from, mover.to, mover.unhindered);
         let mut sum = SheetAccount::default();
         self.accounts.iter().for_each(|account| sum += *account);
@@ -180,23 +181,23 @@ fn move_each(
     mover: &mut Mover,
     state: &AirState,
     sheets: &mut [WakeSheet],
-    lengths: &[Vec<f64>],
+    newest: &[RowShape],
     accounts: &mut Vec<SheetAccount>,
 ) -> Result<(), AirError> {
     let lattice = mover.lattice;
-    for (k, lengths) in lengths.iter().enumerate() {
+    for (k, shape) in newest.iter().enumerate() {
         let (others, rest) = sheets.split_at_mut(k);
         let sheet = &mut rest[0];
         let Some((source, mirror)) = lattice.reflected_sheet(k) else {
             let before = [free_rings(sheet), sheet.particles.impulse()];
             move_sheet(mover, (k, state.step), sheet)?;
-            lattice.shed(k, (others, sheet), state, lengths);
+            lattice.shed(k, (others, sheet), state, shape);
             let mut account = SheetAccount::of_move(mover, (k, state), sheet, before);
             mover.events += lattice.truncate(k, sheet, (state, mover.dt), &mut account);
             accounts.push(account);
             continue;
         };
-        lattice.shed(k, (others, sheet), state, lengths);
+        lattice.shed(k, (others, sheet), state, shape);
         let rows = sheet.reflect(&others[source], mirror);
         if lattice.settings().particles.is_none() {
             mover.events.dropped_rows += rows;

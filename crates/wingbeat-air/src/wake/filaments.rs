@@ -5,7 +5,7 @@ use crate::lattice::Lattice;
 use crate::settings::AirSettings;
 use crate::state::{AirState, WakeSheet};
 use crate::wake::cores::{add_cores, join_cores};
-use crate::wake::near_wake::{Row, Share, add_near_wake, at_edge, row_lengths, strips};
+use crate::wake::near_wake::{Row, RowShape, Share, add_near_wake, at_edge, strips};
 use wingbeat_math::DVec3;
 use wingbeat_vortex::{Blob, Network, Points, WINDOW};
 
@@ -33,8 +33,8 @@ pub struct Filaments {
     /// Where wakes leave the surfaces: nodes of the rings, at leading edges that hold suction nodes of the
     /// surfaces [m].
     roots: Vec<DVec3>,
-    /// Length of the newest row in panel lengths, sheet by sheet and column by column.
-    pub(crate) lengths: Vec<Vec<f64>>,
+    /// The newest row, sheet by sheet.
+    pub(crate) newest: Vec<RowShape>,
     /// All other edges of the wakes, which do not move within a step. Nodes: sheet after sheet,
     /// oldest row first.
     pub wake: Network,
@@ -61,7 +61,8 @@ impl Filaments {
         self.blobs.clear();
         self.near_wake.clear();
         self.shares.clear();
-        self.lengths.resize_with(state.sheets.len(), Vec::new);
+        self.newest
+            .resize_with(state.sheets.len(), RowShape::default);
         for (s, (sheet, root)) in state.sheets.iter().zip(lattice.sheets()).enumerate() {
             let edge = root.nodes.iter().map(|&n| self.roots[n]);
             if lattice.settings().is_symmetric() {
@@ -70,12 +71,12 @@ impl Filaments {
             }
             self.add_sheet(sheet, lattice.settings(), t);
             let edge = root.nodes.iter().map(|&n| self.roots[n]);
-            row_lengths(lattice, state, s, &self.bound.nodes, &mut self.lengths[s]);
+            self.newest[s].take((lattice, state), s, &self.bound.nodes, t);
             let row = Row {
                 lattice,
                 state,
                 s,
-                lengths: &self.lengths[s],
+                shape: &self.newest[s],
             };
             let nodes = &self.bound.nodes;
             let inner = root.nodes.iter().enumerate();
@@ -229,12 +230,12 @@ impl Filaments {
         for (edge, net) in lattice.topology().edges.iter().zip(&mut self.bound.gamma) {
             let minus = edge.minus.map_or(0.0, |p| gamma[p]);
             let wake = edge.wake.map_or(0.0, |w| {
-                let (s, lengths) = (w.sheet, &self.lengths[w.sheet]);
+                let (s, shape) = (w.sheet, &self.newest[w.sheet]);
                 let row = Row {
                     lattice,
                     state,
                     s,
-                    lengths,
+                    shape,
                 };
                 let [fixed, part] = at_edge(&row, w.column);
                 let wake = fixed + part * gamma[edge.plus];

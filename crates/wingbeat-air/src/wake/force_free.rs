@@ -26,7 +26,7 @@ use crate::state::AirState;
 use crate::wake::filaments::Filaments;
 use crate::wake::summation::Sums;
 use std::ops::Range;
-use wingbeat_math::DVec3;
+use wingbeat_math::{DVec3, smoothstep};
 use wingbeat_vortex::{Network, Points};
 
 /// e: where the vorticity of a node is a smaller part of that of its filaments, little is annulled. With 0.3
@@ -39,7 +39,8 @@ const CANCELLED: f64 = 0.6;
 /// their filaments, too; by 1 with 32.
 const HANDED_ON: usize = 32;
 
-/// What a node has less of than this part of the most is a rounding, whose direction says nothing.
+/// What a node has less of than this part of the most is a rounding, whose direction says nothing. Beside what the
+/// lattice has it yields the less the smaller it is: it left wings that were next to at rest.
 const ROUNDING: f64 = 1e-12;
 
 /// Size of a node that left the root of a wing on a body, over those of the nodes around it, below which it
@@ -96,6 +97,8 @@ pub(crate) struct ForceFree {
     sums: Vec<[DVec3; 2]>,
     /// S, then the root of T^2 + (e S)^2 [m3/s].
     sizes: Vec<f64>,
+    /// Size from which on nodes yield wholly [m3/s].
+    whole: f64,
     /// Sum of the sizes at the other ends of the filaments of a node.
     around: Vec<f64>,
     left: Vec<DVec3>,
@@ -129,6 +132,12 @@ impl ForceFree {
         self.vorticity.reset(self.middles.len());
         let both = [&mut self.velocity, &mut self.vorticity];
         sums.add_with_vorticity(&self.middles, mirrors, both);
+        let bound = &filaments.bound;
+        let lattice_size = |e: usize| {
+            let (a, b) = bound.ends(e);
+            bound.gamma[e].abs() * a.distance(b)
+        };
+        self.whole = ROUNDING * (0..bound.len()).map(lattice_size).fold(0.0, f64::max);
         self.annul(velocity, lattice);
         for (i, &one) in self.same.iter().enumerate().filter(|(i, one)| i != *one) {
             velocity.set(i, velocity.get(one));
@@ -216,7 +225,7 @@ impl ForceFree {
             }
             let ends = nodes.into_iter().flatten();
             let ends = ends.map(|node| (node, [1.0 / 6.0, 1.0 / 3.0]));
-            self.push(wake, e, ends, (nodes, 0.0));
+            self.push(wake, e, (ends, 1.0), (nodes, 0.0));
         }
     }
 
@@ -233,29 +242,37 @@ impl ForceFree {
             let ends = ends.filter_map(|(node, part)| Some((node?, [0.0, 0.5 * part])));
             let [column, other] = [a, b].map(|ends| ends.map(|(node, _)| node));
             let is_across = column == other || other == [None, None];
-            if !is_across && !share.is_joint(near.gamma[e]) {
+            let joint = match is_across {
+                true => 1.0,
+                false => share.joint(near.gamma[e]),
+            };
+            if joint == 0.0 {
                 continue;
             }
             let between = column.map(|node| node.filter(|_| is_across));
-            self.push(near, e, ends, (between, a[0].1));
+            self.push(near, e, (ends, joint), (between, a[0].1));
         }
     }
 
     /// Adds an edge that has these ends, each with its node and the weights at the node and in the middle; it
     /// lies between these two nodes, or within what joins them, and begins at this part of the way. One without
-    /// circulation is a joint, too: whether it has a rounding of it does not matter.
+    /// circulation is a joint, too, as far as `joint` says: whether it has a rounding of it does not matter.
     fn push(
         &mut self,
         net: &Network,
         e: usize,
-        ends: impl Iterator<Item = (usize, [f64; 2])> + Clone,
+        (ends, joint): (impl Iterator<Item = (usize, [f64; 2])> + Clone, f64),
         (between, part): ([Option<usize>; 2], f64),
     ) {
         let in_plane = between.iter().all(|n| n.is_some_and(|n| self.on_plane[n]));
         let [a, b] = between.map(|n| n.and_then(|n| self.joined[n]));
         let is_joined = a.is_some() && a == b;
         // The other half of the joint is on the other side.
-        let joint = if in_plane || is_joined { 0.5 } else { 1.0 };
+        let joint = if in_plane || is_joined {
+            0.5 * joint
+        } else {
+            joint
+        };
         for (k, (a, _)) in ends.clone().enumerate() {
             let others = ends.clone().skip(k + 1).filter(|(b, _)| *b != a);
             self.joints.extend(others.map(|(b, _)| ([a, b], joint)));
@@ -342,6 +359,7 @@ impl ForceFree {
             self.left.push(*force - velocity.get(i).cross(*vorticity));
         }
         let most = self.sizes.iter().fold(0.0, |most, size| size.max(most));
+        self.whole = self.whole.max(ROUNDING * most);
         let roundings = self
             .sizes
             .iter_mut()
@@ -378,6 +396,9 @@ impl ForceFree {
                 if self.at_body[i] {
                     let ratio = size / (FAINT * self.around[i]).max(f64::MIN_POSITIVE);
                     more *= ratio * ratio / (1.0 + ratio * ratio);
+                }
+                if *size < self.whole {
+                    more *= smoothstep(*size / self.whole);
                 }
                 velocity.set(i, velocity.get(i) + more);
                 *left -= more.cross(*vorticity);

@@ -65,26 +65,43 @@ pub(crate) fn released(length: f64) -> f64 {
     l / (l + e)
 }
 
-/// Length of the newest row of each column of sheet `s` in panel lengths, at nodes of the rings.
-pub(crate) fn row_lengths(
-    lattice: &Lattice,
-    state: &AirState,
-    s: usize,
-    nodes: &Points,
-    out: &mut Vec<f64>,
-) {
-    out.clear();
-    let (sheet, root) = (&state.sheets[s], &lattice.sheets()[s]);
-    let Some(newest) = sheet.rows().checked_sub(1) else {
-        return;
-    };
-    for c in 0..sheet.columns {
-        let edge = [root.nodes[c], root.nodes[c + 1]];
-        let corners = lattice.topology().panels[root.panels[c]];
-        let middle = |n: [usize; 2]| 0.5 * (nodes.get(n[0]) + nodes.get(n[1]));
-        let free = 0.5 * (sheet.node(newest, c) + sheet.node(newest, c + 1));
-        let panel = middle(edge).distance(middle(opposite(corners, edge)));
-        out.push(middle(edge).distance(free) / panel.max(f64::MIN_POSITIVE));
+/// Shape of the newest row of a sheet, column by column.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct RowShape {
+    /// Lengths in panel lengths; none while there is no row.
+    pub lengths: Vec<f64>,
+    /// How far the flow leaves the edges by itself \[1\], see [`Lattice::feeding`].
+    pub feeding: Vec<f64>,
+}
+
+impl RowShape {
+    /// Takes that of sheet `s` at the time `t` [s], with the nodes of the rings.
+    pub(crate) fn take(
+        &mut self,
+        (lattice, state): (&Lattice, &AirState),
+        s: usize,
+        nodes: &Points,
+        t: f64,
+    ) {
+        self.lengths.clear();
+        self.feeding.clear();
+        let (sheet, root) = (&state.sheets[s], &lattice.sheets()[s]);
+        let Some(newest) = sheet.rows().checked_sub(1) else {
+            return;
+        };
+        let dt = t - sheet.shed_time[newest];
+        for c in 0..sheet.columns {
+            let edge = [root.nodes[c], root.nodes[c + 1]];
+            let corners = lattice.topology().panels[root.panels[c]];
+            let middle = |n: [usize; 2]| 0.5 * (nodes.get(n[0]) + nodes.get(n[1]));
+            let free = 0.5 * (sheet.node(newest, c) + sheet.node(newest, c + 1));
+            let panel = middle(edge).distance(middle(opposite(corners, edge)));
+            let row = middle(edge).distance(free);
+            self.lengths.push(row / panel.max(f64::MIN_POSITIVE));
+            // The row's speed and a panel's length; between steps anything that has left counts.
+            let scale = if dt > 0.0 { row / dt * panel } else { 0.0 };
+            self.feeding.push(lattice.feeding(s, sheet, c, scale));
+        }
     }
 }
 
@@ -116,6 +133,8 @@ pub(crate) struct Share {
     /// Strips of whose leaving circulation it has a part.
     pub strip: [usize; 2],
     pub leaving: [f64; 2],
+    /// How far the flow leaves the edge by itself, of filaments along it \[1\].
+    pub feeding: f64,
 }
 
 impl Share {
@@ -130,15 +149,16 @@ impl Share {
         }
     }
 
-    /// Whether the filament of the circulation `net` is one beside others: it takes part in what leaves the
-    /// edge within the step, be its circulation zero, a rounding or more; where that is unknown with the
-    /// circulations of the panels, it has one.
-    pub(crate) fn is_joint(&self, net: f64) -> bool {
+    /// How far the filament of the circulation `net` along the edge is one beside others, 0 to 1: as far as it
+    /// takes part in what leaves the edge within the step, be its circulation zero, a rounding or more; where
+    /// that is unknown with the circulations of the panels, it has one.
+    pub(crate) fn joint(&self, net: f64) -> f64 {
         let [a, b] = self.part;
-        match self.leaving {
+        let is_joint = match self.leaving {
             [0.0, 0.0] => a + b != 0.0,
-            _ => net != 0.0,
-        }
+            _ => return f64::from(net != 0.0),
+        };
+        if is_joint { self.feeding } else { 0.0 }
     }
 
     pub(crate) fn net(&self, [gamma, leaving]: [&[f64]; 2]) -> f64 {
@@ -170,8 +190,7 @@ pub(crate) struct Row<'a> {
     pub state: &'a AirState,
     /// The sheet.
     pub s: usize,
-    /// Length of each column in panel lengths.
-    pub lengths: &'a [f64],
+    pub shape: &'a RowShape,
 }
 
 fn strip(row: &Row, column: usize, k: usize) -> Strip {
@@ -179,7 +198,7 @@ fn strip(row: &Row, column: usize, k: usize) -> Strip {
         lattice,
         state,
         s,
-        lengths,
+        shape,
     } = *row;
     let (root, old) = (&lattice.sheets()[s], state.sheets[s].newest(column));
     if let Some(strip) = lattice.suction().of_column(s, column) {
@@ -191,9 +210,9 @@ fn strip(row: &Row, column: usize, k: usize) -> Strip {
             leaving: is_before.then_some((strip, root.signs[column])),
         };
     }
-    let part = match lattice.feeds(s, &state.sheets[s], column) {
-        true => present(lattice.settings(), lengths[column], k),
-        false => 0.0,
+    let part = match shape.feeding[column] {
+        0.0 => 0.0,
+        feeding => feeding * present(lattice.settings(), shape.lengths[column], k),
     };
     // What the edge held at the last step it holds on.
     let present = root.signs[column] * state.gamma[root.panels[column]];
@@ -282,7 +301,10 @@ fn across(row: &Row, c: usize, k: usize) -> Share {
 /// The edge of column `c` between strip `k` and the next older one; at the free row the wake itself
 /// has counted the circulation of the past already.
 fn along(row: &Row, c: usize, k: usize, strips: usize) -> Share {
-    let mut share = Share::default();
+    let mut share = Share {
+        feeding: row.shape.feeding[c],
+        ..Share::default()
+    };
     share.add(0, 1.0, &strip(row, c, k));
     if k + 1 < strips {
         share.add(1, -1.0, &strip(row, c, k + 1));
@@ -295,7 +317,7 @@ fn along(row: &Row, c: usize, k: usize, strips: usize) -> Share {
 /// What the row's strip at the shedding edge takes from the circulation of a panel there: the fixed
 /// part, and the part of the panel's own; what leaves a leading edge within the step comes on top.
 pub(crate) fn at_edge(row: &Row, column: usize) -> [f64; 2] {
-    if row.lengths.is_empty() {
+    if row.shape.lengths.is_empty() {
         return [0.0; 2];
     }
     let first = strip(row, column, 0);
@@ -315,17 +337,19 @@ mod tests {
         let share = |part: f64| Share {
             fixed: -part * old,
             part: [part, 0.0],
+            feeding: 0.5,
             ..Share::default()
         };
         for gamma in [old, 0.3] {
             let net = share(0.25).net([&[gamma], &[]]);
-            assert!(net.abs() < 1e-16 && share(0.25).is_joint(net));
+            assert!(net.abs() < 1e-16 && share(0.25).joint(net) == 0.5);
         }
         let of_one_strip = Share {
             part: [0.25, -0.25],
+            feeding: 0.5,
             ..Share::default()
         };
-        assert!(!of_one_strip.is_joint(1e-17));
+        assert_eq!(of_one_strip.joint(1e-17), 0.0);
     }
 
     /// Filaments of a uniform sheet at distances l k from the edge, summed one by one at the collocation

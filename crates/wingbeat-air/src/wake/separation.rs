@@ -11,7 +11,12 @@ use crate::geometry::{Edge, WakeColumn};
 use crate::lattice::Lattice;
 use crate::settings::{LeadingEdge, NewestRow};
 use crate::state::{AirState, WakeSheet};
-use crate::wake::near_wake::released;
+use crate::wake::near_wake::{RowShape, released};
+use wingbeat_math::smoothstep;
+
+/// Part of the circulations of a flow below which those of the step before say nothing of it, far above
+/// roundings: so wings that start from rest fly as those that start from next to rest do.
+const HARDLY: f64 = 1e-6;
 
 impl Lattice {
     /// Circulation [m2/s] that the edge of a column of a wake sheet holds: none but at leading edges with a
@@ -46,31 +51,42 @@ impl Lattice {
         past + (net - net.clamp(-hold, hold))
     }
 
-    /// Whether the flow leaves the edge of a column of wake sheet `k`, which is `sheet`, by itself: the newest
-    /// ring differs from the one before.
-    pub(crate) fn feeds(&self, k: usize, sheet: &WakeSheet, column: usize) -> bool {
+    /// How far the flow leaves the edge of a column of wake sheet `k`, which is `sheet`, by itself, 0 to 1: the
+    /// newest ring differs from the one before. Where flow has hardly left, by less than [`HARDLY`] of the
+    /// circulation `scale` [m2/s], it does so by as much: a rounding, or a flow at rest but for one, decides
+    /// nothing.
+    pub(crate) fn feeding(&self, k: usize, sheet: &WakeSheet, column: usize, scale: f64) -> f64 {
         if self.leads_within(k, column) {
-            return false;
+            return 0.0;
         }
         if self.sheets()[k].kinds[column] != EdgeKind::Leading
             || self.settings().leading == LeadingEdge::Always
         {
-            return true;
+            return 1.0;
         }
         let before = match sheet.rows() {
             0 | 1 => 0.0,
             rows => sheet.gamma[(rows - 2) * sheet.columns + column],
         };
-        sheet.newest(column) != before
+        let left = (sheet.newest(column) - before).abs();
+        smoothstep(left / (HARDLY * scale).max(f64::MIN_POSITIVE))
+    }
+
+    /// How far the circulations that the state has kept tell what leading edges hold in a flow in which the
+    /// panels have these [m2/s], 0 to 1: not after a start from rest, and not at all where all of them are
+    /// zero.
+    pub(crate) fn known_part(&self, state: &AirState, gamma: &[f64]) -> f64 {
+        let most = |list: &[f64]| list.iter().fold(0.0_f64, |most, g| most.max(g.abs()));
+        smoothstep(most(&state.gamma) / (HARDLY * most(gamma)).max(f64::MIN_POSITIVE))
     }
 
     /// Part of the circulation at the leading edge of strip `k` that the edge holds, 0 to 1, by what the state
-    /// has kept; `lengths` are those of the newest rows.
-    pub(crate) fn held_of_strip(&self, state: &AirState, k: usize, lengths: &[Vec<f64>]) -> f64 {
+    /// has kept; `newest` are the newest rows.
+    pub(crate) fn held_of_strip(&self, state: &AirState, k: usize, newest: &[RowShape]) -> f64 {
         if self.settings().leading == LeadingEdge::Always {
             return 0.0;
         }
-        let [held, beside] = self.held_and_beside(state, k, lengths);
+        let [held, beside] = self.held_and_beside(state, k, newest);
         match beside == 0.0 {
             true => 1.0,
             false => held / (held + beside.abs()),
@@ -84,24 +100,24 @@ impl Lattice {
         &self,
         state: &AirState,
         k: usize,
-        lengths: &[Vec<f64>],
+        newest: &[RowShape],
     ) -> [f64; 2] {
         let strip = &self.strips()[k];
         let Some(wake) = self.topology().edges[strip.edge].wake else {
             return [1.0, 0.0];
         };
         let (root, sheet) = (&self.sheets()[wake.sheet], &state.sheets[wake.sheet]);
-        let Some(&length) = lengths[wake.sheet].get(wake.column) else {
+        let Some(&length) = newest[wake.sheet].lengths.get(wake.column) else {
             return [1.0, 0.0]; // nothing has left yet
         };
         let before = match sheet.rows() {
             0 | 1 => 0.0,
             rows => sheet.gamma[(rows - 2) * sheet.columns + wake.column],
         };
-        let newest = sheet.newest(wake.column);
-        let net = root.signs[wake.column] * state.gamma[strip.panels[0]] - newest;
+        let ring = sheet.newest(wake.column);
+        let net = root.signs[wake.column] * state.gamma[strip.panels[0]] - ring;
         let held = net.abs().min(state.hold[k]);
-        let left = (newest - before) / length.max(f64::MIN_POSITIVE);
+        let left = (ring - before) / length.max(f64::MIN_POSITIVE);
         let leaves = net.abs() - held;
         let beside = match left.abs() > leaves {
             true => left,
@@ -123,8 +139,8 @@ impl Lattice {
         hold / net.abs().max(f64::MIN_POSITIVE)
     }
 
-    /// Part of the net circulation `net` [m2/s] of an edge that each of its panels feels, `lengths` being those
-    /// of the newest rows: half of an edge shared by two, all of a free one; of one that sheds all that it
+    /// Part of the net circulation `net` [m2/s] of an edge that each of its panels feels, `newest` being the
+    /// newest rows: half of an edge shared by two, all of a free one; of one that sheds all that it
     /// holds, and of what is about to leave all but half of what leaves within a step.
     ///
     /// What leaves with the next row stands for a sheet from half a row ahead of the edge to half a row behind it. What
@@ -134,7 +150,7 @@ impl Lattice {
         state: &AirState,
         edge: &Edge,
         net: f64,
-        lengths: &[Vec<f64>],
+        newest: &[RowShape],
     ) -> f64 {
         if edge.minus.is_some() {
             return 0.5;
@@ -142,7 +158,7 @@ impl Lattice {
         let Some(WakeColumn { sheet, column, .. }) = edge.wake else {
             return 1.0;
         };
-        let leaves = match lengths[sheet].get(column) {
+        let leaves = match newest[sheet].lengths.get(column) {
             Some(&length) if self.settings().newest_row == NewestRow::Matched => released(length),
             _ => 1.0,
         };

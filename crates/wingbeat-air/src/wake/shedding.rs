@@ -4,7 +4,7 @@ use crate::geometry::WakeColumn;
 use crate::lattice::Lattice;
 use crate::settings::NewestRow;
 use crate::state::{AirState, WakeSheet};
-use crate::wake::near_wake::{NEW_VORTEX, kept, released};
+use crate::wake::near_wake::{NEW_VORTEX, RowShape, kept, released};
 
 impl Lattice {
     /// Unsteady Kutta condition: the row that leaves carries the circulation of its panels, at leading edges
@@ -15,10 +15,10 @@ impl Lattice {
         k: usize,
         (before, sheet): (&[WakeSheet], &mut WakeSheet),
         state: &AirState,
-        lengths: &[f64],
+        shape: &RowShape,
     ) {
         let root = &self.sheets()[k];
-        self.finalise_newest(k, sheet, state, lengths);
+        self.finalise_newest(k, sheet, state, shape);
         let delays = self.settings().newest_row == NewestRow::Matched && sheet.rows() > 0;
         for (c, (&panel, &sign)) in root.panels.iter().zip(&root.signs).enumerate() {
             if let Some(beside) = self.leaving_beside(k, c) {
@@ -33,7 +33,7 @@ impl Lattice {
             let wanted = self.to_shed(state, (k, c), sign * state.gamma[panel], past);
             let gamma = match delays {
                 false => wanted,
-                true => past + released(lengths[c]) * (wanted - past),
+                true => past + released(shape.lengths[c]) * (wanted - past),
             };
             sheet.gamma.push(gamma);
         }
@@ -41,7 +41,7 @@ impl Lattice {
     }
 
     /// The row that was the newest gets the circulation it keeps.
-    fn finalise_newest(&self, k: usize, sheet: &mut WakeSheet, state: &AirState, lengths: &[f64]) {
+    fn finalise_newest(&self, k: usize, sheet: &mut WakeSheet, state: &AirState, shape: &RowShape) {
         let Some(newest) = sheet.rows().checked_sub(1) else {
             return;
         };
@@ -50,11 +50,11 @@ impl Lattice {
         }
         let root = &self.sheets()[k];
         for c in 0..sheet.columns {
-            if self.suction().of_column(k, c).is_none() && self.feeds(k, sheet, c) {
+            if self.suction().of_column(k, c).is_none() && shape.feeding[c] > 0.0 {
                 let ring = &mut sheet.gamma[newest * sheet.columns + c];
                 let present = root.signs[c] * state.gamma[root.panels[c]];
                 let wanted = self.to_shed(state, (k, c), present, *ring);
-                *ring += kept(lengths[c]) * (wanted - *ring);
+                *ring += shape.feeding[c] * kept(shape.lengths[c]) * (wanted - *ring);
             }
         }
     }

@@ -125,3 +125,80 @@ fn invariant_mirrored_path_ends_at_the_mirrored_place() {
     }
     assert!(largest < 1e-14, "{largest:.1e}");
 }
+
+/// A spheroid of 6 stations by 8 meridians and semi-axes 1 and 0.76 that moves by `way` within the step.
+fn spheroid(way: DVec3) -> Obstacles {
+    use std::f64::consts::PI;
+    let corner = |i: usize, k: usize| {
+        let (along, meridian) = (i as f64 / 3.0 - 1.0, 0.25 * PI * k as f64);
+        let radius = 0.76 * (1.0 - along * along).sqrt();
+        let x = DVec3::new(along, radius * meridian.cos(), radius * meridian.sin());
+        [x, x + way]
+    };
+    let mut body = Obstacle {
+        closed: true,
+        ..Obstacle::default()
+    };
+    for (i, k) in (0..48).map(|n| (n / 8, n % 8)) {
+        let ends = [(i, k), (i, k + 1), (i + 1, k + 1), (i + 1, k)].map(|(i, k)| corner(i, k));
+        body.panels.push(Panel::new(ends, [false; 4]));
+    }
+    body.enclose();
+    Obstacles {
+        surfaces: vec![body],
+        clearance: 0.126,
+    }
+}
+
+/// Places in even directions all around, at distances from the centre that grow by a thousandth of a clearance
+/// from inside the body to three clearances beyond it.
+fn rays(clearance: f64) -> impl Iterator<Item = Vec<DVec3>> {
+    (0..200).map(move |n| {
+        let x = (2 * n + 1) as f64 / 200.0 - 1.0;
+        let (around, radius) = (2.399963 * n as f64, (1.0 - x * x).sqrt());
+        let direction = DVec3::new(x, radius * around.cos(), radius * around.sin());
+        let distance = |k: u32| 0.9 + 1e-3 * clearance * f64::from(k);
+        (0..3800).map(|k| distance(k) * direction).collect()
+    })
+}
+
+#[test]
+fn invariant_push_of_a_coarse_body_is_continuous_and_ends_two_clearances_from_it() {
+    let o = spheroid(DVec3::ZERO);
+    let (mut steepest, mut beyond) = (0.0_f64, 0.0_f64);
+    for ray in rays(o.clearance) {
+        let pushes: Vec<DVec3> = ray.iter().map(|x| o.push(*x, *x)).collect();
+        for (pair, x) in pushes.windows(2).zip(&ray) {
+            steepest = steepest.max(pair[0].distance(pair[1]) / (1e-3 * o.clearance));
+            if x.length() > 1.0 + o.clearance {
+                beyond = beyond.max(pair[0].length() / o.clearance);
+            }
+            assert!(x.length() < 1.0 + 2.0 * o.clearance || pair[0] == DVec3::ZERO);
+        }
+    }
+    println!("steepest {steepest:.2}, beyond a clearance {beyond:.3} clearances");
+    // Of a distance, and what fades out; a jump of a hundredth of a clearance has a slope of 10. Planes that
+    // are tilted push beyond a clearance.
+    assert!(steepest < 1.5 && beyond > 0.01);
+}
+
+#[test]
+fn invariant_push_of_bodies_and_wings_under_the_motion_of_the_observer() {
+    let mut largest = 0.0_f64;
+    let way = DVec3::new(7.0, -3.0, 11.0);
+    let [rest, moving] = [DVec3::ZERO, way].map(spheroid);
+    for x in rays(rest.clearance).flat_map(|ray| ray.into_iter().step_by(50)) {
+        let from = x - DVec3::new(0.3, 0.1, -0.2);
+        largest = largest.max(rest.push(from, x).distance(moving.push(from, x + way)));
+    }
+    // Rise of the sheet of the other tests, and so of all that is around it.
+    let [rest, moving] = [0.0, 40.0].map(|w| sheet(w, 0.2, false));
+    let rise = 40.0 * DVec3::Z;
+    for [from, to] in paths() {
+        let [from, to] = [from, to].map(DVec3::from);
+        largest = largest.max(rest.push(from, to).distance(moving.push(from, to + rise)));
+    }
+    println!("largest change {largest:.1e}");
+    // Roundings of places 40 away.
+    assert!(largest < 5e-13);
+}
