@@ -21,11 +21,13 @@ mod lift;
 mod limit;
 mod numbers;
 mod sides;
+mod wake;
 
 pub use doubts::jumping_rotation;
 pub(crate) use joints::{chain, slowest_on_springs};
 pub use numbers::stroke_amplitude;
 pub use numbers::{Estimate, WingEstimate};
+pub use wake::{KeptWake, kept_wake, way_in_a_step};
 
 use wingbeat_flight::{FlightSetup, MotionMode};
 use wingbeat_math::{DVec3, RotationLaw};

@@ -1,7 +1,9 @@
 //! How far the results can be trusted.
 
+mod impulse;
 mod lattice;
 mod motion;
+mod wakes;
 
 use wingbeat_flight::{AirModel, BladeOptions, FlightSetup, FormulationChoice, MotionMode};
 use wingbeat_math::DVec3;
