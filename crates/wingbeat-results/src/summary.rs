@@ -21,7 +21,7 @@ mod words;
 
 use std::path::Path;
 
-use wingbeat_flight::{FlightSetup, MotionMode, Record};
+use wingbeat_flight::{AirModel, FlightSetup, MotionMode, Record};
 use wingbeat_math::{larger, smaller};
 
 use super::Outcome;
@@ -95,6 +95,8 @@ impl Summary {
         say_more: impl FnOnce(&mut Warnings),
     ) -> Self {
         let each = &s.each;
+        let is_lattice = matches!(setup.air, AirModel::VortexLattice(_));
+        let tells_of_edges = is_lattice && !s.leading_rings.is_nan();
         let mut summary = Self {
             case: setup.name.clone(),
             outcome: outcome.clone(),
@@ -118,7 +120,7 @@ impl Summary {
             regularised: s.regularised,
             limited: s.limited,
             limited_part: s.limited_part(),
-            leading_rings: (!s.leading_rings.is_nan()).then_some(s.leading_rings),
+            leading_rings: tells_of_edges.then_some(s.leading_rings),
             alternating_steps: each.alternation.longest,
             wake_rings: s.last.wake_rings,
             wake_particles: s.last.wake_particles,

@@ -64,14 +64,15 @@ impl ManyBeats {
     }
 
     /// Whether the errors of the means are larger than what changes: few beats that drift have such ones, in which the
-    /// drift is counted as correlation ([`Estimate`]).
+    /// drift is counted as correlation ([`Estimate`]). A change of more than a tenth of the force is never called so.
     pub fn changes_within_error(&self) -> bool {
         let [lift, thrust] = [self.estimate.lift_newton, self.estimate.thrust_newton];
         let size = lift.mean.hypot(thrust.mean);
         let changes = [(self.change_of_lift, lift), (self.change_of_thrust, thrust)];
         changes.into_iter().all(|(change, mean)| {
             let error = mean.standard_error.unwrap_or(0.0);
-            change.abs() <= NO_CHANGE || change.abs() * size <= error
+            let is_within = change.abs() <= MUST_SHOW && change.abs() * size <= error;
+            change.abs() <= NO_CHANGE || is_within
         })
     }
 }

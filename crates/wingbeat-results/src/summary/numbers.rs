@@ -68,8 +68,8 @@ pub struct Summary {
     /// Those over all ways of wake nodes \[1\].
     #[serde(default)]
     pub limited_part: f64,
-    /// Wake rings with circulation that left leading edges, all steps, with `air.mirror` on the half computed; none of
-    /// results that do not say it.
+    /// Wake rings with circulation that left leading edges, all steps, with `air.mirror` on the half computed; none
+    /// without a lattice and of results that do not say it.
     #[serde(default)]
     pub leading_rings: Option<f64>,
     /// Most steps in a row in which the force of the air on a wing turned back by no much smaller a change:
