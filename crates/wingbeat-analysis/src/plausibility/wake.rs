@@ -4,7 +4,7 @@ use wingbeat_flight::{AirModel, FlightSetup};
 
 use super::limit::rounded;
 use super::numbers::WingEstimate;
-use super::sizes;
+use super::sizes::sizes;
 
 /// Way over the root of the area of both wings from which on what is left out of a wake is felt little. A rectangle of
 /// aspect ratio 8 in a stream has 36, 25, 14, 7, 2.4 and 0.7 % less lift with 0.25, 0.5, 1, 2, 4 and 8 chords of wake

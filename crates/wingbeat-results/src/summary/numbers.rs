@@ -68,7 +68,7 @@ pub struct Summary {
     /// Those over all ways of wake nodes \[1\].
     #[serde(default)]
     pub limited_part: f64,
-    /// Wake rings with circulation that left leading edges, all steps, with `air.mirror` on the half computed; none
+    /// Wake rings with circulation that left leading edges, all steps, with `air.mirror` on the half computed \[1\]; none
     /// without a lattice and of results that do not say it.
     #[serde(default)]
     pub leading_rings: Option<f64>,

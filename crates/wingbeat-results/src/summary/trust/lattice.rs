@@ -6,7 +6,6 @@ use wingbeat_air::{
 use wingbeat_flight::{AirOptions, FlightSetup, IntegratorChoice, growing_joint};
 
 use super::motion::NO_MEANING;
-use super::{impulse, wakes};
 use crate::summary::numbers::Summary;
 use crate::summary::verdict::Warnings;
 
@@ -27,8 +26,6 @@ pub(super) fn warnings(
     motion(setup, summary, list);
     inputs(setup, air, summary, list);
     failures(setup, &air.lattice, summary, list);
-    impulse::warnings(setup, lattice, summary, list);
-    wakes::warnings(setup, lattice, summary, list);
 }
 
 /// Whether leading edges that may shed have shed nothing, in a whole beat where there are beats.
