@@ -81,7 +81,8 @@ pub use level::{Level, Perturbation, STATE};
 pub use mean::MeanLoad;
 pub use modes::{Mode, ModeSet, Plane, Scales};
 pub use plausibility::{
-    Estimate, WingEstimate, doubtful_reynolds_numbers, estimate, jumping_rotation, stroke_amplitude,
+    Estimate, KeptWake, WingEstimate, doubtful_reynolds_numbers, estimate, jumping_rotation,
+    kept_wake, stroke_amplitude, way_in_a_step,
 };
 pub use power::{Power, power, power_of_trim, power_with_wake};
 pub use request::TrimRequest;

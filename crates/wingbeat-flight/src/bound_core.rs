@@ -12,6 +12,17 @@ use wingbeat_model::Wing;
 const WIDE: f64 = 0.25;
 
 impl FlightSetup {
+    /// Radius of the cores of the wings' own filaments over the mean length of the foremost panels, of the wing that has
+    /// most \[1\]; none without wings in a lattice, or of cores without a radius.
+    pub fn bound_core_width(&self) -> Option<f64> {
+        let AirModel::VortexLattice(air) = &self.air else {
+            return None;
+        };
+        let radius = air.lattice.bound_core.radius()?;
+        let widths = self.animal.wings.iter().map(|w| radius / foremost(w));
+        widths.reduce(f64::max)
+    }
+
     /// Says which wings have filaments whose cores are so wide beside the panels along the chord that lift is 1 % high
     /// or more; none where none have.
     pub fn wide_bound_core(&self) -> Option<String> {

@@ -1,26 +1,54 @@
 //! Prescribed motions that no animal has, and of which no vortex lattice says what the air does.
 
-use wingbeat_model::{BodyPart, Crossing, FlownCrossings, crossings, inside};
+use wingbeat_model::{BodyPart, Crossing, FlownCrossings, crossing_depth, crossings, inside};
 
 use crate::air::{check_joined, wing_pairs};
 use crate::setup::{AirModel, FlightSetup};
 
+/// Depth over the mean chord up to which wings that pass through each other graze \[1\].
+const GRAZE: f64 = 0.03;
+
+/// Wings that pass through each other in their prescribed motion.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CrossingWings {
+    /// Which, for how long, how deep, and what to do about it.
+    pub said: String,
+    /// Whether they do so by no more than 3 % of a mean chord.
+    pub is_graze: bool,
+}
+
 impl FlightSetup {
     /// Says which wings pass through each other in their prescribed motion ([`crossings`]), and what to do
     /// about it; wings with joints of their own, whose motion is not known beforehand, are left out.
-    pub fn crossing_wings(&self) -> Vec<String> {
+    pub fn crossing_wings(&self) -> Vec<CrossingWings> {
         let joined = self.joined_pairs();
-        let remedy = |c: &Crossing| match joined
-            .iter()
-            .any(|j| c.wings.iter().all(|w| j.contains(w)))
-        {
-            false => "move their hinges apart (hinge_m), sweep them (theta) or change their phase",
-            true => {
-                "feather less at the joined roots (twist the wing instead), change their phase, or do not join them"
+        let say = |c: Crossing| {
+            let is_joined = (joined.iter()).any(|j| c.wings.iter().all(|w| j.contains(w)));
+            let chords = c.wings.map(|w| self.animal.wings[w].report().mean_chord);
+            let depth = crossing_depth(&self.animal, c.wings, is_joined) / chords[0].min(chords[1]);
+            CrossingWings {
+                said: format!(
+                    "{}, by up to {:.1} % of a mean chord: {}",
+                    self.crossing(&c, "beat"),
+                    100.0 * depth,
+                    self.apart(&c, is_joined)
+                ),
+                is_graze: depth <= GRAZE,
             }
         };
-        let say = |c: Crossing| format!("{}: {}", self.crossing(&c, "beat"), remedy(&c));
         self.prescribed_crossings().into_iter().map(say).collect()
+    }
+
+    /// What to do about wings that pass through each other.
+    fn apart(&self, found: &Crossing, is_joined: bool) -> String {
+        let remedy = "move their hinges apart (hinge_m), sweep them (theta) or change their phase";
+        let may_be_joined = matches!(self.air, AirModel::VortexLattice(_))
+            && check_joined(&self.animal, found.wings).is_ok();
+        match (is_joined, may_be_joined) {
+            (true, _) => "feather less at the joined roots (twist the wing instead), change their phase, or do not join them".to_owned(),
+            (false, true) => format!("join them at their roots (joined = true of the wing), {remedy}"),
+            (false, false) => remedy.to_owned(),
+        }
     }
 
     /// Which wings pass through each other in their prescribed motion; those with joints of their own are left out.
@@ -92,7 +120,7 @@ impl FlightSetup {
     }
 
     /// Pairs of wings that are joined at their roots; where no air joins them, those that could be.
-    fn joined_pairs(&self) -> Vec<[usize; 2]> {
+    pub fn joined_pairs(&self) -> Vec<[usize; 2]> {
         match &self.air {
             AirModel::VortexLattice(air) => air.joined.clone(),
             _ => {

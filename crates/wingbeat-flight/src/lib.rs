@@ -70,6 +70,7 @@ pub use controller::{Aim, Controller, Sensed};
 pub use error::FlightError;
 pub use felt::FeltAir;
 pub use free::{FreeFlight, FreeFlightScratch};
+pub use impossible::CrossingWings;
 pub use interface::{
     Air, AirScratch, Announcement, ExternalAir, ExternalSession, Instant, Shape, WingInertia,
     WingResponse,

@@ -121,6 +121,12 @@ pub struct Record {
     pub wake_particles: usize,
     /// Events in which a near-singular velocity was regularised in this step.
     pub regularised: usize,
+    /// Of these, ways of wake nodes and strengths of particles that were limited, and leading edges that shed what they
+    /// had too much ([`wingbeat_air::WakeEvents::limited`]).
+    pub limited: usize,
+    /// Rings with circulation that left leading edges in this step, of a mirror-symmetric flow on the half computed \[1\]; not
+    /// a number of results that do not say it.
+    pub leading_rings: f64,
     /// Largest net-flux residual of the closed surfaces: a uniform normal velocity [m/s].
     pub net_flux_residual: f64,
 }

@@ -2,7 +2,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use wingbeat_air::{AirState, WakeSheet};
+use wingbeat_air::{WakeEvents, WakeSheet};
 use wingbeat_dynamics::{Body, BodyMotion, Budget};
 use wingbeat_math::ode::StepReport;
 use wingbeat_math::{DQuat, DVec3, larger};
@@ -39,8 +39,10 @@ pub struct Ledger {
     pub joints: Vec<f64>,
     /// Energy stored in springs and stops of the joints at the start [J].
     pub stored: Option<f64>,
-    /// Regularised events of the air up to the last record.
-    pub events: u64,
+    /// Regularised events of the air up to the last record, and those of them that were limits.
+    pub events: [u64; 2],
+    /// Rings with circulation that left leading edges up to the last record.
+    pub leading_rings: u64,
     /// Impulse of the air on all bodies up to the last record.
     pub air_impulse: Integral<DVec3>,
     /// The same of the inviscid force alone.
@@ -186,9 +188,11 @@ impl Sources<'_> {
     /// Impulses of the air and the state of its wakes.
     fn write_air(&self, time: f64, ledger: &mut Ledger, r: &mut Record) {
         let (s, loads) = (self.scratch, &self.scratch.air_scratch.loads);
-        let events = wakes_of(self.air).map_or(0, total_events);
-        r.regularised = (events - ledger.events) as usize;
-        ledger.events = events;
+        let events = wakes_of(self.air).map_or(WakeEvents::default(), |air| air.events);
+        let regularised = [events.limited + events.near_surface, events.limited];
+        [r.regularised, r.limited] = [0, 1].map(|k| (regularised[k] - ledger.events[k]) as usize);
+        r.leading_rings = (events.leading_rings - ledger.leading_rings) as f64;
+        (ledger.events, ledger.leading_rings) = (regularised, events.leading_rings);
         r.vortex_impulse = loads.impulse;
         let air_force = s.air.iter().map(|w| w.force).sum();
         r.air_impulse = ledger.air_impulse.count(time, air_force);
@@ -239,11 +243,6 @@ impl Sources<'_> {
             .iter()
             .fold(0.0, |m, s| larger(m, s.net_flux_residual.abs()))
     }
-}
-
-/// All regularised events of the air so far.
-fn total_events(air: &AirState) -> u64 {
-    air.events.limited + air.events.near_surface
 }
 
 /// Angular momentum about the inertial origin.

@@ -273,7 +273,7 @@ fn refuses_states_that_do_not_fit() {
         |s| s.past.predicted_minus_corrected.clear(),
         |s| s.ledger.coordinates.clear(),
         |s| {
-            s.ledger.events = 1 + s
+            s.ledger.events[1] = 1 + s
                 .air
                 .as_ref()
                 .and_then(AirMemory::wakes)
@@ -297,7 +297,7 @@ fn refuses_states_that_do_not_fit() {
         .expect("a flight")
         .state()
         .clone();
-    state.ledger.events = 1;
+    state.ledger.events = [1, 0];
     assert!(
         Simulation::resume(vacuum, state).is_err(),
         "events without air"

@@ -38,6 +38,38 @@ pub fn crossings(animal: &Animal, wings: &[usize], joined: &[[usize; 2]]) -> Vec
     pairs.filter_map(crossing).collect()
 }
 
+/// How deep the two of a crossing reach through each other at most \[m\]: of each line of nodes that passes through the
+/// other wing, the part that lies less far behind that wing's plane there; at the instants of [`crossings`].
+pub fn crossing_depth(animal: &Animal, wings: [usize; 2], is_joined: bool) -> f64 {
+    let wings = wings.map(|w| &animal.wings[w]);
+    let sheets = wings.map(Sheet::new);
+    let gap = is_joined.then(|| root_gap(wings.map(|w| &w.mesh)));
+    let depth = |t: f64| {
+        let [mut a, mut b] = [0, 1].map(|w| sheets[w].at(t));
+        if let Some(gap) = gap {
+            join(sheets.each_ref(), [&mut a, &mut b], gap);
+        }
+        let [one, other] = &sheets;
+        one.depth(&a, other, &b).max(other.depth(&b, one, &a))
+    };
+    instants(wings).map(depth).fold(0.0, f64::max)
+}
+
+/// How near nodes of two wings come to each other in their prescribed motion at least \[m\], at the instants of
+/// [`crossings`]: that of their surfaces, where these are closer than their panels are long.
+pub fn nearest_nodes(animal: &Animal, wings: [usize; 2]) -> f64 {
+    let wings = wings.map(|w| &animal.wings[w]);
+    let sheets = wings.map(Sheet::new);
+    let gap = |t: f64| {
+        let [a, b] = [0, 1].map(|w| sheets[w].at(t));
+        let squares = a
+            .iter()
+            .flat_map(|x| b.iter().map(|y| x.distance_squared(*y)));
+        squares.fold(f64::INFINITY, f64::min).sqrt()
+    };
+    instants(wings).map(gap).fold(f64::INFINITY, f64::min)
+}
+
 /// How far the roots of two joined wings may part \[m\]: half the width of the narrowest panel there.
 pub fn root_gap(meshes: [&GridMesh; 2]) -> f64 {
     let width = |mesh: &GridMesh, i: usize| {
@@ -50,6 +82,17 @@ pub fn root_gap(meshes: [&GridMesh; 2]) -> f64 {
 }
 
 fn part_of_time(wings: [&Wing; 2], is_joined: bool) -> f64 {
+    let sheets = wings.map(Sheet::new);
+    let gap = is_joined.then(|| root_gap(wings.map(|w| &w.mesh)));
+    let met = instants(wings).filter(|&t| {
+        let nodes = [0, 1].map(|w| sheets[w].at(t));
+        meet(sheets.each_ref(), nodes, gap)
+    });
+    met.count() as f64 / instants(wings).count() as f64
+}
+
+/// Times at which two wings are compared \[s\].
+fn instants(wings: [&Wing; 2]) -> impl Iterator<Item = f64> {
     let [a, b] = wings.map(|w| w.motion.frequency);
     let beats = if a == b || a * b == 0.0 { 1 } else { BEATS };
     let faster = [a, b].into_iter().filter(|f| *f > 0.0).reduce(f64::max);
@@ -57,14 +100,7 @@ fn part_of_time(wings: [&Wing; 2], is_joined: bool) -> f64 {
         Some(f) => (INSTANTS * beats, 1.0 / f),
         None => (1, 0.0),
     };
-    let sheets = wings.map(Sheet::new);
-    let gap = is_joined.then(|| root_gap(wings.map(|w| &w.mesh)));
-    let met = (0..instants).filter(|&k| {
-        let t = beat * k as f64 / INSTANTS as f64;
-        let nodes = [0, 1].map(|w| sheets[w].at(t));
-        meet(sheets.each_ref(), nodes, gap)
-    });
-    met.count() as f64 / instants as f64
+    (0..instants).map(move |k| beat * k as f64 / INSTANTS as f64)
 }
 
 /// Whether two sheets with these nodes pass through each other, roots at most `gap` \[m\] apart being joined.
@@ -218,15 +254,48 @@ impl Sheet {
 
     /// Whether a line of this sheet, whose nodes are at `a`, passes through the other, whose are at `b`.
     fn passes(&self, a: &[DVec3], other: &Self, b: &[DVec3]) -> bool {
+        self.piercing(a, other, b).next().is_some()
+    }
+
+    /// How deep this sheet reaches through the other \[m\].
+    fn depth(&self, a: &[DVec3], other: &Self, b: &[DVec3]) -> f64 {
+        let behind = |([m, n], [x, y, z]): ([usize; 2], [DVec3; 3])| {
+            let normal = (y - x).cross(z - x).normalize();
+            let (row, column) = (m / self.columns, m % self.columns);
+            let whole: Vec<usize> = match n == m + 1 {
+                true => (0..self.columns).map(|j| row * self.columns + j).collect(),
+                false => (0..self.rows).map(|i| i * self.columns + column).collect(),
+            };
+            let farthest = |part: &mut dyn Iterator<Item = &usize>| {
+                part.map(|&k| (a[k] - x).dot(normal).abs())
+                    .fold(0.0, f64::max)
+            };
+            let before = farthest(&mut whole.iter().filter(|k| **k <= m));
+            let after = farthest(&mut whole.iter().filter(|k| **k >= n));
+            f64::min(before, after)
+        };
+        self.piercing(a, other, b).map(behind).fold(0.0, f64::max)
+    }
+
+    /// Lines of this sheet, whose nodes are at `a`, that pass through the other, whose are at `b`, with the triangle
+    /// that each passes through first.
+    fn piercing<'a>(
+        &'a self,
+        a: &'a [DVec3],
+        other: &'a Self,
+        b: &'a [DVec3],
+    ) -> impl Iterator<Item = ([usize; 2], [DVec3; 3])> + 'a {
         let touch = TOUCH * (self.size + other.size);
         let lines = self.lines();
         let low = b.iter().copied().fold(DVec3::INFINITY, DVec3::min);
         let high = b.iter().copied().fold(DVec3::NEG_INFINITY, DVec3::max);
-        let near = |x: DVec3, y: DVec3| x.min(y).cmple(high).all() && x.max(y).cmpge(low).all();
-        let mut near = lines.map(|l| l.map(|n| a[n])).filter(|[x, y]| near(*x, *y));
-        near.any(|line| {
-            let mut triangles = other.triangles();
-            triangles.any(|t| pierces(line, t.map(|n| b[n]), touch))
+        let near =
+            move |x: DVec3, y: DVec3| x.min(y).cmple(high).all() && x.max(y).cmpge(low).all();
+        let near = lines.filter(move |[m, n]| near(a[*m], a[*n]));
+        near.filter_map(move |line| {
+            let mut triangles = other.triangles().map(|t| t.map(|n| b[n]));
+            let pierced = triangles.find(|t| pierces(line.map(|n| a[n]), *t, touch));
+            pierced.map(|triangle| (line, triangle))
         })
     }
 
@@ -332,6 +401,15 @@ mod tests {
                 found[0].part
             );
         }
+        // In the middle of the beat the tip is that much beyond the other wing: no deeper before, none from the other side.
+        let two = animal(vec![flapping(), wing(0.5, 0.0, 7.0)]);
+        let depth = crossing_depth(&two, [0, 1], false);
+        assert!(
+            (depth - (60f64.to_radians().sin() - 0.5)).abs() < 1e-12,
+            "{depth}"
+        ); // roundings
+        let nearest = nearest_nodes(&two, [0, 1]);
+        assert!(nearest < 0.05, "{nearest}"); // nodes of a line are 1/16 apart
         let slow = animal(vec![flapping(), wing(0.5, 0.0, 0.7)]);
         assert!((crossings(&slow, &[0, 1], &[])[0].part - 1.0 / 3.0).abs() < 0.02);
         let flown = animal(vec![flapping(), wing(0.5, 0.0, 7.0)]);

@@ -45,7 +45,7 @@ mod touching;
 pub use animal::{Animal, BodyPart, Segment, Wing};
 pub use build::{BodyMass, fit_body_length};
 pub use check::{ElasticReport, WingReport};
-pub use crossing::{Crossing, FlownCrossings, crossings, root_gap};
+pub use crossing::{Crossing, FlownCrossings, crossing_depth, crossings, nearest_nodes, root_gap};
 pub use deformation::{Deformation, DeformingMesh};
 pub use error::ModelError;
 pub use import::Imported;

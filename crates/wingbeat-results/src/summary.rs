@@ -22,7 +22,7 @@ mod words;
 
 use std::path::Path;
 
-use wingbeat_flight::{FlightSetup, MotionMode, Record};
+use wingbeat_flight::{AirModel, FlightSetup, MotionMode, Record};
 use wingbeat_math::{larger, smaller};
 
 use super::Outcome;
@@ -97,6 +97,8 @@ impl Summary {
         say_more: impl FnOnce(&mut Warnings),
     ) -> Self {
         let each = &s.each;
+        let is_lattice = matches!(setup.air, AirModel::VortexLattice(_));
+        let tells_of_edges = is_lattice && !s.leading_rings.is_nan();
         let mut summary = Self {
             case: setup.name.clone(),
             outcome: outcome.clone(),
@@ -118,11 +120,14 @@ impl Summary {
             corrector_passes_most: each.corrector_passes.most as usize,
             corrector_passes_mean: each.passes_sum as f64 / each.steps.max(1) as f64,
             regularised: s.regularised,
+            limited: s.limited,
+            limited_part: s.limited_part(),
+            leading_rings: tells_of_edges.then_some(s.leading_rings),
             alternating_steps: each.alternation.longest,
             wake_rings: s.last.wake_rings,
             wake_particles: s.last.wake_particles,
             net_flux_residual_m_s: each.net_flux_residual.most,
-            impulse_budget: ImpulseBudget::between(setup, &s.first, &s.last),
+            impulse_budget: ImpulseBudget::between(setup, [&s.first, &s.last], &s.parting),
             departures: each.departures.clone(),
             warnings: vec![],
             means: ManyBeats::of(&s.beats),

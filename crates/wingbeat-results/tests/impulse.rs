@@ -168,3 +168,101 @@ fn behaves_a_wake_that_does_not_keep_its_impulse_is_blamed() {
     assert_eq!(summary.verdict, Verdict::Amber);
     assert!(summary.verdict_reason.starts_with("Two ways"));
 }
+
+/// A robot of 0.4 mm, whose cores stay as they are: thirty panels wide. Its forces grow without end in twelve steps.
+#[test]
+fn behaves_forces_that_part_from_their_vorticity_are_red() {
+    let summary = flown(&preset(
+        "robofly-symmetrical",
+        &[
+            "animal.scale=0.001",
+            "motion.frequency_hz=20",
+            "time.beats=0.3",
+            "gravity_m_s2=[0,0,0]",
+            "air.section_drag.friction=none",
+            "wing.right.mesh.chordwise=3",
+            "wing.right.mesh.spanwise=6",
+        ],
+    ));
+    let residual = summary.impulse_budget.unwrap().largest_relative.unwrap();
+    assert!(residual > 1e3, "{residual}"); // 1.7e10
+    assert_eq!(summary.verdict, Verdict::Red);
+    let reason = &summary.verdict_reason;
+    assert!(
+        reason.starts_with("The forces of the air mean nothing"),
+        "{reason}"
+    );
+    assert!(says(
+        &summary,
+        "cores of the wings that are 29.6 of their foremost panels wide"
+    ));
+    assert!(!says(&summary, "not algebraic") && !says(&summary, "the wake is cut"));
+}
+
+/// The force of the first step of a sudden start is a difference, of a smooth one it begins from rest: both count half,
+/// and neither is held against the flight.
+#[test]
+fn behaves_starts_leave_no_residual_to_judge() {
+    for (name, set) in [
+        ("rectangular-wing", "time.steps=12"),
+        ("fruit-fly-tethered", "time.beats=0.3"),
+        ("benchmark-1", "time.steps=10"),
+    ] {
+        let summary = flown(&preset(name, &[set]));
+        let budget = summary.impulse_budget.unwrap();
+        let largest = budget.largest_relative.unwrap();
+        println!("{name}: {largest:.3} {:.3}", budget.residual_relative);
+        assert!(largest < 0.05, "{name}: {largest}"); // 0.007 to 0.02
+        assert!(!says(&summary, "impulse in play"), "{:?}", summary.warnings);
+    }
+}
+
+/// A chord of wake behind a wing of aspect ratio 8, which then lacks what the rest of it and the starting vortex do.
+#[test]
+fn agrees_wakes_that_are_cut_too_short_are_named_where_the_lift_shows_it() {
+    let fly = |rows: &str| {
+        let set = [
+            "time.steps=80",
+            "air.scheme=accurate",
+            "air.bound_core=",
+            "air.wake_core=",
+            "air.loads=joukowski",
+        ];
+        flown(&preset("rectangular-wing", &[&set[..], &[rows]].concat()))
+    };
+    let whole = fly("air.max_wake_rows=80");
+    assert!(!says(&whole, "Not the whole wake"), "{:?}", whole.warnings);
+    for (rows, part, verdict) in [(4, 0.86, Verdict::Amber), (32, 0.993, Verdict::Green)] {
+        let cut = fly(&format!("air.max_wake_rows={rows}"));
+        let kept = cut.final_lift_newton / whole.final_lift_newton;
+        assert!((kept - part).abs() < 0.005, "{rows}: {kept}"); // as measured, digits as written
+        assert_eq!(cut.verdict, verdict, "{:?}", cut.warnings);
+        let said = format!(
+            "the wake is cut (air.max_wake_rows = {rows}): {:.2}",
+            rows as f64 / 4.0
+        );
+        assert!(says(&cut, &said), "{:?}", cut.warnings);
+    }
+}
+
+/// Nodes that may not go as far as the air takes them are counted and said, and the wake's impulse shows it.
+#[test]
+fn behaves_ways_of_nodes_that_are_limited_are_counted_and_said() {
+    let set = |most: &str| {
+        let most = format!("air.max_displacement_m={most}");
+        let coarse = "wing.right.mesh={chordwise=4,spanwise=7}";
+        flown(&preset(
+            "fruit-fly-tethered",
+            &["time.beats=1", "time.steps_per_beat=30", coarse, &most],
+        ))
+    };
+    let tight = set("1e-4");
+    assert!(tight.limited > 100 && tight.limited_part > 0.01);
+    assert!(tight.limited <= tight.regularised);
+    assert_eq!(tight.verdict, Verdict::Amber);
+    let told = format!("{} times a wake node was to go farther", tight.limited);
+    assert!(says(&tight, &told), "{:?}", tight.warnings);
+    let wide = set("1");
+    assert_eq!(wide.limited, 0);
+    assert!(!says(&wide, "max_displacement"), "{:?}", wide.warnings);
+}

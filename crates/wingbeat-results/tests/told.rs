@@ -96,3 +96,30 @@ fn exact_tethers_out_of_step_with_the_strokes_are_told_by_how_much() {
     let other = "flight.tether.z.frequency_hz=270";
     assert_eq!(said(&[other]), None);
 }
+
+/// Leading edges that may shed: at a small incidence they hold their suction, and nothing is said or counted of what
+/// they did not shed.
+#[test]
+fn behaves_only_what_leading_edges_shed_is_told() {
+    for (incidence, sheds) in [(2.0, false), (25.0, true)] {
+        let summary = flown(&preset(
+            "rectangular-wing",
+            &[
+                "time.steps=20",
+                "air.shed=[\"trailing\", \"leading\"]",
+                "air.leading_edge=suction",
+                "air.scheme=accurate",
+                "air.bound_core=",
+                "air.wake_core=",
+                "air.loads=joukowski",
+                "air.clearance_m=1e-2",
+                &format!("wing.right.motion.psi.constant_deg={incidence}"),
+            ],
+        ));
+        let rings = summary.leading_rings.unwrap();
+        assert_eq!(rings > 0.0, sheds, "{incidence}: {rings}");
+        assert_eq!(says(&summary, "Leading edges shed:"), sheds);
+        assert_eq!(says(&summary, "and shed nothing"), !sheds);
+        assert_eq!(summary.regularised > 0, sheds, "{:?}", summary.warnings);
+    }
+}

@@ -193,3 +193,38 @@ fn behaves_wings_that_push_the_body_down_are_named() {
         assert!(!told || summary.verdict >= Verdict::Amber);
     }
 }
+
+/// Wings whose roots lie on one line and feather while they flap pass through each other there by a part of a per cent
+/// of a chord: that is said, and that they may be joined; with the hinges just apart nothing is.
+#[test]
+fn behaves_wings_that_graze_are_amber_and_may_be_joined() {
+    let fly = |hinge: f64| {
+        let text = format!(
+            r#"
+            format = 1
+            gravity_m_s2 = [0, 0, 0]
+            time = {{ steps_per_beat = 40, beats = 0.25 }}
+            flight = {{ mode = "tethered" }}
+            air = {{ density_kg_m3 = 1.2, stream_m_s = [-5, 0, 0], shed = ["trailing"], body = false }}
+            body = {{ mass_kg = 1, inertia_about_centre_kg_m2 = [1, 1, 1, 0, 0, 0] }}
+            motion.frequency_hz = 10
+            [wing.right]
+            hinge_m = [0, {hinge}, 0]
+            mass_kg = 0.005
+            motion = {{ phi.fourier.sine_deg = [15], psi.constant_deg = 3 }}
+            planform.rectangle = {{ chord_m = 0.06, span_m = 0.2, axis_fraction = 0.25 }}
+            mesh = {{ chordwise = 3, spanwise = 6 }}
+        "#
+        );
+        flown(&LoadedCase::from_text("pair", &text, Path::new(""), &[]).unwrap())
+    };
+    let grazes = fly(0.0);
+    assert_eq!(grazes.verdict, Verdict::Amber, "{:?}", grazes.warnings);
+    assert!(says(
+        &grazes,
+        "by up to 0.5 % of a mean chord: join them at their roots"
+    ));
+    assert!(!says(&grazes, "have no meaning"));
+    let apart = fly(1e-3);
+    assert!(!says(&apart, "graze"), "{:?}", apart.warnings);
+}

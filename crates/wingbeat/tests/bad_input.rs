@@ -418,3 +418,26 @@ fn refuses_flights_that_fail_on_trial_with_their_doubts_first() {
     let error = said.find("error: ");
     assert!(doubt.is_some() && doubt < error, "{said}");
 }
+
+/// Cores of an animal made smaller that are not: thirty panels wide, so that all panels feel the same.
+#[test]
+fn refuses_cores_wider_than_panels_by_their_key() {
+    let scratch = Scratch::new("cores");
+    let small = "--set=animal.scale=0.001";
+    let args = [
+        "run",
+        "fruit-fly-tethered",
+        small,
+        "--set=time.beats=0.2",
+        "--out=small",
+    ];
+    let out = wingbeat(&scratch.0, &args);
+    let report = String::from_utf8(out.stderr).unwrap();
+    for words in [
+        "air.bound_core",
+        "singular",
+        "animal.scale makes the animal smaller and leaves all lengths of [air]",
+    ] {
+        assert!(report.contains(words), "{words}: {report}");
+    }
+}

@@ -220,7 +220,7 @@ impl AirSettings {
     }
 
     /// Whether what leaves leading edges is part of the solution for the circulations.
-    pub(crate) fn solves_suction(&self) -> bool {
+    pub fn solves_suction(&self) -> bool {
         self.shedding.leading && matches!(self.leading, LeadingEdge::SuctionImplicit { .. })
     }
 

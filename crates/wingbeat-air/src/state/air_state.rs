@@ -12,8 +12,11 @@ pub struct WakeEvents {
     /// a change of half in a step and twice their first size in all; leading edges that shed what they had too
     /// much where no solution holds the suction of all ([`crate::LeadingEdge::SuctionImplicit`]).
     pub limited: u64,
-    /// Wake nodes and particles kept at [`crate::AirSettings::clearance`] from a surface.
+    /// Wake nodes and particles kept at [`crate::AirSettings::clearance`] from a surface; nodes of rows without
+    /// circulation, which feel and do nothing, are not counted.
     pub near_surface: u64,
+    /// Rings with circulation that left leading edges.
+    pub leading_rings: u64,
     /// Rows of wake that were dropped.
     pub dropped_rows: u64,
     /// Particles made of rings.
@@ -26,6 +29,7 @@ impl std::ops::AddAssign for WakeEvents {
     fn add_assign(&mut self, other: Self) {
         self.limited += other.limited;
         self.near_surface += other.near_surface;
+        self.leading_rings += other.leading_rings;
         self.dropped_rows += other.dropped_rows;
         self.new_particles += other.new_particles;
         self.dropped_particles += other.dropped_particles;

@@ -54,6 +54,14 @@ impl WakeSheet {
         self.gamma.len() - self.converted.iter().sum::<usize>()
     }
 
+    /// Whether the nodes of a row, counted from the oldest, lie on a ring with circulation; those on the shedding edge
+    /// before a row leaves it lie on the newest one.
+    pub(crate) fn has_strength(&self, row: usize) -> bool {
+        let rings = row.saturating_sub(1)..(row + 1).min(self.rows());
+        let of_row = |r: usize| &self.gamma[r * self.columns..(r + 1) * self.columns];
+        rings.flat_map(of_row).any(|gamma| *gamma != 0.0)
+    }
+
     /// Circulation of the newest ring of a column, zero while there is none [m2/s].
     pub(crate) fn newest(&self, column: usize) -> f64 {
         match self.rows() {

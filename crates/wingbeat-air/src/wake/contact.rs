@@ -88,31 +88,45 @@ impl Obstacles {
         self.surfaces.iter_mut().for_each(Obstacle::enclose);
     }
 
-    /// Mends the ends of the paths `from` -> `to` of all nodes; returns how many were changed.
-    /// Nodes are independent: the result does not depend on the number of threads.
-    pub(crate) fn keep_off(&self, from: &[DVec3], to: &mut [DVec3]) -> u64 {
+    /// Mends the ends of the paths `from` -> `to` of all nodes; returns how many were changed, all and those that
+    /// have `strength`. Nodes are independent: the result does not depend on the number of threads.
+    pub(crate) fn keep_off(
+        &self,
+        from: &[DVec3],
+        to: &mut [DVec3],
+        strength: impl Fn(usize) -> bool + Sync,
+    ) -> [u64; 2] {
         if self.surfaces.is_empty() {
-            return 0;
+            return [0; 2];
         }
         to.par_iter_mut()
             .zip(from)
-            .map(|(to, &from)| {
+            .enumerate()
+            .map(|(i, (to, &from))| {
                 let push = self.push(from, *to);
                 *to += push;
-                u64::from(push.length() > COUNTED * self.clearance)
+                let changed = push.length() > COUNTED * self.clearance;
+                [changed, changed && strength(i)].map(u64::from)
             })
-            .sum()
+            .reduce(|| [0; 2], |[a, b], [c, d]| [a + c, b + d])
     }
 
     /// The same for plane wakes, whose rows of two nodes move as their middles do: the ends of rows lie on the
     /// ends of the surface, which are no edges that the flow goes around.
-    pub(crate) fn keep_rows_off(&self, from: &[DVec3], to: &mut [DVec3]) -> u64 {
+    pub(crate) fn keep_rows_off(
+        &self,
+        from: &[DVec3],
+        to: &mut [DVec3],
+        strength: impl Fn(usize) -> bool + Sync,
+    ) -> [u64; 2] {
         let middle = |row: &[DVec3]| row[0].midpoint(row[1]);
-        let mut changed = 0;
-        for (to, from) in to.chunks_exact_mut(2).zip(from.chunks_exact(2)) {
+        let mut changed = [0; 2];
+        let rows = to.chunks_exact_mut(2).zip(from.chunks_exact(2));
+        for (r, (to, from)) in rows.enumerate() {
             let (start, mut end) = ([middle(from)], [middle(to)]);
             let free = end[0];
-            changed += 2 * self.keep_off(&start, &mut end);
+            let row = self.keep_off(&start, &mut end, |_| strength(2 * r));
+            changed = [0, 1].map(|k| changed[k] + 2 * row[k]);
             to.iter_mut().for_each(|x| *x += end[0] - free);
         }
         changed

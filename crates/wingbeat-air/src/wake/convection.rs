@@ -192,6 +192,7 @@ fn move_each(
             let before = [free_rings(sheet), sheet.particles.impulse()];
             move_sheet(mover, (k, state.step), sheet)?;
             lattice.shed(k, (others, sheet), state, shape);
+            mover.events.leading_rings += lattice.leading_rings(k, sheet);
             let mut account = SheetAccount::of_move(mover, (k, state), sheet, before);
             mover.events += lattice.truncate(k, sheet, (state, mover.dt), &mut account);
             accounts.push(account);

@@ -75,17 +75,18 @@ impl Mover<'_> {
                 sheet.velocity.push(self.velocity.get(k) + stream);
             }
         }
-        let held_back = self.events.near_surface;
         self.unhindered.clear();
         self.unhindered.extend_from_slice(&to);
-        match middle {
-            None => self.keep_clear(&from, &mut to),
+        let has_strength = |i: usize| sheet.has_strength(i / width);
+        let held_back = match middle {
+            None => self.keep_clear(&from, &mut to, has_strength),
             // The middle is within the body.
             Some(middle) => (1 - middle..to.len())
                 .step_by(width)
-                .for_each(|i| self.keep_clear(&from[i..=i], &mut to[i..=i])),
-        }
-        if self.events.near_surface == held_back {
+                .map(|i| self.keep_clear(&from[i..=i], &mut to[i..=i], |_| has_strength(i)))
+                .sum(),
+        };
+        if held_back == 0 {
             self.unhindered.clear();
         }
         sheet.nodes.clear();
@@ -94,15 +95,24 @@ impl Mover<'_> {
         Ok(())
     }
 
-    /// Keeps ends of paths off surfaces and on their side of planes.
-    pub(crate) fn keep_clear(&mut self, from: &[DVec3], to: &mut [DVec3]) {
-        self.events.near_surface += match self.lattice.settings().plane_wakes {
-            true => self.obstacles.keep_rows_off(from, to),
-            false => self.obstacles.keep_off(from, to),
+    /// Keeps ends of paths off surfaces and on their side of planes; returns how many it changed. Those that have
+    /// `strength` are events.
+    pub(crate) fn keep_clear(
+        &mut self,
+        from: &[DVec3],
+        to: &mut [DVec3],
+        strength: impl Fn(usize) -> bool + Sync,
+    ) -> u64 {
+        let [mut all, mut strong] = match self.lattice.settings().plane_wakes {
+            true => self.obstacles.keep_rows_off(from, to, &strength),
+            false => self.obstacles.keep_off(from, to, &strength),
         };
         for plane in &self.lattice.settings().images {
-            self.events.near_surface += keep_on_side(plane, from, to);
+            let [of_all, of_strong] = keep_on_side(plane, from, to, &strength);
+            (all, strong) = (all + of_all, strong + of_strong);
         }
+        self.events.near_surface += strong;
+        all
     }
 
     /// Where a node of the `sheet` moved last was before [m], N; the last row was the shedding edge.
@@ -123,14 +133,19 @@ impl Mover<'_> {
     }
 }
 
-/// Nodes that would go through a plane of symmetry or a ground end on it; returns how many. There
-/// they and their images cancel.
-fn keep_on_side(plane: &Plane, from: &[DVec3], to: &mut [DVec3]) -> u64 {
-    let mut count = 0;
-    for (a, b) in from.iter().zip(to) {
+/// Nodes that would go through a plane of symmetry or a ground end on it; returns how many, all and those that have
+/// `strength`. There they and their images cancel.
+fn keep_on_side(
+    plane: &Plane,
+    from: &[DVec3],
+    to: &mut [DVec3],
+    strength: impl Fn(usize) -> bool,
+) -> [u64; 2] {
+    let mut count = [0; 2];
+    for (i, (a, b)) in from.iter().zip(to).enumerate() {
         if plane.height(*a) * plane.height(*b) < 0.0 {
             *b = plane.foot(*b);
-            count += 1;
+            count = [count[0] + 1, count[1] + u64::from(strength(i))];
         }
     }
     count

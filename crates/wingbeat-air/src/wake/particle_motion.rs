@@ -48,7 +48,7 @@ impl Mover<'_> {
             each.map(|(x, alpha)| 0.5 * x.cross(alpha)).sum()
         };
         let unhindered = impulse(&to);
-        self.keep_clear(&from, &mut to);
+        self.keep_clear(&from, &mut to, |_| true);
         self.taken_from_particles = unhindered - impulse(&to);
         set.position.clear();
         to.iter().for_each(|&x| set.position.push(x));

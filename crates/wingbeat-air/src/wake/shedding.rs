@@ -1,5 +1,6 @@
 //! The row that leaves an edge: unsteady Kutta condition.
 
+use crate::edges::EdgeKind;
 use crate::geometry::WakeColumn;
 use crate::lattice::Lattice;
 use crate::settings::NewestRow;
@@ -38,6 +39,13 @@ impl Lattice {
             sheet.gamma.push(gamma);
         }
         sheet.shed_time.push(state.time);
+    }
+
+    /// How many rings with circulation the newest row of sheet `k` has from leading edges.
+    pub(crate) fn leading_rings(&self, k: usize, sheet: &WakeSheet) -> u64 {
+        let is_leading = |&c: &usize| self.sheets()[k].kinds[c] == EdgeKind::Leading;
+        let columns = (0..sheet.columns).filter(is_leading);
+        columns.filter(|&c| sheet.newest(c) != 0.0).count() as u64
     }
 
     /// The row that was the newest gets the circulation it keeps.

@@ -9,6 +9,7 @@ use super::air::stream;
 use super::limit::{Doubts, Limit, rounded};
 use super::numbers::{Estimate, WingEstimate};
 use super::sides::against_each_other;
+use super::wake::kept_wake;
 use super::{elastic, joints};
 
 const FREQUENCY: Limit = Limit {
@@ -194,13 +195,14 @@ pub(super) fn doubts(setup: &FlightSetup, e: &Estimate) -> Vec<String> {
     list.extend(setup.trailing_edges_ahead());
     list.extend(setup.scattered_angles());
     list.extend(setup.gaps_in_angles());
-    list.extend(setup.crossing_wings());
+    list.extend(setup.crossing_wings().into_iter().map(|c| c.said));
     list.extend(setup.wings_inside_parts());
     list.extend(setup.roots_on_bodies());
     list.extend(setup.one_sided_leading_edges());
     list.extend(setup.long_steps_one_way());
     list.extend(setup.tips_of_attached_wings());
     list.extend(setup.wide_bound_core());
+    list.extend(cut_wake(setup));
     list.extend(setup.vortex_lift_of_swept_edges());
     list
 }
@@ -347,6 +349,13 @@ fn wing_doubts(setup: &FlightSetup, wing: &Wing, w: &WingEstimate) -> Vec<String
         ));
     }
     list
+}
+
+/// Wakes that are cut so early that it is felt.
+fn cut_wake(setup: &FlightSetup) -> Option<String> {
+    let kept = kept_wake(setup)?;
+    let felt = kept.is_short?;
+    Some(format!("{}; {felt}", kept.said))
 }
 
 /// Phases at which a deformation is looked at.

@@ -11,6 +11,9 @@ use crate::raw::{Case, ControlCase, ControllerCase, WingCase};
 pub(crate) fn refused(case: &Case, setup: &FlightSetup, error: &FlightError) -> Fault {
     let (key, remedy) = match error {
         FlightError::Dynamics(e) => return joint::fault_of(case, setup, e),
+        FlightError::Air(AirError::Singular { .. }) if has_wide_cores(setup) => {
+            ("air.bound_core".to_owned(), WIDE_CORES)
+        }
         FlightError::Air(e) => of_lattice(e),
         FlightError::Asymmetric { .. } => (
             "air.mirror".to_owned(),
@@ -45,7 +48,7 @@ pub(crate) fn refused(case: &Case, setup: &FlightSetup, error: &FlightError) -> 
             "change what the message names, or fly without: control.controller = \"none\"",
         ),
         FlightError::Setup { key, .. } => (of_setup(key).to_owned(), "change this key"),
-        _ => (String::new(), "the message says what to try"),
+        _ => (String::new(), ""),
     };
     // Key and value stand before the message already.
     let problem = match error {
@@ -53,6 +56,14 @@ pub(crate) fn refused(case: &Case, setup: &FlightSetup, error: &FlightError) -> 
         other => other.to_string(),
     };
     Fault::new(key, problem, "", remedy)
+}
+
+/// What to do about cores that are wider than panels.
+const WIDE_CORES: &str = "give it a tenth of the foremost panels or less, in chords (radius_chords), or take fewer panels; animal.scale makes the animal smaller and leaves all lengths of [air] as they are";
+
+/// Whether cores of the wings' own filaments are wider than their foremost panels.
+fn has_wide_cores(setup: &FlightSetup) -> bool {
+    setup.bound_core_width().is_some_and(|width| width > 1.0)
 }
 
 /// The key of a wing, or that of the wing of which it is the mirror image.
@@ -74,10 +85,7 @@ fn of_control(case: &Case) -> (String, &'static str) {
             "control.external.command".to_owned(),
             "correct the program, or name another",
         ),
-        false => (
-            "control.controller".to_owned(),
-            "the message says what to try",
-        ),
+        false => ("control.controller".to_owned(), ""),
     }
 }
 
@@ -104,7 +112,7 @@ fn of_lattice(error: &AirError) -> (String, &'static str) {
             "air.model".to_owned(),
             "add a wing, set air.body = true, or fly without air",
         ),
-        _ => ("air".to_owned(), "the message says what to try"),
+        _ => ("air".to_owned(), ""),
     }
 }
 

@@ -160,7 +160,8 @@ fn gravity() -> [f64; 3] {
 #[serde(deny_unknown_fields, default)]
 pub struct AnimalCase {
     /// Every length times this, masses times its cube, inertias times its fifth power: the same
-    /// animal in another size.
+    /// animal in another size. Lengths of `[air]` stay as they are given: cores and clearance in metres are to be
+    /// scaled, too, or given in chords (`radius_chords`, `clearance_chords`).
     ///
     /// Change it to study the influence of size.
     #[default = 1.0]

@@ -74,6 +74,11 @@ impl<'a> Beats<'a> {
         }
     }
 
+    /// The flight.
+    pub(super) fn setup(&self) -> &'a FlightSetup {
+        self.setup
+    }
+
     /// Takes the next record; the means of the beat that ends with it.
     pub fn take(&mut self, record: &Record) -> Option<BeatMeans> {
         let steps = self.steps?;

@@ -2,7 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 use wingbeat_air::ImpulseAccount;
-use wingbeat_flight::{AirModel, FlightSetup, Record};
+use wingbeat_flight::{AirModel, AirOptions, FlightSetup, Record};
+use wingbeat_math::{DVec3, larger};
 
 use super::beats::down;
 
@@ -25,13 +26,70 @@ pub struct ImpulseBudget {
     /// Whether there is a ground.
     #[serde(default)]
     pub is_beside_ground: bool,
+    /// The largest residual after the first five steps, in which a start has its own, over all that the inviscid force
+    /// changed the impulse by, to and fro, or over that of a force coefficient of 0.1 if that is larger \[1\]; beside a
+    /// ground its part along the ground. None of fewer steps, and of results that do not say it.
+    #[serde(default)]
+    pub largest_relative: Option<f64>,
+}
+
+/// Steps of a start whose residual is not judged: the force of the first one is a difference over a step, and counts
+/// half. Sudden and smooth starts of presets: 0.5 to 1 of the impulse so far in the first step, 0.02 to 0.08 in the fifth.
+const START: usize = 5;
+
+/// Mean force coefficient of which the impulse counts at least: forces that cancel, or are none, leave rounding.
+const SMALL: f64 = 0.1;
+
+/// How far the impulse of the vorticity and that of the force part in a flight, record by record.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Parting {
+    /// Impulse of the inviscid force at the record before \[N s\].
+    before: Option<DVec3>,
+    /// Its changes from record to record in sum \[N s\].
+    way: f64,
+    /// The residual at the end of the start \[N s\].
+    at_start: Option<DVec3>,
+    /// The largest one since \[N s\].
+    most: f64,
+}
+
+impl Parting {
+    /// Takes the next record.
+    pub(super) fn take(&mut self, record: &Record, setup: &FlightSetup) {
+        let AirModel::VortexLattice(air) = &setup.air else {
+            return;
+        };
+        let before = self.before.replace(record.inviscid_impulse);
+        self.way += before.map_or(0.0, |b| b.distance(record.inviscid_impulse));
+        if record.step >= START {
+            let start = *self.at_start.get_or_insert(record.impulse_residual);
+            let residual = record.impulse_residual - start;
+            self.most = larger(self.most, along_grounds(residual, air).length());
+        }
+    }
+
+    /// Over the impulses in play, of a flight that ends with this record.
+    fn relative(&self, last: &Record) -> Option<f64> {
+        let scale = self.way.max(SMALL * last.dynamic_impulse);
+        (last.step > START && scale > 0.0).then(|| self.most / scale)
+    }
+}
+
+/// The part of a residual along all grounds.
+fn along_grounds(residual: DVec3, air: &AirOptions) -> DVec3 {
+    let normals = air.lattice.images.iter().map(|g| g.normal.normalize());
+    normals.fold(residual, |r, n| r - r.dot(n) * n)
 }
 
 impl ImpulseBudget {
     /// Between two records; none without a lattice, with vortex particles, whose vorticity does not close, so
     /// that their impulse depends on the origin, in wind that varies in space, which acts on the wakes, and of
     /// results of older versions, which lack the account.
-    pub(super) fn between(setup: &FlightSetup, from: &Record, to: &Record) -> Option<Self> {
+    pub(super) fn between(
+        setup: &FlightSetup,
+        [from, to]: [&Record; 2],
+        parting: &Parting,
+    ) -> Option<Self> {
         let AirModel::VortexLattice(air) = &setup.air else {
             return None;
         };
@@ -40,13 +98,11 @@ impl ImpulseBudget {
         if !closes || !to.impulse_residual.is_finite() {
             return None;
         }
-        let along = |of: fn(&ImpulseAccount) -> wingbeat_math::DVec3| {
+        let along = |of: fn(&ImpulseAccount) -> DVec3| {
             (of(&to.impulse_account) - of(&from.impulse_account)).dot(down(setup))
         };
         let residual = to.impulse_residual - from.impulse_residual;
-        let grounds = &air.lattice.images;
-        let normals = grounds.iter().map(|ground| ground.normal.normalize());
-        let free = normals.fold(residual, |r, n| r - r.dot(n) * n);
+        let free = along_grounds(residual, air);
         let inviscid = (to.inviscid_impulse - from.inviscid_impulse).length();
         Some(Self {
             created_newton_s: along(|a| a.created),
@@ -58,7 +114,8 @@ impl ImpulseBudget {
                 true => free.length() / inviscid,
                 false => free.length(),
             },
-            is_beside_ground: !grounds.is_empty(),
+            is_beside_ground: !lattice.images.is_empty(),
+            largest_relative: parting.relative(to),
         })
     }
 }

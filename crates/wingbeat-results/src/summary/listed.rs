@@ -5,7 +5,7 @@ use super::per_beat::Quantity;
 
 impl Summary {
     /// Its numbers in the order of comparisons; those of wingbeats are [`super::PerBeat::QUANTITIES`].
-    pub const NUMBERS: [Quantity<Self>; 28] = [
+    pub const NUMBERS: [Quantity<Self>; 31] = [
         Quantity {
             name: "steps",
             unit: "1",
@@ -173,6 +173,27 @@ impl Summary {
             label: Some("regularised events"),
             about: "near-singular velocities that were regularised, all steps",
             of: |s| Some(s.regularised as f64),
+        },
+        Quantity {
+            name: "limited",
+            unit: "1",
+            label: Some("limited events"),
+            about: "of these, ways of wake nodes and strengths of particles that were limited, and leading edges that shed what they had too much",
+            of: |s| Some(s.limited as f64),
+        },
+        Quantity {
+            name: "limited_part",
+            unit: "1",
+            label: Some("limited events over ways of wake nodes"),
+            about: "limited events over all ways of wake nodes",
+            of: |s| Some(s.limited_part),
+        },
+        Quantity {
+            name: "leading_rings",
+            unit: "1",
+            label: Some("wake rings from leading edges"),
+            about: "wake rings with circulation that left leading edges, all steps, with air.mirror on the half computed",
+            of: |s| s.leading_rings,
         },
         Quantity {
             name: "alternating_steps",

@@ -62,6 +62,19 @@ impl ManyBeats {
             is_known: changed || !hidden,
         })
     }
+
+    /// Whether the errors of the means are larger than what changes: few beats that drift have such ones, in which the
+    /// drift is counted as correlation ([`Estimate`]). A change of more than a tenth of the force is never called so.
+    pub fn changes_within_error(&self) -> bool {
+        let [lift, thrust] = [self.estimate.lift_newton, self.estimate.thrust_newton];
+        let size = lift.mean.hypot(thrust.mean);
+        let changes = [(self.change_of_lift, lift), (self.change_of_thrust, thrust)];
+        changes.into_iter().all(|(change, mean)| {
+            let error = mean.standard_error.unwrap_or(0.0);
+            let is_within = change.abs() <= MUST_SHOW && change.abs() * size <= error;
+            change.abs() <= NO_CHANGE || is_within
+        })
+    }
 }
 
 /// By how much values change from their first half to their second, and what of that their scatter would hide,
@@ -157,5 +170,28 @@ mod tests {
         let tilts = flown_with(|_| 10.0, |k| 0.3 * k as f64).unwrap();
         assert!(!tilts.is_steady && tilts.is_known && tilts.change_of_thrust > 0.1);
         assert_eq!(ManyBeats::of(&[]), None);
+    }
+
+    /// The beats 3 to 8 of a honeybee: their drift of 1.7 % is felt, and less than the error of their mean, which counts
+    /// it as correlation. A drift by a quarter is not.
+    #[test]
+    fn behaves_drifts_within_the_error_of_the_mean_are_told_from_others() {
+        let beat = |(k, lift): (usize, f64)| {
+            let text = format!(
+                r#"{{"beat": {k}, "lift_newton": {lift}, "lift_over_weight": null, "thrust_newton": 0, "power_watt": 0}}"#
+            );
+            serde_json::from_str::<BeatMeans>(&text).unwrap()
+        };
+        let of = |lifts: [f64; 8]| {
+            let beats: Vec<BeatMeans> = (1..).zip(lifts).map(beat).collect();
+            ManyBeats::of(&beats).unwrap()
+        };
+        let bee = of([0.488, 0.993, 0.902, 0.899, 0.9017, 0.8866, 0.8805, 0.8903]);
+        assert!(
+            !bee.is_steady && bee.is_known && bee.changes_within_error(),
+            "{bee:?}"
+        );
+        let falls = of([1.0, 1.0, 1.3, 1.29, 1.31, 0.99, 1.0, 1.01]);
+        assert!(!falls.is_steady && falls.change_of_lift < -0.2, "{falls:?}");
     }
 }

@@ -65,6 +65,17 @@ pub struct Summary {
     pub corrector_passes_mean: f64,
     /// Near-singular velocities that were regularised, all steps.
     pub regularised: usize,
+    /// Of these, ways of wake nodes (`air.max_displacement_m`) and strengths of particles that were limited, and leading
+    /// edges that shed what they had too much.
+    #[serde(default)]
+    pub limited: usize,
+    /// Those over all ways of wake nodes \[1\].
+    #[serde(default)]
+    pub limited_part: f64,
+    /// Wake rings with circulation that left leading edges, all steps, with `air.mirror` on the half computed \[1\]; none
+    /// without a lattice and of results that do not say it.
+    #[serde(default)]
+    pub leading_rings: Option<f64>,
     /// Most steps in a row in which the force of the air on a wing turned back by no much smaller a change:
     /// some 2 in sound flights, up to 7 where wings turn among their wakes.
     #[serde(default)]

@@ -6,6 +6,7 @@ use wingbeat_flight::{FlightSetup, Record};
 
 use super::beats::{BeatMeans, Beats};
 use super::each_step::EachStep;
+use super::impulse::Parting;
 use super::last_part::Bounds;
 use crate::records::Records;
 use wingbeat_case::IoError;
@@ -17,8 +18,15 @@ pub(super) struct Statistics {
     pub last: Record,
     /// Of the rows of the history, or of all steps where these were gathered as they were flown.
     pub each: EachStep,
-    /// Sum over all steps.
+    /// Sums over all steps.
     pub regularised: usize,
+    pub limited: usize,
+    pub leading_rings: f64,
+    /// Rings of wakes in sum over the rows, and how many rows that are.
+    pub wake_rings: usize,
+    pub rows: usize,
+    /// Impulses of vorticity and force.
+    pub parting: Parting,
     /// Means over whole wingbeats.
     pub beats: Vec<BeatMeans>,
     /// Where the last part of a flight without wingbeats begins.
@@ -64,12 +72,24 @@ impl Statistics {
     fn take(&mut self, r: &Record, setup: &FlightSetup, beats: &mut Beats<'_>) {
         self.bounds.take(r, setup);
         self.beats.extend(beats.take(r));
+        self.parting.take(r, beats.setup());
         if !self.is_begun {
             self.first.clone_from(r);
             self.is_begun = true;
         }
         self.last.clone_from(r);
         self.regularised += r.regularised;
+        self.limited += r.limited;
+        self.leading_rings += r.leading_rings;
+        self.wake_rings += r.wake_rings;
+        self.rows += 1;
+    }
+
+    /// Part of the ways of wake nodes that were limited, of which there are about as many as rings \[1\].
+    pub fn limited_part(&self) -> f64 {
+        let rings = self.wake_rings as f64 / self.rows.max(1) as f64;
+        let moves = rings * self.last.step as f64;
+        self.limited as f64 / moves.max(1.0)
     }
 
     /// From start to end: coordinate `k` of the body.

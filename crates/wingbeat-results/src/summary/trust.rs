@@ -1,7 +1,9 @@
 //! How far the results can be trusted.
 
+mod impulse;
 mod lattice;
 mod motion;
+mod wakes;
 
 use wingbeat_flight::{AirModel, BladeOptions, FlightSetup, FormulationChoice, MotionMode};
 use wingbeat_math::DVec3;
@@ -54,7 +56,11 @@ fn air(setup: &FlightSetup, summary: &Summary, list: &mut Warnings) {
             "There is no air: this is the motion that weight and wing inertia alone give."
                 .to_owned(),
         ),
-        AirModel::VortexLattice(air) => lattice::warnings(setup, air, summary, list),
+        AirModel::VortexLattice(air) => {
+            lattice::warnings(setup, air, summary, list);
+            impulse::warnings(setup, &air.lattice, summary, list);
+            wakes::warnings(setup, &air.lattice, summary, list);
+        }
         AirModel::BladeElement(_) if setup.animal.wings.is_empty() => list.note("The air is the drag of the body alone (air.blade.body_drag): quasi-steady, along and across its axis, without lift and without a wake.".to_owned()),
         AirModel::BladeElement(air) if air.blade.unsteady.is_some() => {
             strips(setup, air, summary, list);

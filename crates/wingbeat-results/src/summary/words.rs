@@ -255,6 +255,9 @@ fn verdict(means: &ManyBeats) -> String {
         [means.change_of_lift, means.change_of_thrust].map(|x| signed(100.0 * x, 1));
     let verdict = match (means.is_steady, means.is_known) {
         (true, _) => "which are steady",
+        (false, true) if means.changes_within_error() => {
+            "which still drift, by no more than this error"
+        }
         (false, true) => "which are NOT steady",
         (false, false) => "which scatter too much to tell whether they are steady",
     };

@@ -225,6 +225,22 @@ pub(super) const WAKE: &[Quantity] = &[
     )
     .fold(Sum),
     scalar(
+        "limited",
+        Unit::Count,
+        "of these, ways of wake nodes (air.max_displacement_m) and strengths of particles that were limited, and leading edges that shed what they had too much",
+        |r, _, _| Count(&mut r.limited),
+    )
+    .fold(Sum)
+    .new_here(),
+    scalar(
+        "leading_rings",
+        Unit::Count,
+        "wake rings with circulation that left leading edges, with air.mirror on the half computed",
+        |r, _, _| Real(&mut r.leading_rings),
+    )
+    .fold(Sum)
+    .new_here(),
+    scalar(
         "net_flux_residual",
         Unit::MetrePerSecond,
         "largest net-flux residual of closed surfaces, a uniform normal velocity",

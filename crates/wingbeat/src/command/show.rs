@@ -190,6 +190,7 @@ fn tell_means(report: &mut Report, [first, second]: [&Summary; 2]) {
     for (which, means) in [("first", a), ("second", b)] {
         let are = match (means.is_steady, means.is_known) {
             (true, _) => continue,
+            (false, true) if means.changes_within_error() => "still drift, within that error",
             (false, true) => "are not steady",
             (false, false) => "are not known to be steady",
         };

@@ -28,7 +28,7 @@ fn sheet(w: f64, fold: f64, left: bool) -> Obstacles {
 
 fn end(o: &Obstacles, from: [f64; 3], to: [f64; 3]) -> DVec3 {
     let mut to = [DVec3::from(to)];
-    o.keep_off(&[DVec3::from(from)], &mut to);
+    o.keep_off(&[DVec3::from(from)], &mut to, |_| true);
     to[0]
 }
 
@@ -51,11 +51,11 @@ fn exact_rows_of_plane_wakes_are_held_back_as_their_middles() {
     let o = sheet(0.0, 0.0, false);
     let row = |z: f64| [0.0, 3.0].map(|y| DVec3::new(0.5, y, z));
     let (from, mut to, mut single) = (row(0.3), row(-0.4), row(-0.4));
-    assert_eq!(o.keep_rows_off(&from, &mut to), 2);
+    assert_eq!(o.keep_rows_off(&from, &mut to, |_| false), [2, 0]);
     let short = to.map(|x| (x.z - 0.1).abs());
     assert!(short.iter().all(|d| *d < 1e-15), "{to:?}");
     // Each by itself they pass beside the ends of the wing.
-    assert_eq!(o.keep_off(&from, &mut single), 0);
+    assert_eq!(o.keep_off(&from, &mut single, |_| true), [0; 2]);
 }
 
 #[test]

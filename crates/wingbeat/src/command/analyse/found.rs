@@ -102,7 +102,8 @@ fn unknowns(report: &mut Report, t: &TrimSolution) {
 fn warn(report: &mut Report, t: &TrimSolution, setup: &FlightSetup) {
     let strokes = setup.animal.wings.iter().map(stroke_amplitude);
     let stroke = strokes.fold(0.0, f64::max).to_degrees();
-    let crossing_wings = setup.crossing_wings();
+    let crossing_wings = setup.crossing_wings().into_iter().map(|c| c.said);
+    let crossing_wings: Vec<String> = crossing_wings.collect();
     match stroke > 180.0 {
         true => tell!(
             "warning: strokes of {stroke:.0} deg: wings pass through each other or through the body; choose other --unknowns (frequency, for instance), or a slower flight"

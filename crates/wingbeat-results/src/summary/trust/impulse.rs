@@ -1,0 +1,232 @@
+//! Whether the wakes of a lattice keep the impulse that its surfaces give them: what they do not keep, forces lack or
+//! have too much.
+
+use wingbeat_air::{AirSettings, CoreModel, LoadMethod};
+use wingbeat_analysis::{kept_wake, way_in_a_step};
+use wingbeat_flight::FlightSetup;
+use wingbeat_model::{Wing, nearest_nodes};
+
+use super::lattice::differences;
+use super::wakes::held_off;
+use crate::summary::beats::BeatMeans;
+use crate::summary::numbers::Summary;
+use crate::summary::verdict::Warnings;
+
+/// Two ways to the mean lift of a beat that differ by more, over the mean force, are apart: six times what they do in
+/// attached hover with algebraic cores, and what they do with leading-edge sheets. So is the residual of the impulse of a
+/// flight, 0.002 to 0.09 of what is in play in presets with algebraic or narrow cores, 0.23 with Lamb-Oseen's.
+const APART: f64 = 0.1;
+
+/// Residual of the impulse over what is in play from which on forces have little to do with the vorticity.
+const MEANINGLESS: f64 = 0.5;
+
+/// Way of the tip in a step, in mean chords, that rolled-up parts of a wake feel. Presets have 0.05 to 0.4.
+const LONG_STEP: f64 = 0.5;
+
+/// What the impulse of the vorticity says of the forces.
+pub(super) fn warnings(
+    setup: &FlightSetup,
+    lattice: &AirSettings,
+    summary: &Summary,
+    list: &mut Warnings,
+) {
+    if !lattice.wind.is_none() {
+        return;
+    }
+    let why = || causes(setup, lattice, summary);
+    // What a sudden start gives in no time is no part of the mean force of the first beat.
+    let later = &summary.beats[usize::from(summary.beats.len() > 1)..];
+    let is_said = lattice.images.is_empty() && two_ways_to_the_lift(lattice, later, why, list);
+    let budget = summary.impulse_budget.as_ref();
+    let Some(residual) = budget.and_then(|b| b.largest_relative) else {
+        return;
+    };
+    let said = format!(
+        "the impulse of the vorticity and that of the force part by {} the impulse in play",
+        part(residual)
+    );
+    match residual {
+        r if r <= APART => {}
+        r if r <= MEANINGLESS && (is_said || is_cut(setup, summary)) => {}
+        r if r <= MEANINGLESS => list.limit(format!(
+            "Wakes do not keep the impulse that surfaces give them: {said}, and forces are not known better. {}",
+            why()
+        )),
+        _ => list.fault(format!(
+            "The forces of the air mean nothing: {said}. {}",
+            why()
+        )), // NaN, too
+    }
+}
+
+/// Whether part of the wakes was dropped: rows at their ends are drawn out by what is no longer there. The residual of
+/// membrane-wing, 0.012 with its whole wake, is 0.15 with three and a half chords of it, its lift 0.6 % lower.
+fn is_cut(setup: &FlightSetup, summary: &Summary) -> bool {
+    kept_wake(setup).is_some_and(|kept| summary.time_s > kept.time)
+}
+
+/// A part in per cent, or in powers of ten where it is many times the whole.
+fn part(x: f64) -> String {
+    match x {
+        x if x < 1.0 => format!("{:.0} % of", 100.0 * x),
+        x if x < 100.0 => format!("{x:.1} times"),
+        _ => format!("{x:.1e} times"),
+    }
+}
+
+/// What of this flight may keep its wakes from keeping their impulse, in a sentence.
+fn causes(setup: &FlightSetup, lattice: &AirSettings, summary: &Summary) -> String {
+    let wide = setup.bound_core_width().filter(|width| *width > 1.0);
+    let wide = wide.map(|width| {
+        format!(
+            "cores of the wings that are {width:.1} of their foremost panels wide (air.bound_core)"
+        )
+    });
+    let is_algebraic = |core: &CoreModel| matches!(core, CoreModel::Algebraic { .. });
+    let other = (!is_algebraic(&lattice.wake_core) || !is_algebraic(&lattice.bound_core))
+        .then(|| "cores that are not algebraic (air.wake_core, air.bound_core)".to_owned());
+    let narrow = (lattice.wake_overlap == 0.0)
+        .then(|| "wake cores that do not overlap (air.wake_overlap = 0)".to_owned());
+    let cut = kept_wake(setup).filter(|kept| summary.time_s > kept.time);
+    let cut = cut.map(|kept| kept.said);
+    let held = held_off(summary);
+    let held = (held > 0).then(|| format!("nodes held off surfaces ({held} times)"));
+    let limited = (summary.limited > 0 && lattice.max_displacement.is_some()).then(|| {
+        let times = summary.limited;
+        format!("ways of nodes that air.max_displacement_m limits ({times} times)")
+    });
+    let step = way_in_a_step(setup);
+    let step = (step > LONG_STEP)
+        .then(|| format!("steps in which tips go {step:.2} mean chords (time.steps_per_beat)"));
+    let rolls_up = summary.leading_rings.is_some_and(|rings| rings > 0.0);
+    let rolls_up = rolls_up
+        .then(|| "sheets of leading edges, which roll up faster than steps follow".to_owned());
+    let all = [
+        wide,
+        near_wings(setup),
+        cut,
+        limited,
+        other,
+        narrow,
+        held,
+        step,
+        rolls_up,
+    ];
+    let all: Vec<String> = all.into_iter().flatten().collect();
+    match all.is_empty() {
+        true => "Take smaller steps or wider wake cores and see what changes.".to_owned(),
+        false => format!("What may be why in this flight: {}.", all.join("; ")),
+    }
+}
+
+/// Wings that are not joined and come nearer to each other than half their panels are long.
+fn near_wings(setup: &FlightSetup) -> Option<String> {
+    let wings = &setup.animal.wings;
+    let joined = setup.joined_pairs();
+    let pairs = (0..wings.len()).flat_map(|a| (a + 1..wings.len()).map(move |b| [a, b]));
+    let apart = pairs.filter(|pair| !joined.iter().any(|j| pair.iter().all(|w| j.contains(w))));
+    let found = apart.map(|pair| (pair, nearest_nodes(&setup.animal, pair)));
+    let ([a, b], gap) = found.min_by(|x, y| x.1.total_cmp(&y.1))?;
+    let panel = |w: &Wing| w.report().mean_chord / w.mesh.rows as f64;
+    let part = gap / panel(&wings[a]).max(panel(&wings[b]));
+    (part < 0.5).then(|| {
+        let [a, b] = [a, b].map(|w| &wings[w].name);
+        format!("wings `{a}` and `{b}`, which come as near to each other as {part:.2} panels")
+    })
+}
+
+/// Difference between the lift by the impulse of the vortices and that by the loads over the mean inviscid force of a
+/// beat \[1\]; none of results that lack one of the two.
+fn apart(beat: &BeatMeans) -> Option<f64> {
+    let mean = &beat.mean;
+    let inviscid = mean.inviscid_lift_newton?;
+    // Of the whole mean force: of a tail fin that drives a fish ahead nothing is left as lift.
+    let force = inviscid.hypot(mean.thrust_newton);
+    Some((mean.lift_by_impulse_newton? - inviscid).abs() / force.max(f64::MIN_POSITIVE))
+}
+
+/// The inviscid lift by the loads and by the impulse of the vortices, of the last beat and of that in which they differ
+/// most, and what it means if they differ.
+///
+/// Returns whether it said that they do.
+fn two_ways_to_the_lift(
+    lattice: &AirSettings,
+    beats: &[BeatMeans],
+    causes: impl FnOnce() -> String,
+    list: &mut Warnings,
+) -> bool {
+    let difference = |beat: &BeatMeans| apart(beat).unwrap_or(0.0);
+    let worst = (beats.iter()).max_by(|a, b| difference(a).total_cmp(&difference(b)));
+    let (Some(last), Some(worst)) = (beats.last(), worst) else {
+        return false;
+    };
+    if lattice.particles.is_some() {
+        list.note(
+            "The vorticity of particles does not close: the vortex impulse depends on the origin, and its rate is no second way to the lift.",
+        );
+        return false;
+    }
+    let is_apart = difference(worst) > APART;
+    let beat = if is_apart { worst } else { last };
+    let (Some(other), Some(inviscid)) = (
+        beat.mean.lift_by_impulse_newton,
+        beat.mean.inviscid_lift_newton,
+    ) else {
+        return false;
+    };
+    let lift = beat.mean.lift_newton;
+    let loads = match lattice.loads {
+        LoadMethod::Joukowski => "Joukowski's forces",
+        LoadMethod::Pressure | LoadMethod::Polhamus => {
+            "pressures and the suction of edges that do not shed"
+        }
+    };
+    let flown = differences(lattice).map_or(String::new(), |how| {
+        format!(" (the flight has {lift:.3e} N, {how})")
+    });
+    let both = format!(
+        "Mean lift of beat {} by the rate of the vortex impulse, another way to the same force: {other:.3e} N; by {loads} {inviscid:.3e} N{flown}.",
+        beat.beat
+    );
+    match is_apart {
+        false => list.note(both),
+        true => list.limit(format!(
+            "Two ways to the mean lift are apart: the wake does not keep its impulse, so its shape is not to be trusted. {} {both}",
+            causes()
+        )),
+    }
+    is_apart
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Outcome;
+    use crate::summary::verdict::Verdict;
+    use wingbeat_math::DVec3;
+
+    /// What two ways to the mean lift differ by is an eighth of the lift: much in hover, little beside the thrust of a
+    /// fin without mean lift; and much wherever it was, though the last beat has no more of it.
+    #[test]
+    fn behaves_two_ways_to_the_lift_are_apart_beside_the_whole_mean_force_of_any_beat() {
+        let settings = AirSettings::accurate(1.0, DVec3::ZERO);
+        let beat = |number: usize, thrust: f64, by_impulse: f64| -> BeatMeans {
+            let text = format!(
+                r#"{{"beat": {number}, "lift_newton": -9.37e3, "lift_over_weight": null, "thrust_newton": {thrust},
+                "power_watt": 0, "inviscid_lift_newton": -9.37e3, "lift_by_impulse_newton": {by_impulse}}}"#
+            );
+            serde_json::from_str(&text).unwrap()
+        };
+        let first = beat(1, 0.0, -1.054e4);
+        for (beats, verdict) in [
+            (vec![first.clone()], Verdict::Amber),
+            (vec![beat(4, 5.9e5, -1.054e4)], Verdict::Green),
+            (vec![beat(1, 0.0, -9.4e3)], Verdict::Green),
+            (vec![first, beat(2, 0.0, -9.4e3)], Verdict::Amber),
+        ] {
+            let mut list = Warnings::default();
+            two_ways_to_the_lift(&settings, &beats, String::new, &mut list);
+            assert_eq!(list.verdict(&Outcome::Finished).0, verdict);
+        }
+    }
+}
