@@ -9,16 +9,18 @@
 //! it makes there (`turns`).
 
 mod basis;
+mod samples;
 mod turns;
 
 use std::f64::consts::PI;
 
 use faer::Mat;
-use wingbeat_math::root_mean_square;
 
 use crate::AnalysisError;
 use crate::eigen::eigen;
 use basis::Basis;
+pub use samples::Sampled;
+pub(crate) use samples::rms;
 
 /// Singular values below this part of the largest are noise \[1\].
 pub const NOISE: f64 = 1e-5;
@@ -43,35 +45,6 @@ impl Vibration {
     /// Distance of the eigenvalues of two motions [1/s].
     pub fn distance(&self, other: &Self) -> f64 {
         (self.growth - other.growth).hypot(self.frequency - other.frequency)
-    }
-}
-
-/// A free response, and which of its rows are identified.
-#[derive(Clone, Copy, Debug)]
-pub struct Sampled<'a> {
-    /// Outputs after each step, one row a step, all of one size.
-    pub steps: &'a [Vec<f64>],
-    /// Step \[s\].
-    pub step: f64,
-    /// Steps between the samples that are identified; those between tell fast motions from slow ones.
-    pub every: usize,
-}
-
-impl Sampled<'_> {
-    /// Time between samples \[s\].
-    pub fn apart(&self) -> f64 {
-        self.every as f64 * self.step
-    }
-
-    /// How many samples there are.
-    pub fn count(&self) -> usize {
-        self.steps.len() / self.every
-    }
-
-    /// The samples, or the rows so many steps before each of them.
-    fn before(&self, steps: usize) -> Vec<Vec<f64>> {
-        let at = |k: usize| self.steps[(k + 1) * self.every - 1 - steps].clone();
-        (0..self.count()).map(at).collect()
     }
 }
 
@@ -188,9 +161,4 @@ fn state_matrix(samples: &[Vec<f64>]) -> Result<(Vec<f64>, usize), AnalysisError
         inner[(i, j)] / (root[i] * root[j])
     };
     Ok(((0..order * order).map(entry).collect(), order))
-}
-
-/// Root mean square over all numbers.
-pub(crate) fn rms(samples: &[Vec<f64>]) -> f64 {
-    root_mean_square(samples.iter().flatten().copied())
 }

@@ -2,7 +2,7 @@
 
 use faer::{Mat, c64};
 
-use super::rms;
+use super::samples::rms;
 use crate::AnalysisError;
 
 /// A column of the basis: the real or the imaginary part of the powers of one eigenvalue, scaled to length 1.

@@ -10,8 +10,8 @@ use std::f64::consts::TAU;
 
 use faer::c64;
 
-use super::Sampled;
 use super::basis::Basis;
+use super::samples::Sampled;
 
 /// Part of the squares of amplitudes by which turns are known \[1\].
 const KNOWN: f64 = 0.75;
