@@ -3,7 +3,7 @@
 //! At each speed the wings are flown to their deformed steady state with much damping, first with long steps
 //! (`settling`). From there two flights go on with the damping of the wings themselves, one of them with small
 //! velocities added in the leading modes of each deformed wing (`disturbance`). The difference of the two is the
-//! response of the system linearised about the deformed state, wakes and all; [`realise`] finds its
+//! response of the system linearised about the deformed state, wakes and all; [`realise_sampled`] finds its
 //! eigenvalues, in the response of each wing. Wings that are mirror images of each other, deformation and all, are
 //! disturbed as such, or against each other. Growth that changes its sign between speeds is an onset or an end of
 //! flutter ([`crossings`]),
@@ -27,12 +27,13 @@ mod crossing;
 mod deflection;
 mod disturbance;
 mod response;
+mod sampling;
 mod settings;
 mod settling;
 mod steady;
 mod uncertainty;
 
-pub use crate::realisation::{NOISE, Realisation, Vibration, realise};
+pub use crate::realisation::{NOISE, Realisation, Sampled, Vibration, realise, realise_sampled};
 pub use condition::{Condition, MAX_DAMPING, MIN_SHARE, condition};
 pub use crossing::{Crossing, by_wing, crossings, growing, likely};
 pub use deflection::{Steep, steep};

@@ -3,16 +3,24 @@
 //!
 //! Samples `y_k = C A^k x_0` fill two Hankel matrices, `H0 = [y_(i+j)]` and `H1 = [y_(i+j+1)]`. With `H0 = U S
 //! V^T`, singular values below the noise left out, `A = S^(-1/2) U^T H1 V S^(-1/2)` up to the choice of the
-//! state, and `ln(eigenvalue) / step` are growth and angular frequency. How much each mode takes part follows
-//! by least squares.
+//! state, and `ln(eigenvalue) / time between samples` are growth and angular frequency, this one up to whole
+//! turns between samples: what is faster than half of the sampling rate is folded. How much each mode takes part
+//! follows by least squares (`basis`), and from what it does in the steps between the samples how many whole turns
+//! it makes there (`turns`).
+
+mod basis;
+mod samples;
+mod turns;
 
 use std::f64::consts::PI;
 
-use faer::{Mat, c64};
-use wingbeat_math::root_mean_square;
+use faer::Mat;
 
 use crate::AnalysisError;
 use crate::eigen::eigen;
+use basis::Basis;
+pub use samples::Sampled;
+pub(crate) use samples::rms;
 
 /// Singular values below this part of the largest are noise \[1\].
 pub const NOISE: f64 = 1e-5;
@@ -45,9 +53,12 @@ impl Vibration {
 pub struct Realisation {
     /// Its motions, of rising frequency.
     pub vibrations: Vec<Vibration>,
+    /// Motions whose frequency is not known, as they appear in the samples: near half of the sampling rate, or two of
+    /// different frequency that appear as one.
+    pub untold: Vec<Vibration>,
     /// Order of the linear system.
     pub order: usize,
-    /// What they leave of the response, root mean square over that of the response \[1\].
+    /// What they leave of the samples, root mean square over that of the samples \[1\].
     pub residual: f64,
 }
 
@@ -65,28 +76,63 @@ pub struct Realisation {
 /// # Errors
 /// [`AnalysisError::Numbers`]: fewer than 4 samples, samples that are zero or not finite, decompositions that fail.
 pub fn realise(samples: &[Vec<f64>], step: f64) -> Result<Realisation, AnalysisError> {
-    let size = rms(samples);
+    realise_sampled(&Sampled {
+        steps: samples,
+        step,
+        every: 1,
+    })
+}
+
+/// The linear system that answers so, by samples that are some steps apart. Motions faster than half of the sampling
+/// rate, but not than half a turn a step, have their own frequencies.
+///
+/// ```
+/// # use wingbeat_analysis::flutter::{Sampled, realise_sampled};
+/// // 9.5 turns a second, sampled 8 times a second: it appears to make 1.5.
+/// let turn = std::f64::consts::TAU * 9.5;
+/// let steps: Vec<_> = (1..=192).map(|k| vec![(turn * k as f64 / 64.0).cos()]).collect();
+/// let response = Sampled { steps: &steps, step: 1.0 / 64.0, every: 8 };
+/// let found = realise_sampled(&response).unwrap();
+/// assert!((found.vibrations[0].frequency - turn).abs() < 1e-6);
+/// ```
+///
+/// # Errors
+/// [`AnalysisError::Numbers`]: fewer than 4 samples, samples that are zero or not finite, decompositions that fail.
+pub fn realise_sampled(response: &Sampled) -> Result<Realisation, AnalysisError> {
+    let (samples, apart) = (response.before(0), response.apart());
+    let size = rms(&samples);
     if samples.len() < 4 || !(size > 0.0 && size.is_finite()) {
         let what = "a response of 4 samples or more, finite and not zero, is needed";
         return Err(AnalysisError::Numbers(what.into()));
     }
-    let (a, order) = state_matrix(samples)?;
+    let (a, order) = state_matrix(&samples)?;
     let pairs = eigen(&a, order)?;
     // A pair stands for both; the upper one is taken.
     let values = pairs.iter().map(|p| p.value);
     let values: Vec<_> = values.filter(|z| z[1] >= 0.0).collect();
-    let (parts, residual) = shares(samples, &values)?;
-    let vibration = |(z, part): (&[f64; 2], &f64)| Vibration {
-        growth: z[0].hypot(z[1]).ln() / step,
-        frequency: z[1].atan2(z[0]) / step,
-        share: part / size,
-    };
-    let mut vibrations: Vec<_> = values.iter().zip(&parts).map(vibration).collect();
-    // At half the sampling rate nothing can be told from its mirror image.
-    vibrations.retain(|v| v.frequency < 0.95 * PI / step);
-    vibrations.sort_by(|p, q| p.frequency.total_cmp(&q.frequency));
+    let basis = Basis::new(&values, samples.len())?;
+    let (parts, residual) = basis.shares(&samples);
+    let turns = turns::between(response, &basis, &values);
+    let (mut vibrations, mut untold) = (vec![], vec![]);
+    for ((z, part), turns) in values.iter().zip(&parts).zip(turns) {
+        let vibration = |turns: f64| Vibration {
+            growth: z[0].hypot(z[1]).ln() / apart,
+            frequency: (z[1].atan2(z[0]) + 2.0 * PI * turns).abs() / apart,
+            share: part / size,
+        };
+        // At half the sampling rate nothing can be told from its mirror image.
+        let is_told = z[1].atan2(z[0]) < 0.95 * PI;
+        match turns.filter(|_| is_told) {
+            Some(turns) => vibrations.push(vibration(turns)),
+            None => untold.push(vibration(0.0)),
+        }
+    }
+    for all in [&mut vibrations, &mut untold] {
+        all.sort_by(|p, q| p.frequency.total_cmp(&q.frequency));
+    }
     Ok(Realisation {
         vibrations,
+        untold,
         order,
         residual: residual / size,
     })
@@ -115,53 +161,4 @@ fn state_matrix(samples: &[Vec<f64>]) -> Result<(Vec<f64>, usize), AnalysisError
         inner[(i, j)] / (root[i] * root[j])
     };
     Ok(((0..order * order).map(entry).collect(), order))
-}
-
-/// Root mean squares of the parts of the response that go by each eigenvalue, and of what is left.
-fn shares(samples: &[Vec<f64>], values: &[[f64; 2]]) -> Result<(Vec<f64>, f64), AnalysisError> {
-    let count = samples.len();
-    let mut columns: Vec<(usize, Vec<f64>)> = vec![];
-    for (mode, z) in values.iter().enumerate() {
-        let powers = powers(*z, count);
-        columns.push((mode, powers.iter().map(|p| p[0]).collect()));
-        if z[1] > 0.0 {
-            columns.push((mode, powers.iter().map(|p| p[1]).collect()));
-        }
-    }
-    let norm = |c: &[f64]| c.iter().map(|x| x * x).sum::<f64>().sqrt();
-    for (_, c) in &mut columns {
-        let size = norm(c).max(f64::MIN_POSITIVE);
-        c.iter_mut().for_each(|x| *x /= size);
-    }
-    let basis = Mat::from_fn(count, columns.len(), |k, j| columns[j].1[k]);
-    let outputs = samples[0].len();
-    let all = Mat::from_fn(count, outputs, |k, i| samples[k][i]);
-    let svd = basis.thin_svd();
-    let svd = svd.map_err(|e| AnalysisError::Numbers(format!("singular values: {e:?}")))?;
-    let coefficients = svd.pseudoinverse() * &all;
-    let table = |m: Mat<f64>| -> Vec<Vec<f64>> {
-        let row = |k: usize| (0..outputs).map(|i| m[(k, i)]).collect();
-        (0..count).map(row).collect()
-    };
-    let part = |mode: usize| {
-        let of = |k: usize, i: usize| {
-            let own = columns.iter().enumerate().filter(|(_, c)| c.0 == mode);
-            own.map(|(j, c)| c.1[k] * coefficients[(j, i)]).sum()
-        };
-        rms(&table(Mat::from_fn(count, outputs, of)))
-    };
-    let parts = (0..values.len()).map(part).collect();
-    Ok((parts, rms(&table(&all - &basis * &coefficients))))
-}
-
-/// Powers 0, 1, ... of a complex number.
-fn powers([re, im]: [f64; 2], count: usize) -> Vec<[f64; 2]> {
-    let z = c64::new(re, im);
-    let all = std::iter::successors(Some(c64::new(1.0, 0.0)), |power| Some(power * z));
-    all.take(count).map(|power| [power.re, power.im]).collect()
-}
-
-/// Root mean square over all numbers.
-pub(crate) fn rms(samples: &[Vec<f64>]) -> f64 {
-    root_mean_square(samples.iter().flatten().copied())
 }

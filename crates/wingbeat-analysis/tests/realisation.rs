@@ -78,3 +78,60 @@ fn refuses_responses_that_say_nothing() {
         );
     }
 }
+
+#[test]
+fn exact_vibrations_faster_than_half_the_sampling_rate_keep_their_frequencies() {
+    // 8 steps of 0.06 s from sample to sample: 11 and 17 rad/s appear at 2.09 and 3.91.
+    let steps = response(0.06, 240);
+    let found = realise_sampled(&Sampled {
+        steps: &steps,
+        step: 0.06,
+        every: 8,
+    });
+    let found = found.unwrap();
+    assert!(found.untold.is_empty(), "{found:?}");
+    let vibrations = found.vibrations.iter().filter(|v| v.frequency > 1e-6);
+    let vibrations: Vec<_> = vibrations.collect();
+    assert_eq!(vibrations.len(), 3, "{found:?}");
+    // Rounding, as of samples without steps between.
+    for (v, (growth, frequency, _)) in vibrations.iter().zip(MODES) {
+        assert!((v.growth - growth).abs() < 1e-10, "{v:?}");
+        assert!((v.frequency - frequency).abs() < 1e-10, "{v:?}");
+    }
+}
+
+#[test]
+fn exact_two_vibrations_that_look_alike_in_the_samples_are_not_told_as_one() {
+    // Samples 0.5 s apart: 2 and 2 + 4 pi rad/s have the same, those 0.45 s apart have not.
+    let at = |k: usize| {
+        let t = k as f64 * 0.05;
+        let pair = [(2.0, 1.0), (2.0 + 2.0 * std::f64::consts::TAU, 0.8)];
+        let sum = |phase: f64| {
+            pair.map(|(w, a)| a * (w * t + a * phase).cos())
+                .iter()
+                .sum()
+        };
+        vec![sum(0.0), sum(1.0)]
+    };
+    let steps: Vec<_> = (1..=300).map(at).collect();
+    let found = |every: usize| {
+        realise_sampled(&Sampled {
+            steps: &steps,
+            step: 0.05,
+            every,
+        })
+        .unwrap()
+    };
+    let alike = found(10);
+    assert!(alike.vibrations.is_empty(), "{alike:?}");
+    assert!((alike.untold[0].frequency - 2.0).abs() < 1e-9);
+    let apart = found(9);
+    assert!(apart.untold.is_empty(), "{apart:?}");
+    let frequencies: Vec<f64> = apart.vibrations.iter().map(|v| v.frequency).collect();
+    assert_eq!(frequencies.len(), 2);
+    assert!((frequencies[0] - 2.0).abs() < 1e-9, "{frequencies:?}");
+    assert!(
+        (frequencies[1] - 14.566_370_614_359_172).abs() < 1e-9,
+        "{frequencies:?}"
+    );
+}

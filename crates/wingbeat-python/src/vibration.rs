@@ -75,7 +75,8 @@ fn numbers<'py>(py: Python<'py>, modes: &[WingMode], nodes: usize) -> PyResult<M
 /// Name of the wing; speed [m/s]; tip's displacement \[m\] and turn \[rad\]; frequencies in vacuum [Hz]; of each mode frequency [Hz],
 /// growth and its uncertainty [1/s], damping over critical, share; growth of a motion that does not vibrate and its
 /// uncertainty [1/s]; part of the response that no mode explains, that is not linear, disturbance,
-/// length of the response \[s\]; the joint that is slower than that with its period \[s\].
+/// length of the response \[s\]; the joint that is slower than that with its period \[s\]; of each motion of unknown
+/// frequency where it appears [Hz], growth [1/s], share.
 pub type ConditionParts = (
     String,
     f64,
@@ -85,6 +86,7 @@ pub type ConditionParts = (
     Option<[f64; 2]>,
     [f64; 4],
     Option<(String, f64)>,
+    Vec<[f64; 3]>,
 );
 
 /// Name of the wing; whether it is certain, whether flutter begins there; speed [m/s], frequency [Hz]; speeds between
@@ -171,5 +173,9 @@ fn parts(wing: String, c: &Condition) -> ConditionParts {
         divergence.map(|(motion, uncertainty)| [motion.growth, uncertainty]),
         [c.response.residual, c.nonlinearity, c.disturbance, c.length],
         c.slow_joint.clone(),
+        c.untold
+            .iter()
+            .map(|v| [v.frequency / TAU, v.growth, v.share])
+            .collect(),
     )
 }

@@ -10,6 +10,8 @@ use wingbeat::analysis::flutter::{
 use wingbeat::case::LoadedCase;
 use wingbeat::flight::FlightSetup;
 
+#[path = "flutter/folded.rs"]
+mod folded;
 #[path = "flutter/hale.rs"]
 mod hale;
 #[path = "flutter/several.rs"]
@@ -246,9 +248,11 @@ fn with_modes(speed: f64, modes: &[[f64; 3]]) -> Condition {
         },
         modes: modes_found.clone(),
         uncertainty: modes.iter().map(|m| m[2]).collect(),
+        untold: vec![],
         divergence: None,
         response: Realisation {
             vibrations: modes_found,
+            untold: vec![],
             order: 2 * modes.len(),
             residual: 0.0,
         },

@@ -4,13 +4,14 @@ use wingbeat_flight::{FlightSetup, FlightState, Simulation};
 
 use super::disturbance::{Disturbance, Stations, images};
 use super::response::{Response, difference};
+use super::sampling::Sampling;
 use super::settings::FlutterSettings;
 use super::steady::{ElasticRig, SteadyWing};
-use super::uncertainty::{Taken, uncertainties};
+use super::uncertainty::uncertainties;
 use crate::AnalysisError;
 use crate::plausibility::slowest_on_springs;
 use crate::progress;
-use crate::realisation::{Realisation, Vibration, realise};
+use crate::realisation::{Realisation, Sampled, Vibration, realise_sampled};
 
 /// An elastic wing at one speed.
 #[derive(Clone, Debug)]
@@ -24,6 +25,8 @@ pub struct Condition {
     pub modes: Vec<Vibration>,
     /// What is not known of the growth of each of them [1/s] (see `uncertainty.rs`).
     pub uncertainty: Vec<f64>,
+    /// Motions that take part as much and whose frequency is not known, as they appear in the samples.
+    pub untold: Vec<Vibration>,
     /// The motion that grows fastest without vibrating, and what is not known of its growth [1/s]; none where
     /// none grows.
     pub divergence: Option<(Vibration, f64)>,
@@ -50,14 +53,8 @@ pub const MAX_DAMPING: f64 = 0.8;
 /// modes are told, and that they are doubtful.
 const MAX_LEFT_OUT: f64 = 0.1;
 
-/// Samples without which nothing is found, also not in three quarters of a response.
-const LEAST: usize = 8;
-
 /// Quarters of a response from which its modes are found a second time.
 const KEPT: usize = 3;
-
-/// Samples of a response at least, and samples in a period of the fastest mode that is disturbed.
-const SAMPLES: [f64; 2] = [80.0, 6.0];
 
 /// The elastic wings of `setup` in its stream at `speed` [m/s], one after the other. Of wings that are deformed as mirror
 /// images of each other only the first is taken: they are disturbed as mirror images, too, and answer so.
@@ -97,6 +94,7 @@ pub fn condition(
             speed,
             modes,
             uncertainty,
+            untold: identified.untold(),
             divergence: identified.divergence()?,
             steady: steady[k].clone(),
             nonlinearity: found.nonlinearity,
@@ -125,25 +123,40 @@ impl Condition {
 /// A response as a linear system, and others by which what is not known of it is judged.
 struct Identified<'a> {
     response: Realisation,
-    taken: Taken,
-    others: [&'a [Vec<f64>]; 2],
+    taken: Sampled<'a>,
+    others: [Sampled<'a>; 2],
     /// Share below which motions are left out \[1\].
     least: f64,
 }
 
 impl<'a> Identified<'a> {
-    /// From a response and twice that to half the disturbance, to `sampling` of flights in steps of `step` [s].
+    /// From a response and twice that to half the disturbance, in steps of `step` [s]: to the first of the samplings by
+    /// which all frequencies are known, or that by which the smallest share has unknown ones.
     fn of(found: &'a Response, step: f64, sampling: &Sampling) -> Result<Self, AnalysisError> {
-        let whole = &found.whole;
-        let apart = sampling.every as f64 * step;
+        let mut best: Option<(f64, Self)> = None;
+        for every in sampling.tried() {
+            let next = Self::sampled(found, step, every)?;
+            let unknown: f64 = next.untold().iter().map(|v| v.share).sum();
+            if best.as_ref().is_none_or(|b| unknown < b.0) {
+                best = Some((unknown, next));
+            }
+            if unknown == 0.0 {
+                break;
+            }
+        }
+        let none = || AnalysisError::Numbers("a response without samples".into());
+        best.map(|b| b.1).ok_or_else(none)
+    }
+
+    /// By samples so many steps apart.
+    fn sampled(found: &'a Response, step: f64, every: usize) -> Result<Self, AnalysisError> {
+        let of = |steps: &'a [Vec<f64>]| Sampled { steps, step, every };
+        let taken = of(&found.whole);
+        let kept = KEPT * taken.count() / 4 * every;
         Ok(Self {
-            response: realise(whole, apart)?,
-            taken: Taken {
-                flight: step,
-                step: apart,
-                length: whole.len() as f64 * apart,
-            },
-            others: [&found.doubled, &whole[..KEPT * whole.len() / 4]],
+            response: realise_sampled(&taken)?,
+            others: [of(&found.doubled), of(&found.whole[..kept])],
+            taken,
             least: found.not_linear().clamp(MIN_SHARE, MAX_LEFT_OUT),
         })
     }
@@ -155,6 +168,13 @@ impl<'a> Identified<'a> {
         };
         let found = self.response.vibrations.iter().filter(vibrates);
         found.copied().collect()
+    }
+
+    /// Motions that take part and may vibrate, whose frequency is not known.
+    fn untold(&self) -> Vec<Vibration> {
+        let all = self.response.untold.iter().copied();
+        all.filter(|v| v.share >= self.least && v.damping() <= MAX_DAMPING)
+            .collect()
     }
 
     /// The motion that grows fastest without vibrating, and what is not known of its growth [1/s].
@@ -173,50 +193,7 @@ impl<'a> Identified<'a> {
     }
 }
 
-/// When outputs are taken.
-struct Sampling {
-    /// Steps between samples.
-    every: usize,
-    count: usize,
-}
-
-impl Sampling {
-    /// Length of the response \[s\] in steps of `step` \[s\].
-    fn length(&self, step: f64) -> f64 {
-        (self.count * self.every) as f64 * step
-    }
-
-    /// # Errors
-    /// Too few of them.
-    fn new(
-        step: f64,
-        steady: &[SteadyWing],
-        settings: &FlutterSettings,
-    ) -> Result<Self, AnalysisError> {
-        use std::f64::consts::TAU;
-        let vacuum = || steady.iter().flat_map(|s| s.vacuum.iter().copied());
-        let (first, last) = (
-            vacuum().fold(f64::INFINITY, f64::min),
-            vacuum().fold(0.0, f64::max),
-        );
-        let length = settings.periods * TAU / first;
-        let apart = (length / SAMPLES[0]).min(TAU / last / SAMPLES[1]);
-        let every = ((apart / step) as usize).max(1);
-        let count = (length / (every as f64 * step)).ceil() as usize;
-        match count < LEAST {
-            true => Err(AnalysisError::not_covered(
-                format!(
-                    "--periods {}: the response has {count} samples of at least {LEAST} that are needed",
-                    settings.periods
-                ),
-                "lengthen it: 1 period of the first mode or more",
-            )),
-            false => Ok(Self { every, count }),
-        }
-    }
-}
-
-/// Outputs of a flight that goes on from `state`.
+/// Outputs after each step of a flight that goes on from `state`.
 fn flown(
     setup: &FlightSetup,
     state: FlightState,
@@ -225,10 +202,8 @@ fn flown(
 ) -> Result<Vec<Vec<f64>>, AnalysisError> {
     let mut flight = Simulation::resume(setup.clone(), state)?;
     let mut samples = vec![];
-    for _ in 0..sampling.count {
-        for _ in 0..sampling.every {
-            flight.step()?;
-        }
+    for _ in 0..sampling.steps() {
+        flight.step()?;
         let outputs = stations.iter().flat_map(|s| s.outputs(flight.state()));
         samples.push(outputs.collect());
     }

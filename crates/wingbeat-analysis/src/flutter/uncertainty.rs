@@ -15,39 +15,30 @@
 use wingbeat_math::larger;
 
 use crate::AnalysisError;
-use crate::realisation::{Realisation, Vibration, realise};
+use crate::realisation::{Realisation, Sampled, Vibration, realise_sampled};
 
-/// When a response was taken.
-pub(super) struct Taken {
-    /// Step of the flight \[s\].
-    pub flight: f64,
-    /// Time between samples \[s\].
-    pub step: f64,
-    /// Length of the response \[s\].
-    pub length: f64,
-}
-
-/// Uncertainty of the growth of each of `modes` [1/s], found in `response`; `others` are responses of the same
-/// wing, sampled as often.
+/// Uncertainty of the growth of each of `modes` [1/s], found in `response`, which is `taken`; `others` are responses of
+/// the same wing, sampled as often.
 pub(super) fn uncertainties(
     modes: &[Vibration],
     response: &Realisation,
-    taken: &Taken,
-    others: &[&[Vec<f64>]],
+    taken: &Sampled,
+    others: &[Sampled],
 ) -> Result<Vec<f64>, AnalysisError> {
-    let found = others.iter().map(|samples| realise(samples, taken.step));
+    let found = others.iter().map(realise_sampled);
     let found = found.collect::<Result<Vec<_>, _>>()?;
+    let length = taken.count() as f64 * taken.apart();
     let of = |m: &Vibration| {
-        let moved = found.iter().map(|f| nearest(m, &f.vibrations));
+        let moved = found.iter().map(|f| nearest(m, f));
         let size = m.growth.hypot(m.frequency);
-        let stepped = size * (size * taken.flight).powi(2) / 12.0;
-        moved.fold(0.0, larger) + response.residual / (m.share * taken.length) + stepped
+        let stepped = size * (size * taken.step).powi(2) / 12.0;
+        moved.fold(0.0, larger) + response.residual / (m.share * length) + stepped
     };
     Ok(modes.iter().map(of).collect())
 }
 
-/// Distance to the nearest eigenvalue [1/s]; infinite where there is none.
-fn nearest(m: &Vibration, all: &[Vibration]) -> f64 {
-    let apart = all.iter().map(|v| m.distance(v));
-    apart.fold(f64::INFINITY, f64::min)
+/// Distance to the nearest eigenvalue [1/s], of those, too, whose frequency is not known; infinite where there is none.
+fn nearest(m: &Vibration, found: &Realisation) -> f64 {
+    let all = found.vibrations.iter().chain(&found.untold);
+    all.map(|v| m.distance(v)).fold(f64::INFINITY, f64::min)
 }

@@ -68,7 +68,19 @@ class Flight:
     def flutter(
         self, /, speeds: Sequence[float], how: tuple[int, float, float, bool], progress: Progress | None
     ) -> tuple[
-        list[tuple[str, float, list[list[float]], list[float], list[list[float]], list[float] | None, list[float], tuple[str, float] | None]],
+        list[
+            tuple[
+                str,
+                float,
+                list[list[float]],
+                list[float],
+                list[list[float]],
+                list[float] | None,
+                list[float],
+                tuple[str, float] | None,
+                list[list[float]],
+            ]
+        ],
         list[tuple[str, bool, bool, float, float, list[float]]],
     ]: ...
 

@@ -92,6 +92,9 @@ class FlutterCondition:
     slow_joint: tuple[str, float] | None
     """The joint on whose springs what it carries vibrates most slowly, and the period in s, where that is longer than the response:
     what moves on it is not found; lengthen ``periods``."""
+    unknown_frequencies: tuple[tuple[float, float, float], ...]
+    """Motions whose frequency the response does not tell, left out of the modes: where they appear in Hz, growth in 1/s and share; try a
+    smaller step, other ``modes`` or ``periods``."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -124,7 +127,9 @@ def flutter(core: _core.Flight, speeds: list[float], how: tuple[int, float, floa
     """Conditions and onsets at these speeds [m/s]."""
     conditions, onsets = core.flutter(speeds, how, progress)
 
-    def condition(wing: str, speed: float, tip: Any, vacuum: Any, modes: Any, divergence: Any, rest: Any, slow: Any) -> FlutterCondition:
+    def condition(
+        wing: str, speed: float, tip: Any, vacuum: Any, modes: Any, divergence: Any, rest: Any, slow: Any, unknown: Any
+    ) -> FlutterCondition:
         growing = tuple(GrowingMode(*mode) for mode in modes)
         growth, uncertainty = divergence or (None, None)
         residual, nonlinearity, disturbance, length = rest
@@ -142,6 +147,7 @@ def flutter(core: _core.Flight, speeds: list[float], how: tuple[int, float, floa
             disturbance=disturbance,
             response_s=length,
             slow_joint=slow,
+            unknown_frequencies=tuple((at, growth, share) for at, growth, share in unknown),
         )
 
     return Flutter(

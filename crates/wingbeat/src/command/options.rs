@@ -259,19 +259,24 @@ impl Speeds {
     }
 }
 
-/// `FROM:TO:N`, from lower to higher.
+/// `FROM:TO:N`, from lower to higher, or one speed: `V`, `V:V:1`.
 pub(crate) fn speeds(text: &str) -> Result<Speeds, String> {
     let wrong = || {
-        "give FROM:TO:N, two speeds above 0 and below 340 m/s in rising order and their number, 2 to 1000"
+        "give FROM:TO:N, two speeds above 0 and below 340 m/s in rising order and their number, 2 to 1000, or one speed alone"
             .to_owned()
     };
     let parts: Vec<&str> = text.split(':').collect();
-    let [from, to, count] = parts[..] else {
-        return Err(wrong());
+    let (from, to, count) = match parts[..] {
+        [from, to, count] => (from, to, count.trim().parse().map_err(|_| wrong())?),
+        [one] => (one, one, 1),
+        _ => return Err(wrong()),
     };
-    let [from, to] = [from, to].map(speed);
-    let (ends, count) = ([from?, to?], count.trim().parse().map_err(|_| wrong())?);
-    match 0.0 < ends[0] && ends[0] < ends[1] && (2..=1000).contains(&count) {
+    let ends = [speed(from)?, speed(to)?];
+    let is_right = match count {
+        1 => ends[0] == ends[1],
+        _ => ends[0] < ends[1] && (2..=1000).contains(&count),
+    };
+    match ends[0] > 0.0 && is_right {
         true => Ok(Speeds { ends, count }),
         false => Err(wrong()),
     }

@@ -1,4 +1,4 @@
-//! `wingbeat flutter` about static divergence: what is neutral is named, what is missing, too.
+//! `wingbeat flutter` about static divergence: what is neutral is named, what is missing, too; and at one speed.
 
 use std::fs;
 
@@ -91,4 +91,28 @@ fn behaves_json_of_speeds_that_fail_says_what_is_missing() {
             && error.contains("static divergence"),
         "{error}"
     );
+}
+
+#[test]
+fn behaves_one_speed_has_its_modes_and_what_grows() {
+    let scratch = Scratch::new("flutter-one-speed");
+    fs::write(scratch.0.join("soft.toml"), SOFT).unwrap();
+    let rest = ["--modes", "1", "--periods", "0.7"];
+    for speed in ["8", "8:8:1"] {
+        let asked = ["flutter", "soft.toml", "--speeds", speed];
+        let text = said(&scratch.0, &[&asked[..], &rest].concat());
+        assert!(
+            text.contains("At 8.000 m/s no growth is positive")
+                && text.contains("--speeds FROM:TO:N")
+                && !text.contains("at any of these speeds"),
+            "{text}"
+        );
+    }
+    for wrong in ["8:9:1", "8:8:2", "9:8:2", "8:9", "0"] {
+        let asked = ["flutter", "soft.toml", "--speeds", wrong];
+        let out = wingbeat(&scratch.0, &[&asked[..], &rest].concat());
+        assert_eq!(out.status.code(), Some(2), "{wrong}");
+        let error = String::from_utf8_lossy(&out.stderr).into_owned();
+        assert!(error.contains("or one speed alone"), "{error}");
+    }
 }

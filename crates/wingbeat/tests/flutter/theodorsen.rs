@@ -5,22 +5,22 @@
 #[path = "../../../wingbeat-blade/tests/unsteady/functions.rs"]
 mod functions;
 
-use functions::theodorsen;
+pub use functions::theodorsen;
 use std::f64::consts::PI;
 
-type Complex = [f64; 2];
+pub type Complex = [f64; 2];
 
-fn times(a: Complex, b: Complex) -> Complex {
+pub fn times(a: Complex, b: Complex) -> Complex {
     [a[0] * b[0] - a[1] * b[1], a[0] * b[1] + a[1] * b[0]]
 }
 
-fn sum(terms: &[Complex]) -> Complex {
+pub fn sum(terms: &[Complex]) -> Complex {
     terms
         .iter()
         .fold([0.0; 2], |s, t| [s[0] + t[0], s[1] + t[1]])
 }
 
-fn scaled(k: f64, a: Complex) -> Complex {
+pub fn scaled(k: f64, a: Complex) -> Complex {
     [k * a[0], k * a[1]]
 }
 

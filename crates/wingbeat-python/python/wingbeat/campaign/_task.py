@@ -93,6 +93,8 @@ def of_summary(summary: Mapping[str, Any]) -> dict[str, Any]:
     for name in ("lift_coefficient", "thrust_coefficient"):
         value = last.get(name)
         numbers[f"last_{name}"] = float("nan") if value is None else value
+    if numbers["leading_rings"] is None:  # of air without wakes
+        numbers["leading_rings"] = float("nan")
     return numbers | {
         "verdict": ("green", "amber", "red").index(summary["verdict"]),
         "warnings": len(summary["warnings"]),

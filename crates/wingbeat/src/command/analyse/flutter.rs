@@ -27,7 +27,7 @@ pub(crate) struct FlutterArgs {
     /// Set a key of the case, e.g. air.density_kg_m3=1; KEY= takes it away (may be repeated).
     #[arg(long = "set", value_name = "KEY=VALUE")]
     set: Vec<String>,
-    /// Speeds of the stream, m/s: from, to and their number.
+    /// Speeds of the stream, m/s: from, to and their number, or one speed, whose modes are shown.
     #[arg(long, value_name = "FROM:TO:N", value_parser = options::speeds)]
     speeds: options::Speeds,
     /// Modes of the deformed wing that are disturbed.
@@ -174,6 +174,14 @@ fn notes(c: &Condition) -> Vec<String> {
             c.response.residual
         ));
     }
+    if !c.untold.is_empty() {
+        let appear = |v: &Vibration| format!("{:.2} Hz (share {:.4})", v.frequency / TAU, v.share);
+        let all: Vec<String> = c.untold.iter().map(appear).collect();
+        notes.push(format!(
+            "  the frequency of what appears at {} is not known and left out: two motions look alike, or it has about two steps a period; try a smaller time.step_s, or other --modes or --periods",
+            all.join(", ")
+        ));
+    }
     if let Some((joint, period)) = &c.slow_joint {
         notes.push(format!(
             "  the response of {:.3} s is shorter than a period on joint `{joint}` ({period:.3} s, what it carries rigid and in a vacuum): what moves on it is not found; make --periods {:.0} times as large, with --modes 1 or 2",
@@ -194,6 +202,13 @@ fn values(c: &Condition, wing: &str) -> Value {
             "share": m.share,
         })
     };
+    let untold = |v: &Vibration| {
+        json!({
+            "appears_at_hz": v.frequency / TAU,
+            "growth_per_s": v.growth,
+            "share": v.share,
+        })
+    };
     json!({
         "wing": wing,
         "speed_m_s": c.speed,
@@ -202,6 +217,7 @@ fn values(c: &Condition, wing: &str) -> Value {
         "drift": c.steady.drift,
         "vacuum_hz": c.steady.vacuum.iter().map(|w| w / TAU).collect::<Vec<_>>(),
         "modes": c.modes.iter().zip(&c.uncertainty).map(mode).collect::<Vec<_>>(),
+        "unknown_frequencies": c.untold.iter().map(untold).collect::<Vec<_>>(),
         "divergence_growth_per_s": c.divergence.map(|(motion, _)| motion.growth),
         "divergence_growth_uncertainty_per_s": c.divergence.map(|(_, uncertainty)| uncertainty),
         "order": c.response.order,
@@ -325,6 +341,41 @@ fn onset_values(conditions: &[Condition], wing: &str) -> Vec<Value> {
 }
 
 fn conclude(report: &mut Report, conditions: &[Condition], found: &[Crossing], is_complete: bool) {
+    match conditions {
+        [c] => line!(report, "\n{}", alone(c)),
+        _ => between(report, conditions, found, is_complete),
+    }
+    let noted = conditions.iter().filter(|c| !notes(c).is_empty());
+    let speeds: Vec<f64> = noted.map(|c| c.speed).collect();
+    if let Some(text) = doubtful(&speeds, found) {
+        line!(report, "\n{text}");
+    }
+    if let Some(text) = neutral(conditions) {
+        line!(report, "\n{text}");
+    }
+}
+
+/// What follows of one speed.
+fn alone(c: &Condition) -> String {
+    let grow = (0..c.modes.len()).filter(|k| c.grows(*k) == Some(true));
+    let mut grow: Vec<String> = grow
+        .map(|k| format!("the mode of {:.3} Hz grows", c.modes[k].frequency / TAU))
+        .collect();
+    if c.diverges() {
+        grow.push("a motion grows that does not vibrate (static divergence)".into());
+    }
+    let what = match grow.is_empty() {
+        true => "no growth is positive, beyond what is known of it".into(),
+        false => grow.join(", "),
+    };
+    format!(
+        "At {:.3} m/s {what}. Where flutter begins takes two speeds or more: --speeds FROM:TO:N.",
+        c.speed
+    )
+}
+
+/// Onsets and ends between speeds.
+fn between(report: &mut Report, conditions: &[Condition], found: &[Crossing], is_complete: bool) {
     for c in found {
         let what = if c.begins { "begins" } else { "ends" };
         line!(
@@ -361,14 +412,6 @@ fn conclude(report: &mut Report, conditions: &[Condition], found: &[Crossing], i
     }
     if found.is_empty() && likely.is_empty() && through.is_empty() {
         line!(report, "\n{}", unchanged(conditions, is_complete));
-    }
-    let noted = conditions.iter().filter(|c| !notes(c).is_empty());
-    let speeds: Vec<f64> = noted.map(|c| c.speed).collect();
-    if let Some(text) = doubtful(&speeds, found) {
-        line!(report, "\n{text}");
-    }
-    if let Some(text) = neutral(conditions) {
-        line!(report, "\n{text}");
     }
 }
 
