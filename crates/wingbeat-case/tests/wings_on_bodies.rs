@@ -281,3 +281,43 @@ fn invariant_left_is_right_and_one_side_with_its_image_is_both() {
     println!("one side and both {apart:.1e}");
     assert!(apart < 1e-11, "{apart}");
 }
+
+/// Where roots meet and are not joined air passes between them: lift is lost, which is said; no preset is flown so.
+#[test]
+fn behaves_roots_that_meet_and_are_not_joined_are_named() {
+    for preset in PRESETS {
+        let setup = LoadedCase::find(preset.name, &[]).unwrap().setup;
+        let said = setup.unjoined_roots();
+        assert!(said.is_empty(), "{}: {said:?}", preset.name);
+    }
+    let case = Case {
+        span: [0.0, 0.5],
+        stations: None,
+        ..ON_BODY
+    };
+    let lift = |keys: &[&str]| {
+        let setup = case.setup_with(keys);
+        let said = setup.unjoined_roots();
+        let mut flight = Simulation::new(setup).unwrap();
+        while !flight.finished() {
+            flight.step().unwrap();
+        }
+        let wings = &flight.record().air[1..];
+        (wings.iter().map(|a| -a.force.z).sum::<f64>(), said)
+    };
+    let (joined, none) = lift(&[]);
+    let (apart, said) = lift(&["wing.right.joined=false"]);
+    println!("lift joined {joined:.3} N, apart {apart:.3} N");
+    assert!(apart < 0.9 * joined && none.is_empty());
+    assert!(said.len() == 1 && said[0].contains("join them (joined = true of the wing)"));
+    // Filaments of both that cancel, a fifth of the chord from root to root, and roots that are meant to shed.
+    for keys in [
+        "wing.right.mesh.spanwise_spacing=\"cosine\"",
+        "air.scheme=\"benchmark\"",
+        "wing.right.hinge_m=[0.05, 0.02, 0]",
+        "air.shed=[\"trailing\", \"tip\", \"leading\", \"root\"]",
+    ] {
+        let setup = case.setup_with(&["wing.right.joined=false", keys]);
+        assert!(setup.unjoined_roots().is_empty(), "{keys}");
+    }
+}

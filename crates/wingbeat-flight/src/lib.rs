@@ -58,6 +58,7 @@ mod solver;
 mod stages;
 mod starts_apart;
 mod turns;
+mod unjoined;
 mod validate;
 
 pub use air::{check_joined, strips};

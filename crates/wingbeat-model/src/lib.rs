@@ -59,4 +59,6 @@ pub use structure::{
     BeamMass, Coupling, ElasticBody, Members, Region, Vein, VeinStiffness, WingBeam, WingShell,
     WingStructure,
 };
-pub use touching::{PairOnPart, RootOnPart, pairs_on_parts, roots_beside_parts, roots_on_parts};
+pub use touching::{
+    PairOnPart, RootOnPart, pairs_on_parts, roots_beside_parts, roots_meet, roots_on_parts,
+};

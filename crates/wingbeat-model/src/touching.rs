@@ -1,4 +1,4 @@
-//! Wings whose roots lie on parts of the body: where they meet no air passes and circulation goes on, which a
+//! Wings whose roots lie on parts of the body or on each other: where they meet no air passes and circulation goes on, which a
 //! vortex lattice of both does not know.
 
 use crate::animal::{Animal, Wing};
@@ -54,6 +54,24 @@ fn within(animal: &Animal, wings: &[usize], near: f64) -> Vec<RootOnPart> {
         found.into_iter().map(move |part| RootOnPart { wing, part })
     };
     wings.iter().flat_map(of_wing).collect()
+}
+
+/// Whether the roots of two wings meet: along three quarters of either chord `within` \[1\] of it from nodes of the
+/// other root, at each of 20 instants of a beat, with prescribed shapes, elastic ones at rest.
+pub fn roots_meet(animal: &Animal, wings: [usize; 2], within: f64) -> bool {
+    let [a, b] = wings.map(|w| places(&animal.wings[w]));
+    let meets = |one: &[DVec3], other: &[DVec3]| {
+        let near = within * one[0].distance(one[one.len() - 1]);
+        let beside = |x: &DVec3| other.iter().any(|y| x.distance(*y) <= near);
+        let count = one.iter().filter(|x| beside(x)).count();
+        count as f64 >= ALONG * one.len() as f64
+    };
+    // Of one that stands still and one that beats all instants of the one.
+    let instants = a.len().max(b.len());
+    (0..instants).all(|k| {
+        let [a, b] = [&a[k % a.len()], &b[k % b.len()]];
+        meets(a, b) && meets(b, a)
+    })
 }
 
 /// Two wings whose roots lie on one part of the central body, and the way from root to root through it.

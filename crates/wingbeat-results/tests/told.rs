@@ -20,7 +20,7 @@ fn behaves_nothing_is_said_of_wakes_that_are_not_shed() {
         "{:?}",
         still.warnings
     );
-    for words in ["vortex core (", "Behind attached wings"] {
+    for words in ["vortex core (", "Induced drag behind attached wings"] {
         assert!(!says(&still, words), "{:?}", still.warnings);
     }
     let flies = flown(&preset("bird-cruise", &["time.beats=0.1"]));

@@ -164,11 +164,12 @@ fn go_back(
     }
     let case = dir.case()?;
     let Some((header, state)) = saved.checkpoint else {
-        if saved.manifest.steps > 0 {
-            let why = match case.setup.air.is_saved() {
-                true => "its checkpoint (checkpoint.bin) is missing",
-                false => "the memory of the program that computes its air is not saved",
-            };
+        let why = match case.setup.air.is_saved() {
+            true if saved.manifest.steps > 0 => Some("its checkpoint (checkpoint.bin) is missing"),
+            true => None,
+            false => Some("the memory of the program that computes its air is not saved"),
+        };
+        if let Some(why) = why {
             tell!("{}: {why}: it is flown from the start again", case.name);
         }
         let flight = build(&case, interrupts)?;
