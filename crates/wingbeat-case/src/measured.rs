@@ -11,8 +11,8 @@ use crate::raw::{AngleCase, BodyCase, OutlineCase, PlanformCase, SurfaceCase, Wi
 /// Angles of a table that are all below this could be radians \[deg\].
 const HALF_A_TURN: f64 = 3.2;
 
-/// Swings of feathering to either side in radians, 11 to 100 deg, which no wing has in degrees: it would be held
-/// still.
+/// Swings of feathering to either side in radians, 11 to 100 deg, which no wing has in degrees: it would be
+/// held still.
 const SWINGS: std::ops::Range<f64> = 0.2..1.75;
 
 /// Swings of stroke beside larger angles that could be radians, 34 to 100 deg: wings that feather about an axis

@@ -85,7 +85,7 @@ fn behaves_tables_in_radians_are_named() {
     }
 }
 
-/// Small motions, and a wing that feathers about an axis at rest but for the play of its bearing, are in degrees.
+/// Small motions, and a wing that feathers about an axis at rest but for play of its bearing, are in degrees.
 #[test]
 fn behaves_small_motions_are_not_taken_for_radians() {
     let said = |phi: f64, psi: f64| {

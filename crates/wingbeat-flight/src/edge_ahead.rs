@@ -155,8 +155,9 @@ impl FlightSetup {
         found.into_iter().map(named).collect()
     }
 
-    /// Down- and upstroke of a wing in its prescribed motion; the body goes on as it starts. The speed of a strip
-    /// is that of the feathering axis: feathering itself moves broad chords faster than a stroke does, broadside.
+    /// Down- and upstroke of a wing in its prescribed motion; the body goes on as it starts. The speed of a
+    /// strip is that of the feathering axis: feathering itself moves broad chords faster than a stroke does,
+    /// broadside.
     fn beat(&self, wing: &Wing) -> Beat {
         let motion = wing.motion.impulsive();
         let mut strokes = [Stroke::default(); 2];

@@ -171,7 +171,8 @@ fn check_radians(csv: &CsvFile, column: &str, rows: &[[f64; 2]]) -> Result<(), F
     Err(fault)
 }
 
-/// The name of a column that says radians with degrees in their place, written as they are: `Phi_Deg` for `Phi_Rad`.
+/// The name of a column that says radians with degrees in their place, in the same letters: `Phi_Deg` for
+/// `Phi_Rad`.
 fn in_degrees(column: &str) -> String {
     let piece = |piece: &str| {
         let word = piece.trim_end_matches(|c: char| !c.is_alphanumeric());
