@@ -196,16 +196,20 @@ fn parquet(campaign: &Campaign, rows: &[Row], path: &std::path::Path) -> std::io
     ])
 }
 
-/// Units and meanings of the columns of keys and numbers by their names, as JSON.
+/// Units and meanings of the columns of keys and numbers by their names, as JSON; texts have no unit.
 fn notes(campaign: &Campaign) -> [String; 2] {
     let keys = campaign.plan().keys().iter();
     let keys = keys.filter_map(|key| Some((key.clone(), described(key)?)));
+    let kinds = campaign.plan().keys().iter().zip(kinds(campaign));
+    let texts = kinds.filter(|(_, kind)| *kind == KeyKind::Text);
+    let texts: Vec<&String> = texts.map(|(key, _)| key).collect();
     let numbers = campaign.numbers.iter();
     let numbers = numbers.map(|n| (n.name.clone(), [n.unit.clone(), n.about.clone()]));
     let all: Vec<(String, [String; 2])> = keys.chain(numbers).collect();
     [0, 1].map(|k| {
         let notes = all
             .iter()
+            .filter(|(name, _)| k == 1 || !texts.contains(&name))
             .map(|(name, of)| (name.clone(), of[k].clone().into()));
         serde_json::Value::Object(notes.collect()).to_string()
     })

@@ -55,10 +55,12 @@ impl File {
         self.layout.texts(name, texts)
     }
 
-    /// Gives the values of a key of the case their unit and their meaning.
+    /// Gives the values of a key of the case their meaning, and their unit if they are numbers.
     fn describe(&mut self, dataset: usize, key: &str) {
         if let Some([unit, about]) = described(key) {
-            self.layout.text(dataset, "units", &unit);
+            if !matches!(self.data[dataset], Data::There) {
+                self.layout.text(dataset, "units", &unit);
+            }
             self.layout.text(dataset, "long_name", &about);
         }
     }

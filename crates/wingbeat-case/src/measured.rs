@@ -11,9 +11,13 @@ use crate::raw::{AngleCase, BodyCase, OutlineCase, PlanformCase, SurfaceCase, Wi
 /// Angles of a table that are all below this could be radians \[deg\].
 const HALF_A_TURN: f64 = 3.2;
 
-/// Swings of stroke and feathering to either side in radians, 11 to 100 deg, which no wing has in degrees: it
-/// would be held still.
+/// Swings of feathering to either side in radians, 11 to 100 deg, which no wing has in degrees: it would be
+/// held still.
 const SWINGS: std::ops::Range<f64> = 0.2..1.75;
+
+/// Swings of stroke beside larger angles that could be radians, 34 to 100 deg: wings that feather about an axis
+/// held still have smaller ones in degrees, of their bearings.
+const STROKES: std::ops::Range<f64> = 0.6..1.75;
 
 /// A sample that stands this far from both neighbours, alone in its value, was hardly measured \[deg\].
 const LEAP_DEG: f64 = 10.0;
@@ -89,13 +93,18 @@ fn radians(wing: &str, tables: &[(&str, &[[f64; 2]])], zero: impl Fn(&str) -> f6
     };
     let most = tables.iter().map(largest).fold(0.0, f64::max);
     let has_stroke = tables.iter().any(|t| t.0 == "phi");
-    if has_stroke && most > 0.0 && most < HALF_A_TURN {
+    if has_stroke && (SWINGS.start..HALF_A_TURN).contains(&most) {
         return vec![format!(
             "all angles in the tables of wing.{wing}.motion are below {HALF_A_TURN} deg: {CONVENTION} (phi_rad)"
         )];
     }
     let is_doubtful = |table: &&(&str, &[[f64; 2]])| {
-        table.0 != "theta" && largest(table) < HALF_A_TURN && SWINGS.contains(&swing(table.1))
+        let swings = match table.0 {
+            "phi" => STROKES,
+            "psi" => SWINGS,
+            _ => return false,
+        };
+        largest(table) < HALF_A_TURN && swings.contains(&swing(table.1))
     };
     let say = |table: &(&str, &[[f64; 2]])| {
         let (angle, swing) = (table.0, swing(table.1));

@@ -183,6 +183,15 @@ fn exact_angles_of_a_file_are_in_the_unit_that_their_column_says() {
         said.contains("it holds 0 to 60, more than a whole turn") && said.contains("`psi_deg`"),
         "{said}"
     );
+    for (column, right) in [
+        ("psi_radians", "psi_degrees"),
+        ("Psi_Rad", "Psi_Deg"),
+        ("PSI [RAD]", "PSI [DEG]"),
+        ("gradual psi (rad)", "gradual psi (deg)"),
+    ] {
+        let said = load(column, 20.0).unwrap_err();
+        assert!(said.contains(&format!("(`{right}`)")), "{column}: {said}");
+    }
 }
 
 /// Signs of angles on a tethered animal: both wings, or a left one with the signs of a right one; and samples

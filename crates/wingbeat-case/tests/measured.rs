@@ -85,6 +85,33 @@ fn behaves_tables_in_radians_are_named() {
     }
 }
 
+/// Small motions, and a wing that feathers about an axis at rest but for play of its bearing, are in degrees.
+#[test]
+fn behaves_small_motions_are_not_taken_for_radians() {
+    let said = |phi: f64, psi: f64| {
+        let wave = |angle: &str, size: f64| {
+            table(
+                angle,
+                &samples(|k, _| size * (TAU * k as f64 / 50.0).cos()),
+                "",
+            )
+        };
+        let doubts = fly(&[wave("phi", phi), wave("psi", psi)]).doubtful_measurements();
+        doubts.join("\n").contains("are they radians?")
+    };
+    for (phi, psi, is_asked) in [
+        (0.1, 0.05, false),
+        (0.5, 20.0, false),
+        (1.05, 0.8, true),
+        (0.35, 0.8, true), // mosquitoes: 20 deg
+        (1.05, 45.0, true),
+        (60.0, 0.8, true),
+        (60.0, 0.15, false),
+    ] {
+        assert_eq!(said(phi, psi), is_asked, "{phi} {psi}");
+    }
+}
+
 /// A series is that of its samples, in whatever beats they were taken.
 #[test]
 fn invariant_a_fit_of_several_beats_is_that_of_one() {
@@ -358,6 +385,31 @@ fn behaves_wings_that_fly_with_the_trailing_edge_ahead_are_named() {
         "sine_deg=[20]",
     ] {
         assert_eq!(ahead_of(&psi(law)), [""; 0], "{law}");
+    }
+    // Late by a quarter about a mean that is not zero; a rotation angle from the stroke plane that is small.
+    for law in [
+        "mean_deg=15,sine_deg=[45]",
+        "mean_deg=25,sine_deg=[60]",
+        "mean_deg=25,sine_deg=[80]",
+        "mean_deg=15,sine_deg=[43],cosine_deg=[12]", // 15 deg beside a quarter
+    ] {
+        let said = ahead_of(&psi(law)).join("\n");
+        assert!(said.contains("quarter of a beat off"), "{law}: {said}");
+    }
+    let said = ahead_of(&psi("mean_deg=90,cosine_deg=[28]")).join("\n");
+    assert!(said.contains("counted from the stroke plane"), "{said}");
+    // Broad wings in the right phase, which feathering moves faster than their stroke, and fins.
+    for (chord, axis) in [("0.7e-3", "0.25"), ("1.67e-3", "0"), ("2.5e-3", "0")] {
+        for stroke in [0, 2, 20, 60] {
+            for feathering in [30, 60] {
+                let phi = format!("wing.right.motion.phi={{fourier={{sine_deg=[{stroke}]}}}}");
+                let psi = psi(&format!("cosine_deg=[-{feathering}]"));
+                let chord = format!("wing.right.planform.beta.mean_chord_m={chord}");
+                let axis = format!("wing.right.planform.beta.axis_fraction={axis}");
+                let said = ahead(fly, &["motion.data=", &phi, plain, &psi, &chord, &axis]);
+                assert_eq!(said, [""; 0], "{chord} {axis} {stroke} {feathering}");
+            }
+        }
     }
     // A stream that comes from behind faster than the wings stroke.
     let [said] = &ahead(

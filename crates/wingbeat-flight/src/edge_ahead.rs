@@ -31,6 +31,9 @@ const FEATHERS: f64 = 25.0 * std::f64::consts::PI / 180.0;
 /// Part of the dynamic pressure of a beat that a stroke has at least to count \[1\].
 const COUNTS: f64 = 0.05;
 
+/// Speed of the feathering axis over that of mid chord below which only rounding moves the axis \[1\].
+const AT_REST: f64 = 1e-9;
+
 /// A half of a beat.
 #[derive(Clone, Copy, Debug, Default)]
 struct Stroke {
@@ -85,11 +88,26 @@ impl Beat {
         })
     }
 
-    /// What is said of a wing that feathers far, and yet strokes broadside both ways.
-    fn broadside(&self) -> Option<Doubt> {
-        let is_broadside = |s: &Stroke| s.pressure > 0.0 && s.along.abs() < BROADSIDE * s.pressure;
-        let psi = self.strokes.map(|s| s.psi.to_degrees());
-        (self.feathers > FEATHERS && self.strokes.iter().all(is_broadside)).then(|| Doubt {
+    /// What is doubted. A wing that feathers far and has about the same angle at its fastest both ways feathers
+    /// while its stroke turns back, whatever its mean angle; angles of another convention differ most then.
+    fn doubt(&self) -> Option<Doubt> {
+        let feathers = self.feathers > FEATHERS;
+        let [down, up] = self.strokes;
+        let is_broadside =
+            |pressure: f64, along: f64| pressure > 0.0 && along.abs() < BROADSIDE * pressure;
+        let is_same = (down.psi - up.psi).abs() < self.feathers;
+        if feathers && is_same && is_broadside(down.pressure + up.pressure, down.along + up.along) {
+            return Some(self.broadside());
+        }
+        let both = || [down, up].iter().all(|s| is_broadside(s.pressure, s.along));
+        (self.turned_round()).or_else(|| (feathers && both()).then(|| self.broadside()))
+    }
+
+    /// What is said of a wing that feathers far, and yet strokes broadside both ways, or in their mean.
+    fn broadside(&self) -> Doubt {
+        // Without the sign of a zero.
+        let psi = self.strokes.map(|s| s.psi.to_degrees().round() + 0.0);
+        Doubt {
             what: format!(
                 "the wing stands broadside to its way where it is fastest, psi = {:.0} deg in the downstroke and {:.0} deg in the upstroke, though it feathers by {:.0} deg to either side",
                 psi[0],
@@ -97,7 +115,7 @@ impl Beat {
                 self.feathers.to_degrees()
             ),
             remedy: "is the feathering a quarter of a beat off, or another column? Look at the phase of motion.psi, or at its angle_column (ANGLES.md)",
-        })
+        }
     }
 }
 
@@ -122,8 +140,7 @@ impl FlightSetup {
             if has_joint(w) || wing.motion.frequency <= 0.0 {
                 continue;
             }
-            let beat = self.beat(wing);
-            let Some(doubt) = beat.turned_round().or_else(|| beat.broadside()) else {
+            let Some(doubt) = self.beat(wing).doubt() else {
                 continue;
             };
             match found.iter_mut().find(|f| f.0 == doubt) {
@@ -138,7 +155,9 @@ impl FlightSetup {
         found.into_iter().map(named).collect()
     }
 
-    /// Down- and upstroke of a wing in its prescribed motion; the body goes on as it starts.
+    /// Down- and upstroke of a wing in its prescribed motion; the body goes on as it starts. The speed of a
+    /// strip is that of the feathering axis: feathering itself moves broad chords faster than a stroke does,
+    /// broadside.
     fn beat(&self, wing: &Wing) -> Beat {
         let motion = wing.motion.impulsive();
         let mut strokes = [Stroke::default(); 2];
@@ -151,10 +170,11 @@ impl FlightSetup {
             let past = self.air_past(wing, &motion, t);
             let (mut pressure, mut along) = (0.0, 0.0);
             for [front, rear, across] in strips(wing) {
-                let (speed, aft) = (
-                    past(front.midpoint(rear)),
-                    (rear - front).normalize_or_zero(),
-                );
+                let (mid, aft) = (front.midpoint(rear), (rear - front).normalize_or_zero());
+                let speed = past(DVec3::Y * mid.y);
+                if speed.length() < AT_REST * past(mid).length() {
+                    continue;
+                }
                 let width = across.reject_from(aft).length();
                 pressure += width * speed.length_squared();
                 along += width * speed.length() * speed.dot(aft);

@@ -314,6 +314,8 @@ def test_behaves_a_table_is_a_dataset_with_units(serial, tmp_path):
     data.to_netcdf(tmp_path / "table.nc", engine="h5netcdf")
     with xarray.open_dataset(tmp_path / "table.nc", engine="h5netcdf") as read:
         assert read["power_watt"].values.tobytes() == serial["power_watt"].tobytes()
+    starts = campaign.map({"motion.start": ["impulsive", "smooth"], "time.beats": 1}, campaign.Serial(), base="fruit-fly-blade").dataset
+    assert "units" not in starts["motion.start"].attrs and starts["motion.start"].attrs["long_name"]
 
 
 def test_behaves_values_of_several_types_stay_what_they_are():

@@ -166,9 +166,32 @@ fn check_radians(csv: &CsvFile, column: &str, rows: &[[f64; 2]]) -> Result<(), F
     ));
     fault.remedy = format!(
         "name the column after degrees where its angles are (`{}`), or correct the rows",
-        column.replace("rad", "deg")
+        in_degrees(column)
     );
     Err(fault)
+}
+
+/// The name of a column that says radians with degrees in their place, in the same letters: `Phi_Deg` for
+/// `Phi_Rad`.
+fn in_degrees(column: &str) -> String {
+    let piece = |piece: &str| {
+        let word = piece.trim_end_matches(|c: char| !c.is_alphanumeric());
+        let degrees = match word.to_lowercase().as_str() {
+            "rad" => "deg",
+            "rads" => "degs",
+            "radian" => "degree",
+            "radians" => "degrees",
+            _ => return piece.to_owned(),
+        };
+        let degrees = match word {
+            _ if word == word.to_uppercase() => degrees.to_uppercase(),
+            _ if word.starts_with(char::is_uppercase) => degrees.replacen('d', "D", 1),
+            _ => degrees.to_owned(),
+        };
+        degrees + &piece[word.len()..]
+    };
+    let pieces = column.split_inclusive(|c: char| !c.is_alphanumeric());
+    pieces.map(piece).collect()
 }
 
 /// Words in the name of a column that say a unit of angles which is not read.

@@ -23,11 +23,15 @@ pub fn described(path: &str) -> Option<[String; 2]> {
     ])
 }
 
-/// The first sentence of a text, without its full stop.
+/// The first sentence of a text, without its full stop, with the dots of a list that goes on.
 fn first_sentence(text: &str) -> &str {
     let begins = |k: &usize| text[k + 2..].starts_with(char::is_uppercase);
     let end = text.match_indices(". ").map(|(k, _)| k).find(begins);
-    text[..end.unwrap_or(text.len())].trim_end_matches('.')
+    let sentence = end.map_or(text, |k| &text[..=k]);
+    match sentence.ends_with("...") {
+        true => sentence,
+        false => sentence.strip_suffix('.').unwrap_or(sentence),
+    }
 }
 
 /// The paths of all keys and tables with this name, `NAME` and `[]` for names and numbers of the user's choice.
@@ -82,6 +86,8 @@ mod tests {
         }
         let [_, about] = described("body.mass_kg").unwrap();
         assert_eq!(about, "Mass of the body without wings");
+        let [_, about] = described("wing.right.motion.phi.fourier.cosine_deg[0]").unwrap();
+        assert!(about.ends_with("harmonics 1, 2, ..."), "{about}");
         assert_eq!(described("motion.frequncy_hz"), None);
         assert_eq!(described("trim.forward_m_per_s"), None);
     }

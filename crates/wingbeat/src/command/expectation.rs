@@ -204,10 +204,10 @@ impl Display for Cost {
                 steps,
                 wake,
             } => {
-                let about = time(*seconds);
+                let time = time(*seconds);
                 write!(
                     f,
-                    "about {about} on {threads} threads, from {steps} steps on trial"
+                    "{time} on {threads} threads, from {steps} steps on trial"
                 )?;
                 match *wake {
                     0.0 => Ok(()),
@@ -253,15 +253,15 @@ pub(crate) fn cost(flight: &mut Simulation) -> Result<Cost, FlightError> {
 /// A year \[s\].
 const YEAR: f64 = 365.25 * 86400.0;
 
-/// A time as people say it.
-pub(crate) fn time(seconds: f64) -> String {
+/// About how long a time is, as people say it.
+fn time(seconds: f64) -> String {
     match seconds {
-        s if s < 1.0 => "a second".to_owned(),
-        s if s < 100.0 => format!("{s:.0} s"),
-        s if s < 100.0 * 60.0 => format!("{:.0} min", s / 60.0),
-        s if s < 100.0 * 3600.0 => format!("{:.0} h", s / 3600.0),
-        s if s < 1000.0 * 86400.0 => format!("{:.0} days", s / 86400.0),
-        s if s < 1000.0 * YEAR => format!("{:.0} years", s / YEAR),
+        s if s < 1.0 => "about a second".to_owned(),
+        s if s < 100.0 => format!("about {s:.0} s"),
+        s if s < 100.0 * 60.0 => format!("about {:.0} min", s / 60.0),
+        s if s < 100.0 * 3600.0 => format!("about {:.0} h", s / 3600.0),
+        s if s < 1000.0 * 86400.0 => format!("about {:.0} days", s / 86400.0),
+        s if s < 1000.0 * YEAR => format!("about {:.0} years", s / YEAR),
         _ => "more than a thousand years".to_owned(),
     }
 }

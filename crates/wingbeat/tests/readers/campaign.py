@@ -14,7 +14,7 @@ for name in numbers:
 for name in texts:
     assert [r[name] for r in rows] == table.column(name).to_pylist(), name
 units = json.loads(table.schema.metadata[b"units"])
-assert units["power_watt"] == "W"
+assert units["power_watt"] == "W" and units["motion.frequency_hz"] == "Hz" and not set(texts) & set(units)
 
 data = xarray.open_dataset(folder / "points.nc", engine="h5netcdf")
 lift = data["lift_over_weight"]
@@ -29,6 +29,7 @@ assert data["body.mass_kg"].values.tolist() == [float(r["body.mass_kg"]) for r i
 chosen = lift.sel({"motion.frequency_hz": 200, "air.density_kg_m3": 1.2}).values
 assert numpy.all(numpy.isfinite(chosen))
 assert data["dynamics.formulation"].values.tolist() == ["momentum", "quaternion"]
+assert "units" not in data["dynamics.formulation"].attrs and data["dynamics.formulation"].attrs["long_name"]
 
 # Texts as an axis: chosen by name, of several lengths and letters.
 named = xarray.open_dataset(folder.parent / "texts" / "points.nc", engine="h5netcdf")

@@ -89,7 +89,8 @@ class Table(Mapping[str, "NDArray[Any]"]):
             array = self[name]
             inner = [f"{name}_{k}" for k in range(1, array.ndim)]
             about = _core.described(name)
-            return ["point", *inner], array, {"units": units[name]} | ({"long_name": about} if about else {})
+            unit = {"units": units[name]} if array.dtype.kind in "iuf" else {}  # texts and switches have none
+            return ["point", *inner], array, unit | ({"long_name": about} if about else {})
 
         numbers: dict[str, Any] = {name: variable(name) for name in self._values}
         numbers["reason"] = ("point", np.array(self._reasons, dtype=str), {"long_name": "why a point has no numbers"})
