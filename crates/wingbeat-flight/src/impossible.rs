@@ -5,7 +5,7 @@ use wingbeat_model::{BodyPart, Crossing, FlownCrossings, crossing_depth, crossin
 use crate::air::{check_joined, wing_pairs};
 use crate::setup::{AirModel, FlightSetup};
 
-/// Depth over the mean chord up to which wings that pass through each other graze \[1\].
+/// Depth ([`crossing_depth`]) over the mean chord up to which wings that pass through each other graze \[1\].
 const GRAZE: f64 = 0.03;
 
 /// Wings that pass through each other in their prescribed motion.

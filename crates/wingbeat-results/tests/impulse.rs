@@ -1,6 +1,8 @@
 //! Two ways to one force, and the budget of the impulse, as summaries have them.
 
 use crate::flights::{flown, preset, says};
+use std::path::Path;
+use wingbeat_case::LoadedCase;
 use wingbeat_results::Summary;
 use wingbeat_results::summary::{BeatMeans, Verdict};
 
@@ -243,6 +245,38 @@ fn agrees_wakes_that_are_cut_too_short_are_named_where_the_lift_shows_it() {
         );
         assert!(says(&cut, &said), "{:?}", cut.warnings);
     }
+}
+
+/// Wings that beat by a tenth of a degree in a stream which passes a chord in a wingbeat leave their wakes behind: cut
+/// after little more than a beat, they lack lift as any wing in a stream; what holds of hover is not said.
+#[test]
+fn agrees_wakes_of_tiny_strokes_in_a_stream_are_judged_by_the_stream() {
+    let fly = |rows: usize| {
+        let text = format!(
+            r#"
+            format = 1
+            gravity_m_s2 = [0, 0, 9.81]
+            time = {{ steps_per_beat = 10, beats = 10 }}
+            flight = {{ mode = "tethered" }}
+            air = {{ density_kg_m3 = 1.225, stream_m_s = [-10, 0, 0], shed = ["trailing"], body = false, max_wake_rows = {rows} }}
+            body = {{ mass_kg = 0.1, inertia_about_centre_kg_m2 = [1e-4, 1e-4, 1e-4, 0, 0, 0] }}
+            motion.frequency_hz = 100
+            [wing.right]
+            hinge_m = [0, 0, 0]
+            mass_kg = 0.01
+            motion = {{ phi.fourier.sine_deg = [0.1], psi.constant_deg = 5 }}
+            planform.rectangle = {{ chord_m = 0.1, span_m = 0.4, axis_fraction = 0.25 }}
+            mesh = {{ chordwise = 3, spanwise = 6 }}
+        "#
+        );
+        flown(&LoadedCase::from_text("heave", &text, Path::new(""), &[]).unwrap())
+    };
+    let (whole, cut) = (fly(100), fly(11));
+    let kept = cut.final_lift_newton / whole.final_lift_newton;
+    assert!((kept - 0.862).abs() < 0.005, "{kept}"); // as measured, digits as written
+    assert!(says(&cut, "lift in a stream"), "{:?}", cut.warnings);
+    assert!(!says(&cut, "lift in hover"), "{:?}", cut.warnings);
+    assert!(!says(&whole, "Not the whole wake"), "{:?}", whole.warnings);
 }
 
 /// Nodes that may not go as far as the air takes them are counted and said, and the wake's impulse shows it.

@@ -194,8 +194,8 @@ fn behaves_wings_that_push_the_body_down_are_named() {
     }
 }
 
-/// Wings whose roots lie on one line and feather while they flap pass through each other there by a part of a per cent
-/// of a chord: that is said, and that they may be joined; with the hinges just apart nothing is.
+/// Wings whose roots lie on one line and feather while they flap pass through each other there by 2 % of
+/// a chord: that is said, and that they may be joined; with the hinges just apart nothing is.
 #[test]
 fn behaves_wings_that_graze_are_amber_and_may_be_joined() {
     let fly = |hinge: f64| {
@@ -222,7 +222,7 @@ fn behaves_wings_that_graze_are_amber_and_may_be_joined() {
     assert_eq!(grazes.verdict, Verdict::Amber, "{:?}", grazes.warnings);
     assert!(says(
         &grazes,
-        "by up to 0.5 % of a mean chord: join them at their roots"
+        "by up to 2.0 % of a mean chord: join them at their roots"
     ));
     assert!(!says(&grazes, "have no meaning"));
     let apart = fly(1e-3);

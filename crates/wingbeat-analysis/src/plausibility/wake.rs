@@ -3,8 +3,10 @@
 use wingbeat_flight::{AirModel, FlightSetup};
 
 use super::limit::rounded;
-use super::numbers::WingEstimate;
+use super::numbers::{Estimate, WingEstimate};
 use super::sizes::sizes;
+use wingbeat_math::{DVec3, RotationLaw};
+use wingbeat_model::{Start, Wing, WingMotion};
 
 /// Way over the root of the area of both wings from which on what is left out of a wake is felt little. A rectangle of
 /// aspect ratio 8 in a stream has 36, 25, 14, 7, 2.4 and 0.7 % less lift with 0.25, 0.5, 1, 2, 4 and 8 chords of wake
@@ -15,8 +17,9 @@ const ROOTS: f64 = 1.4;
 /// lift with 0.5, 1, 1.5, 2 and 3 beats of wake kept, and its beats scatter by 2 %.
 const BEATS: f64 = 1.0;
 
-/// Wing lengths through the air in a wingbeat below which wings come back into their wakes \[1\].
-const PASSES: f64 = 2.0;
+/// Way through the air in a wingbeat over the stroke of a tip from end to end from which on wings surely leave their
+/// wakes behind; up to one stroke they come back into them, where it is longer than a chord \[1\].
+const LEAVES: f64 = 2.0;
 
 /// What a lattice keeps of wakes that it cuts within the flight.
 #[derive(Clone, Debug, PartialEq)]
@@ -77,11 +80,15 @@ pub fn kept_wake(setup: &FlightSetup) -> Option<KeptWake> {
             "the wake is cut ({key}): {in_beats}{} mean chords of the way of the wings are kept",
             rounded(chords)
         ),
-        is_short: match comes_back(setup, estimate.flight_speed) {
-            true => beats
-                .filter(|b| *b < BEATS)
-                .map(|b| short(BEATS / b, IN_HOVER)),
-            false => (roots < ROOTS).then(|| short(ROOTS / roots, IN_A_STREAM)),
+        is_short: {
+            let wakes = Wakes::of(setup, &estimate, fastest);
+            let in_hover = beats.filter(|b| wakes.are_met && *b < BEATS);
+            let in_hover = in_hover.map(|b| (BEATS / b, IN_HOVER));
+            let in_a_stream = wakes.are_left && roots < ROOTS;
+            let in_a_stream = in_a_stream.then_some((ROOTS / roots, IN_A_STREAM));
+            let both = [in_hover, in_a_stream].into_iter().flatten();
+            let worst = both.max_by(|a, b| a.0.total_cmp(&b.0));
+            worst.map(|(times, measured)| short(times, measured))
         },
     })
 }
@@ -94,15 +101,58 @@ const IN_A_STREAM: &str = "lift in a stream came out 36, 14, 7 and 2 % low with 
 /// What wakes that are too short do, by the part that they should be longer.
 fn short(times: f64, measured: &str) -> String {
     format!(
-        "what is left out is felt: {measured}; keep {} times as much, or all",
+        "what is left out is felt in what lift there is: {measured}; keep {} times as much, or all",
         rounded((10.0 * times).ceil() / 10.0)
     )
 }
 
-/// Whether wings come back into their wakes.
-fn comes_back(setup: &FlightSetup, flight_speed: f64) -> bool {
-    let length = setup.animal.wing_length();
-    (setup.time.period).is_some_and(|period| flight_speed * period < PASSES * length)
+/// What becomes of wakes; both may be, in doubt.
+struct Wakes {
+    /// Whether wings come back into them.
+    are_met: bool,
+    /// Whether wings leave them behind.
+    are_left: bool,
+}
+
+impl Wakes {
+    /// By the way through the air in a wingbeat beside the stroke of the fastest wing.
+    fn of(setup: &FlightSetup, estimate: &Estimate, fastest: &WingEstimate) -> Self {
+        let Some(period) = setup.time.period else {
+            return Self {
+                are_met: false,
+                are_left: true,
+            };
+        };
+        let passed = estimate.flight_speed * period;
+        let stroke = (setup.animal.wings.iter().map(stroke_of_tip))
+            .fold(0.5 * fastest.tip_speed * period, f64::max);
+        // Carried by a tether, a wing passes the air faster than the body does at the start.
+        let is_carried = fastest.speed > fastest.tip_speed.max(estimate.flight_speed);
+        let is_long = stroke > fastest.report.mean_chord;
+        let stays = !is_carried && passed == 0.0;
+        Self {
+            are_met: is_carried || passed < LEAVES * stroke || passed == 0.0,
+            are_left: !stays && (is_carried || passed > stroke || !is_long),
+        }
+    }
+}
+
+/// Farthest that two places of a tip are apart in a beat of a rigid wing, at 100 instants \[m\].
+fn stroke_of_tip(wing: &Wing) -> f64 {
+    let motion = WingMotion {
+        start: Start::Impulsive,
+        ..wing.motion.clone()
+    };
+    if motion.frequency == 0.0 {
+        return 0.0;
+    }
+    let tip = wing.mesh.nodes[wing.mesh.node(0, wing.mesh.cols)];
+    let at = |k: usize| motion.at(k as f64 / (100.0 * motion.frequency)).c * tip;
+    let places: Vec<DVec3> = (0..100).map(at).collect();
+    let ways = places
+        .iter()
+        .flat_map(|x| places.iter().map(|y| x.distance(*y)));
+    ways.fold(0.0, f64::max)
 }
 
 /// The wing that goes fastest; none if none goes.
