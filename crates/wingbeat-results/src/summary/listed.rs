@@ -5,7 +5,7 @@ use super::per_beat::Quantity;
 
 impl Summary {
     /// Its numbers in the order of comparisons; those of wingbeats are [`super::PerBeat::QUANTITIES`].
-    pub const NUMBERS: [Quantity<Self>; 31] = [
+    pub const NUMBERS: [Quantity<Self>; 32] = [
         Quantity {
             name: "steps",
             unit: "1",
@@ -117,6 +117,13 @@ impl Summary {
             label: Some("momentum residual, relative"),
             about: "largest momentum residual over what is in play",
             of: |s| Some(s.momentum_residual_relative),
+        },
+        Quantity {
+            name: "impulse_residual_relative",
+            unit: "1",
+            label: Some("impulse residual, relative"),
+            about: "largest residual of the impulse of vorticity and force after a start, over the impulse in play, of a lattice without wind",
+            of: |s| s.impulse_budget.as_ref()?.largest_relative,
         },
         Quantity {
             name: "violation_position_m",
