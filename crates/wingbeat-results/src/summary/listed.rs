@@ -185,7 +185,7 @@ impl Summary {
             name: "limited",
             unit: "1",
             label: Some("limited events"),
-            about: "of these, ways of wake nodes and strengths of particles that were limited, and leading edges that shed what they had too much",
+            about: "ways of wake nodes and strengths of particles that were limited, and leading edges that shed what they had too much: all among the regularised",
             of: |s| Some(s.limited as f64),
         },
         Quantity {

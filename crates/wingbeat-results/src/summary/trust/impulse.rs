@@ -4,6 +4,7 @@
 use wingbeat_air::{AirSettings, CoreModel, LoadMethod};
 use wingbeat_analysis::{kept_wake, way_in_a_step};
 use wingbeat_flight::FlightSetup;
+use wingbeat_math::RotationLaw;
 use wingbeat_model::{Wing, nearest_nodes};
 
 use super::lattice::differences;
@@ -121,7 +122,12 @@ fn causes(setup: &FlightSetup, lattice: &AirSettings, summary: &Summary) -> Stri
     let held = (held > 0).then(|| format!("nodes held off surfaces ({held} times)"));
     let limited = (summary.limited > 0 && lattice.max_displacement.is_some()).then(|| {
         let times = summary.limited;
-        format!("ways of nodes that air.max_displacement_m limits ({times} times)")
+        match lattice.solves_suction() || lattice.particles.is_some() {
+            false => format!("ways of nodes that air.max_displacement_m limits ({times} times)"),
+            true => format!(
+                "limited events ({times}), ways of nodes (air.max_displacement_m) or others"
+            ),
+        }
     });
     let step = way_in_a_step(setup);
     let step = (step > LONG_STEP)
@@ -153,6 +159,8 @@ fn near_wings(setup: &FlightSetup) -> Option<String> {
     let joined = setup.joined_pairs();
     let pairs = (0..wings.len()).flat_map(|a| (a + 1..wings.len()).map(move |b| [a, b]));
     let apart = pairs.filter(|pair| !joined.iter().any(|j| pair.iter().all(|w| j.contains(w))));
+    // The nearest nodes of wings that share their root line are those of the root.
+    let apart = apart.filter(|pair| !share_root(pair.map(|w| &wings[w])));
     let found = apart.map(|pair| (pair, nearest_nodes(&setup.animal, pair)));
     let ([a, b], gap) = found.min_by(|x, y| x.1.total_cmp(&y.1))?;
     let panel = |w: &Wing| w.report().mean_chord / w.mesh.rows as f64;
@@ -161,6 +169,16 @@ fn near_wings(setup: &FlightSetup) -> Option<String> {
         let [a, b] = [a, b].map(|w| &wings[w].name);
         format!("wings `{a}` and `{b}`, which come as near to each other as {part:.2} panels")
     })
+}
+
+/// Whether the roots of two wings are one line as the flight starts.
+fn share_root(wings: [&Wing; 2]) -> bool {
+    let ends = wings.map(|w| {
+        let attitude = w.motion.at(0.0).c;
+        [0, w.mesh.rows].map(|i| w.hinge_b + attitude * w.mesh.nodes[w.mesh.node(i, 0)])
+    });
+    let touch = 1e-6 * wings[0].report().mean_chord;
+    (0..2).all(|k| ends[0][k].distance(ends[1][k]) <= touch)
 }
 
 /// Difference between the lift by the impulse of the vortices and that by the loads over the mean inviscid force of a
