@@ -127,7 +127,7 @@ impl Summary {
             wake_rings: s.last.wake_rings,
             wake_particles: s.last.wake_particles,
             net_flux_residual_m_s: each.net_flux_residual.most,
-            impulse_budget: ImpulseBudget::between(setup, [&s.first, &s.last], &s.parting),
+            impulse_budget: ImpulseBudget::between(setup, [&s.first, &s.last], &each.parting),
             departures: each.departures.clone(),
             warnings: vec![],
             means: ManyBeats::of(&s.beats),

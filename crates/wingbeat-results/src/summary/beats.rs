@@ -74,11 +74,6 @@ impl<'a> Beats<'a> {
         }
     }
 
-    /// The flight.
-    pub(super) fn setup(&self) -> &'a FlightSetup {
-        self.setup
-    }
-
     /// Takes the next record; the means of the beat that ends with it.
     pub fn take(&mut self, record: &Record) -> Option<BeatMeans> {
         let steps = self.steps?;

@@ -1,5 +1,5 @@
-//! What a summary needs to know of every step, whichever of them a thinned history holds: balances, passes of
-//! the corrector, forces that turn back, wings that pass through each other, departures under feedback.
+//! What a summary needs to know of every step, whichever of them a thinned history holds: balances, impulses that
+//! part, passes of the corrector, forces that turn back, wings that pass through each other, departures under feedback.
 
 use serde::{Deserialize, Serialize};
 use wingbeat_flight::{FlightSetup, Record};
@@ -10,6 +10,7 @@ use super::alternation::Alternation;
 use super::bent::Bent;
 use super::driven::DrivenWork;
 use super::held::Departures;
+use super::impulse::Parting;
 
 /// Ends of the range of a number, and its largest magnitude; not numbers where one of the numbers is not.
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
@@ -65,6 +66,8 @@ pub(crate) struct EachStep {
     pub(super) euler_regularity: Extent,
     pub(super) corrector_passes: Extent,
     pub(super) net_flux_residual: Extent,
+    /// Impulses of vorticity and force.
+    pub(super) parting: Parting,
     /// Sum over all steps.
     pub(super) passes_sum: usize,
     pub(super) alternation: Alternation,
@@ -130,6 +133,7 @@ impl EachStep {
         self.euler_regularity.take(r.euler_regularity);
         self.corrector_passes.take(r.corrector_passes as f64);
         self.net_flux_residual.take(r.net_flux_residual);
+        self.parting.take(r, setup);
         self.passes_sum += r.corrector_passes;
     }
 

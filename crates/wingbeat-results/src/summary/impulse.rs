@@ -28,7 +28,8 @@ pub struct ImpulseBudget {
     pub is_beside_ground: bool,
     /// The largest residual after the first five steps, in which a start has its own, over all that the inviscid force
     /// changed the impulse by, to and fro, or over that of a force coefficient of 0.1 if that is larger \[1\]; beside a
-    /// ground its part along the ground. None of fewer steps, and of results that do not say it.
+    /// ground its part along the ground. Of all steps, whichever the history holds. None of fewer steps, in wind, and of
+    /// results that do not say it.
     #[serde(default)]
     pub largest_relative: Option<f64>,
 }
@@ -40,12 +41,12 @@ const START: usize = 5;
 /// Mean force coefficient of which the impulse counts at least: forces that cancel, or are none, leave rounding.
 const SMALL: f64 = 0.1;
 
-/// How far the impulse of the vorticity and that of the force part in a flight, record by record.
-#[derive(Clone, Debug, Default)]
+/// How far the impulse of the vorticity and that of the force part in a flight, step by step.
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub(super) struct Parting {
-    /// Impulse of the inviscid force at the record before \[N s\].
+    /// Impulse of the inviscid force at the step before \[N s\].
     before: Option<DVec3>,
-    /// Its changes from record to record in sum \[N s\].
+    /// Its changes from step to step in sum \[N s\].
     way: f64,
     /// The residual at the end of the start \[N s\].
     at_start: Option<DVec3>,
@@ -54,7 +55,7 @@ pub(super) struct Parting {
 }
 
 impl Parting {
-    /// Takes the next record.
+    /// Takes the record of the next step.
     pub(super) fn take(&mut self, record: &Record, setup: &FlightSetup) {
         let AirModel::VortexLattice(air) = &setup.air else {
             return;
@@ -115,7 +116,7 @@ impl ImpulseBudget {
                 false => free.length(),
             },
             is_beside_ground: !lattice.images.is_empty(),
-            largest_relative: parting.relative(to),
+            largest_relative: parting.relative(to).filter(|_| lattice.wind.is_none()),
         })
     }
 }

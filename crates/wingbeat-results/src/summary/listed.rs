@@ -5,7 +5,7 @@ use super::per_beat::Quantity;
 
 impl Summary {
     /// Its numbers in the order of comparisons; those of wingbeats are [`super::PerBeat::QUANTITIES`].
-    pub const NUMBERS: [Quantity<Self>; 31] = [
+    pub const NUMBERS: [Quantity<Self>; 32] = [
         Quantity {
             name: "steps",
             unit: "1",
@@ -119,6 +119,13 @@ impl Summary {
             of: |s| Some(s.momentum_residual_relative),
         },
         Quantity {
+            name: "impulse_residual_relative",
+            unit: "1",
+            label: Some("impulse residual, relative"),
+            about: "largest residual of the impulse of vorticity and force after a start, over the impulse in play, of a lattice without wind",
+            of: |s| s.impulse_budget.as_ref()?.largest_relative,
+        },
+        Quantity {
             name: "violation_position_m",
             unit: "m",
             label: Some("constraint violation [m]"),
@@ -178,7 +185,7 @@ impl Summary {
             name: "limited",
             unit: "1",
             label: Some("limited events"),
-            about: "of these, ways of wake nodes and strengths of particles that were limited, and leading edges that shed what they had too much",
+            about: "ways of wake nodes and strengths of particles that were limited, and leading edges that shed what they had too much: all among the regularised",
             of: |s| Some(s.limited as f64),
         },
         Quantity {

@@ -6,7 +6,6 @@ use wingbeat_flight::{FlightSetup, Record};
 
 use super::beats::{BeatMeans, Beats};
 use super::each_step::EachStep;
-use super::impulse::Parting;
 use super::last_part::Bounds;
 use crate::records::Records;
 use wingbeat_case::IoError;
@@ -25,8 +24,6 @@ pub(super) struct Statistics {
     /// Rings of wakes in sum over the rows, and how many rows that are.
     pub wake_rings: usize,
     pub rows: usize,
-    /// Impulses of vorticity and force.
-    pub parting: Parting,
     /// Means over whole wingbeats.
     pub beats: Vec<BeatMeans>,
     /// Where the last part of a flight without wingbeats begins.
@@ -72,7 +69,6 @@ impl Statistics {
     fn take(&mut self, r: &Record, setup: &FlightSetup, beats: &mut Beats<'_>) {
         self.bounds.take(r, setup);
         self.beats.extend(beats.take(r));
-        self.parting.take(r, beats.setup());
         if !self.is_begun {
             self.first.clone_from(r);
             self.is_begun = true;

@@ -200,11 +200,20 @@ fn last_coefficients(part: &LastPart) -> Option<String> {
 
 /// What became of the impulse that surfaces gave to the air.
 fn impulse_rows(budget: &ImpulseBudget, out: &mut String) {
-    let residual = match budget.is_beside_ground {
-        true => "impulse residual along the ground",
-        false => "impulse residual over that of the air",
+    // The one that the verdict judges; that from start to end where none is judged.
+    let (residual, value) = match (budget.is_beside_ground, budget.largest_relative) {
+        (true, Some(largest)) => ("impulse residual along ground, in play", largest),
+        (false, Some(largest)) => ("impulse residual over impulse in play", largest),
+        (true, None) => (
+            "impulse residual along the ground",
+            budget.residual_relative,
+        ),
+        (false, None) => (
+            "impulse residual over that of the air",
+            budget.residual_relative,
+        ),
     };
-    let _ = writeln!(out, "  {residual:<42}{:.1e}", budget.residual_relative);
+    let _ = writeln!(out, "  {residual:<42}{value:.1e}");
     out.push_str("  impulse of the vorticity along gravity\n");
     let mut row = |what: &str, impulse: f64| {
         let _ = writeln!(out, "    {what:<40}{}", engineering(impulse, "N s"));

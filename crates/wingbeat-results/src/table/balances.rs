@@ -227,7 +227,7 @@ pub(super) const WAKE: &[Quantity] = &[
     scalar(
         "limited",
         Unit::Count,
-        "of these, ways of wake nodes (air.max_displacement_m) and strengths of particles that were limited, and leading edges that shed what they had too much",
+        "ways of wake nodes (air.max_displacement_m) and strengths of particles that were limited, and leading edges that shed what they had too much: all among the regularised",
         |r, _, _| Count(&mut r.limited),
     )
     .fold(Sum)

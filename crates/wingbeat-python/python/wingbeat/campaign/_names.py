@@ -36,6 +36,7 @@ SUMMARY = (
     "energy_residual_relative",
     "joint_residual_relative",
     "momentum_residual_relative",
+    "impulse_residual_relative",
     "violation_position_m",
     "violation_orientation",
     "euler_regularity",
