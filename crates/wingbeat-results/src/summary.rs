@@ -121,7 +121,7 @@ impl Summary {
             corrector_passes_mean: each.passes_sum as f64 / each.steps.max(1) as f64,
             regularised: s.regularised,
             limited: s.limited,
-            limited_part: s.limited_part(),
+            limited_part: s.limited_part(setup.air.is_mirrored()),
             leading_rings: tells_of_edges.then_some(s.leading_rings),
             alternating_steps: each.alternation.longest,
             wake_rings: s.last.wake_rings,

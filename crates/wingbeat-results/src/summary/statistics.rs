@@ -81,11 +81,13 @@ impl Statistics {
         self.rows += 1;
     }
 
-    /// Part of the ways of wake nodes that were limited, of which there are about as many as rings \[1\].
-    pub fn limited_part(&self) -> f64 {
+    /// Limited events over the ways of wake nodes, of which there are about as many as rings \[1\], 1 at most; events
+    /// are counted on the half that is computed, rings on both.
+    pub fn limited_part(&self, is_mirrored: bool) -> f64 {
+        let half = if is_mirrored { 0.5 } else { 1.0 };
         let rings = self.wake_rings as f64 / self.rows.max(1) as f64;
-        let moves = rings * self.last.step as f64;
-        self.limited as f64 / moves.max(1.0)
+        let moves = half * rings * self.last.step as f64;
+        (self.limited as f64 / moves.max(1.0)).min(1.0)
     }
 
     /// From start to end: coordinate `k` of the body.
