@@ -1,13 +1,11 @@
 //! Wings that pass through each other: no animal's do, and no vortex lattice says what the air does then.
 
-mod depth;
+pub(crate) mod depth;
 
 use crate::animal::{Animal, Wing};
 use crate::mesh::GridMesh;
 use crate::motion::{Start, WingMotion};
 use wingbeat_math::{DMat3, DVec3, RotationLaw};
-
-pub use depth::crossing_depth;
 
 /// Instants of a beat at which wings are compared.
 pub(crate) const INSTANTS: usize = 100;

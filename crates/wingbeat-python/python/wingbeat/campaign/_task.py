@@ -93,8 +93,10 @@ def of_summary(summary: Mapping[str, Any]) -> dict[str, Any]:
     for name in ("lift_coefficient", "thrust_coefficient"):
         value = last.get(name)
         numbers[f"last_{name}"] = float("nan") if value is None else value
-    if numbers["leading_rings"] is None:  # of air without wakes
-        numbers["leading_rings"] = float("nan")
+    numbers["impulse_residual_relative"] = (summary.get("impulse_budget") or {}).get("largest_relative")
+    for name in ("leading_rings", "impulse_residual_relative"):  # of air without wakes, and where it is not judged
+        if numbers[name] is None:
+            numbers[name] = float("nan")
     return numbers | {
         "verdict": ("green", "amber", "red").index(summary["verdict"]),
         "warnings": len(summary["warnings"]),
