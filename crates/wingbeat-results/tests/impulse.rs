@@ -256,12 +256,13 @@ fn agrees_wakes_that_are_cut_too_short_are_named_where_the_lift_shows_it() {
             "air.bound_core=",
             "air.wake_core=",
             "air.loads=joukowski",
+            "wing.right.joined=true",
         ];
         flown(&preset("rectangular-wing", &[&set[..], &[rows]].concat()))
     };
     let whole = fly("air.max_wake_rows=80");
     assert!(!says(&whole, "Not the whole wake"), "{:?}", whole.warnings);
-    for (rows, part, verdict) in [(4, 0.86, Verdict::Amber), (32, 0.993, Verdict::Green)] {
+    for (rows, part, verdict) in [(4, 0.838, Verdict::Amber), (32, 0.992, Verdict::Green)] {
         let cut = fly(&format!("air.max_wake_rows={rows}"));
         let kept = cut.final_lift_newton / whole.final_lift_newton;
         assert!((kept - part).abs() < 0.005, "{rows}: {kept}"); // as measured, digits as written

@@ -9,7 +9,7 @@ use wingbeat_results::summary::Verdict;
 #[test]
 fn behaves_impossible_motions_and_lifts_are_named_without_a_lattice() {
     let summary = flown(&preset("hawkmoth-blade", &["time.beats=1"]));
-    let crosses = "wings `left` and `right` pass through each other in 21 % of the beat";
+    let crosses = "wings `left` and `right` pass through each other in 24 % of the beat";
     assert!(says(&summary, crosses), "{:?}", summary.warnings);
     assert_eq!(summary.verdict, Verdict::Amber);
     let sound = flown(&preset("fruit-fly-blade", &["time.beats=1"]));
@@ -170,7 +170,7 @@ fn behaves_wings_that_cross_make_a_lattice_red() {
     assert_eq!(summary.verdict, Verdict::Red);
     let reason = &summary.verdict_reason;
     assert!(
-        reason.contains("pass through each other in 21 %"),
+        reason.contains("pass through each other in 24 %"),
         "{reason}"
     );
     assert!(says(&summary, "have no meaning, nor have the means"));
