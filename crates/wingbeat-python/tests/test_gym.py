@@ -235,6 +235,7 @@ def test_refuses_copies_of_environments(copied):
 
 def test_refuses_actions():
     envs = VectorEnvironment(2)
+    envs.reset(seed=1)
     for seed in (-1, 1.5, "ab"):
         for env in (envs, Environment()):
             with pytest.raises(wingbeat.CaseError):
@@ -303,3 +304,12 @@ def test_exact_starts_are_drawn_as_the_documentation_says(task, tilt, rate):
         assert numbers.std() == pytest.approx(most / np.sqrt(3.0), rel=0.1)
     speed = 0.25132741 if task == "path" else 0.0  # 4 R at 2 pi in 100 T
     np.testing.assert_allclose(seen[:, 12:15], np.tile([speed, 0.0, 0.0], (200, 1)), atol=1e-6)
+
+
+def test_refuses_steps_before_the_first_episode():
+    for env, actions in (Environment("hover"), np.zeros(4)), (VectorEnvironment(2), np.zeros((2, 4))):
+        for call in (lambda: env.step(actions), env.regulated):  # noqa: B023
+            with pytest.raises(gymnasium.error.ResetNeeded, match="before reset"):
+                call()
+        env.reset(seed=1)
+        env.step(actions)

@@ -107,6 +107,12 @@ def test_behaves_scipy_and_matlab_take_the_model(trim, tmp_path):
     assert list(read["inputs"]) == list(model.inputs) and list(read["state_units"]) == list(model.state_units)
 
 
+@pytest.mark.parametrize("key", ["forward_m_per_s", "sideslip_m_per_s", "climb_m_per_s", "turn_rate_rad_per_s"])
+def test_refuses_speeds_that_are_not_finite(blade, key):
+    with pytest.raises(wingbeat.CaseError, match=key):
+        blade.trim(**{key: math.nan})
+
+
 def test_behaves_vacuum_cannot_be_trimmed():
     with pytest.raises(wingbeat.Error):
         wingbeat.Flight.preset("fruit-fly-vacuum").power()

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import pickle
+
 import campaign_tasks as tasks
 import numpy as np
 import pytest
@@ -119,6 +121,7 @@ BAD = {
     "unknown setting of a trim": lambda: Problem("fruit-fly-blade", {"trim.fast": (0, 1)}, "peak_watt", do="trim"),
     "another shape": lambda: hover(executor=Serial()).evaluate([[200.0, 9e-7, 1.0]]),
     "a cube": lambda: hover(executor=Serial()).evaluate(np.zeros((2, 2, 2))),
+    "a pickle": lambda: pickle.dumps(hover(executor=Serial())),
     "unknown variable": lambda: Problem("fruit-fly-blade", {"motion.f": (1, 2)}, "power_watt"),
 }
 

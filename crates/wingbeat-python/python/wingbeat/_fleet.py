@@ -122,6 +122,7 @@ class Fleet(Uncopied):
         self._unregulated = next((k for k, course in enumerate(courses) if not course.is_regulated), None)
         self._flyers = flyers.names
         self.is_seeded = False
+        """Whether episodes have begun, by ``reset`` or ``restore``."""
         self._lock = threading.Lock()
         turns = np.arange(self.count) % len(courses)
         self.scales = np.array([course.scales for course in courses])[turns]
@@ -157,6 +158,10 @@ class Fleet(Uncopied):
         finally:
             self._lock.release()
 
+    def _check_begun(self, call: str) -> None:
+        if not self.is_seeded:
+            raise gymnasium.error.ResetNeeded(f"{call}() before reset(): no episode has begun; call reset(seed=...) first")
+
     def reset(self, seeds: Sequence[int | None], mask: Sequence[bool]) -> None:
         with self.alone() as core:
             core.reset([None if s is None else _folded(s) for s in seeds], list(mask), self.observed)
@@ -184,6 +189,7 @@ class Fleet(Uncopied):
         if plain.shape != (self.count, CONTROLS):
             remedy = f"shape ({self.count}, {CONTROLS})"
             raise CaseError(f"actions: an array of shape {plain.shape}", key="actions", remedy=remedy)
+        self._check_begun("step")
         with self.alone() as core:
             return core.step(plain, self.observed, self.last, self.rewards, self.terminated, self.truncated)
 
@@ -195,6 +201,7 @@ class Fleet(Uncopied):
         if self._unregulated is not None:
             which = self._flyers[self._unregulated]
             raise AnalysisError(f"{which}: no regulator can be made for it", remedy="actions of your own, or another flight")
+        self._check_begun("regulated")
         actions = np.zeros((self.count, CONTROLS), np.float32)
         with self.alone() as core:
             core.regulate(actions)

@@ -14,7 +14,7 @@ from wingbeat import _core, _toml
 from wingbeat._case import Part
 from wingbeat._frame import Frame
 from wingbeat._mechanics import Derivatives, LinearModel, Power, Trim, WakeTrim
-from wingbeat._numbers import real, reals, whole
+from wingbeat._numbers import finite, real, reals, whole
 from wingbeat._own import Air, Controller, Loads, Steering
 from wingbeat._paths import path
 from wingbeat._run import Run
@@ -280,7 +280,7 @@ class Flight:
         docs/flight-mechanics.md.
         """
         velocity = _velocity(forward_m_per_s, sideslip_m_per_s, climb_m_per_s)
-        turn_rate = real("turn_rate_rad_per_s", turn_rate_rad_per_s)
+        turn_rate = finite("turn_rate_rad_per_s", turn_rate_rad_per_s)
         return Trim(self._core.trim(_asked(velocity, turn_rate, unknowns, bounds), whole("steps", steps, 20, 2000)))
 
     def trim_with_wake(
@@ -438,7 +438,7 @@ def _made(source: Source) -> Flight:
 
 
 def _velocity(forward: float, right: float, up: float) -> tuple[float, float, float]:
-    return real("forward_m_per_s", forward), real("sideslip_m_per_s", right), real("climb_m_per_s", up)
+    return finite("forward_m_per_s", forward), finite("sideslip_m_per_s", right), finite("climb_m_per_s", up)
 
 
 def _positive(name: str, value: float) -> float:

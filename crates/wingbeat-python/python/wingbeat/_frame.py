@@ -21,8 +21,9 @@ class Surface:
     panels: NDArray[Any]
     """Corners of the panels, shape (panels, 4): rows of ``nodes_m``."""
     circulation_m2_per_s: NDArray[Any]
-    """Ring circulation of each panel, right-handed about its corners in their order: filaments along the edges 0-1-2-3-0 of
-    ``panels`` with it induce the velocity of the air [m2/s].
+    """Ring circulation of each panel, right-handed about its corners in their order [m2/s]: filaments along the edges 0-1-2-3-0 of
+    ``panels`` with it induce the velocity of the air where ``air.ring_inset`` is 0. By default the rings lie a quarter panel aft of
+    the panels, which is some per cent of the velocity a chord away; ``Stepper.air_velocity`` has it exactly.
     """
     pressure_jump_pascal: NDArray[Any]
     """Pressure jump of each panel, positive along its normal."""

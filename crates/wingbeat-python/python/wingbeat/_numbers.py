@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import operator
 from typing import TYPE_CHECKING, Any
 
@@ -30,6 +31,14 @@ def real(key: str, number: Any) -> float:
         return float(number)
     except (TypeError, ValueError, OverflowError):
         raise CaseError(f"{key} = {number!r:.60}: no number", key=key, remedy="a number") from None
+
+
+def finite(key: str, number: Any) -> float:
+    """A real number that is finite."""
+    plain = real(key, number)
+    if not math.isfinite(plain):
+        raise CaseError(f"{key} = {plain}: not finite", key=key, remedy="a finite number")
+    return plain
 
 
 def points(key: str, given: Any) -> NDArray[Any]:

@@ -6,7 +6,7 @@ import os
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from concurrent.futures import Executor
 from types import TracebackType
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NoReturn
 
 from wingbeat._numbers import real, reals
 from wingbeat.campaign import Processes, Serial, _engines, _names, _plan, _points
@@ -79,6 +79,13 @@ class Problem:
         shared = None if executor is None else workers
         keep = {name: _names.unit(name) for name in self.outputs}
         self._plan = _plan.plan(self.variables, base, do, keep, last_beats, out, shared, chunk_s, attempts)
+
+    def __reduce__(self) -> NoReturn:
+        raise CaseError(
+            "a problem cannot be pickled: it keeps the processes that fly its points",
+            key="problem",
+            remedy="a function that makes it, called in the other process",
+        )
 
     def evaluate(self, X: ArrayLike) -> NDArray[Any]:
         """Numbers of points: from shape (n, d) to (n, m), or from (d,) to (m,); NaN where a point failed."""

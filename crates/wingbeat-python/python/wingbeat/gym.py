@@ -212,7 +212,9 @@ class Environment(Uncopied, gymnasium.Env[Any, Any]):
         return observed
 
     def regulated(self) -> NDArray[np.float32]:
-        """What the linear-quadratic regulator would do now, shape (4,): a baseline. It remembers: once per step."""
+        """What the linear-quadratic regulator would do now, shape (4,): a baseline, with ``controls_per_beat=1`` and ``delay=0``.
+        It remembers: once per step.
+        """
         actions: NDArray[np.float32] = self._fleet.regulated()[0]
         return actions
 
@@ -335,7 +337,9 @@ class VectorEnvironment(Uncopied, gymnasium.vector.VectorEnv[Any, Any, Any]):
         return self._fleet.observed.copy() if self._copy else self._fleet.observed
 
     def regulated(self) -> NDArray[np.float32]:
-        """What the linear-quadratic regulator would do now, shape (num_envs, 4): a baseline. It remembers: once per step."""
+        """What the linear-quadratic regulator would do now, shape (num_envs, 4): a baseline, with ``controls_per_beat=1`` and
+        ``delay=0``. It remembers: once per step.
+        """
         return self._fleet.regulated()
 
     @property

@@ -86,7 +86,7 @@ class Processes(Executor):
             try:
                 pool.submit(os.getpid).result()
                 return pool
-            except BrokenExecutor as e:
+            except (BrokenExecutor, OSError, EOFError) as e:  # the last two: the fork server was killed
                 _end(pool)
                 if not remaining:
                     raise FlightError(
@@ -105,7 +105,7 @@ def _handed(pool: ProcessPoolExecutor, fn: Callable[..., Any], args: Any, kwargs
 
     try:
         future = pool.submit(fn, *args, **kwargs)
-    except BrokenExecutor:
+    except (BrokenExecutor, OSError, EOFError):
         return None
     return None if getattr(pool, "_broken", False) else future
 
