@@ -1,8 +1,8 @@
 //! Keys that change nothing in this flight and are no contradiction: they are named, not refused.
 
 use wingbeat_flight::AirModel;
+use wingbeat_model::Wing;
 
-use crate::build::is_still;
 use crate::loaded::LoadedCase;
 use crate::raw::{ControllerCase, MotionCase, TargetCase};
 
@@ -16,7 +16,7 @@ impl LoadedCase {
     /// moments move.
     fn idle_motion(&self) -> Vec<String> {
         let (wings, motion) = (&self.setup.animal.wings, &self.raw.motion);
-        if wings.is_empty() || !wings.iter().all(is_still) {
+        if wings.is_empty() || !wings.iter().all(Wing::is_still) {
             return vec![];
         }
         let plain = MotionCase::default();

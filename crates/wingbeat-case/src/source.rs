@@ -5,9 +5,9 @@ use std::ops::Range;
 
 use toml::de::{DeTable, DeValue};
 use toml::{Spanned, Table, Value};
+use wingbeat_model::mirror_name;
 
 use crate::error::{CaseError, Fault};
-use crate::sides::mirror_name;
 
 /// Parts of a key at most; `wing.right.deformation.twist[0].course.fourier.cosine_deg[0]` has ten.
 const MAX_PARTS: usize = 32;

@@ -1,9 +1,9 @@
 //! Keys that others make idle in ways no single key tells: each is refused by name.
 
 use wingbeat_flight::{FlightSetup, MotionMode};
-use wingbeat_model::Wing;
-use wingbeat_model::motion::{Adjustment, AngleLaw, AngleLaws};
+use wingbeat_model::motion::Adjustment;
 use wingbeat_model::planform::Spacing;
+use wingbeat_model::{Wing, mirror_name};
 
 use super::fault::{Built, idle};
 use super::{model_keys, spacing, wingless};
@@ -12,7 +12,6 @@ use crate::raw::{
     AdjustCase, AirModel, Case, Formulation, JointCase, Mode, MotionCase, StartCase, TetherCase,
     TurnCase, WingCase, WingMeshCase,
 };
-use crate::sides::mirror_name;
 use crate::source::CaseSource;
 
 /// Checks what takes more than one look: `setup` was made of `case`, which was read from `source`.
@@ -269,17 +268,10 @@ fn adjustments(case: &Case, setup: &FlightSetup) -> Built<()> {
     Ok(())
 }
 
-/// Whether all angles of the wing are constant, and its shape is, too.
-pub(crate) fn is_still(wing: &Wing) -> bool {
-    let is_constant = |law: &AngleLaw| matches!(law, AngleLaw::Constant(_));
-    let AngleLaws { phi, theta, psi } = &wing.motion.angles;
-    [phi, theta, psi].into_iter().all(is_constant) && wing.deformation.is_none()
-}
-
 /// Phase and length of the start of wings whose angles are all constant.
 fn still_motion(case: &Case, setup: &FlightSetup) -> Built<()> {
     let wings = &setup.animal.wings;
-    if wings.is_empty() || !wings.iter().all(is_still) || !case.joint.is_empty() {
+    if wings.is_empty() || !wings.iter().all(Wing::is_still) || !case.joint.is_empty() {
         return Ok(());
     }
     let plain = MotionCase::default();

@@ -6,7 +6,7 @@ use wingbeat_dynamics::{DynamicsError, Joint, JointModel, JointType};
 use wingbeat_flight::joints::{AxisTurn, Path};
 use wingbeat_flight::{DriftingFourier, FlightSetup};
 use wingbeat_math::DVec3;
-use wingbeat_model::Animal;
+use wingbeat_model::{Animal, mirror_name};
 
 use super::fault::Built;
 use super::flight::bends;
@@ -16,7 +16,6 @@ use super::numbers::vector;
 use super::{element, segment, wing};
 use crate::error::Fault;
 use crate::raw::{Case, JointCase, JointKind, TravelCase, TurnCase};
-use crate::sides::mirror_name;
 
 /// All joints, those mirrored to left wings among them.
 pub(super) fn build_all(case: &Case, animal: &Animal) -> Built<Vec<Joint>> {

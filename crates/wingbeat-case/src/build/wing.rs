@@ -2,7 +2,7 @@
 
 use wingbeat_math::DVec3;
 use wingbeat_model::planform::{Beta, ChordSize, Planform, WingShape};
-use wingbeat_model::{GridMesh, MassInput, Side, Spacing, Wing, WingMotion};
+use wingbeat_model::{GridMesh, MassInput, Side, Spacing, Wing, WingMotion, mirror_name};
 
 use super::fault::{Built, fault_at};
 use super::numbers::{given_mass, symmetric, vector};
@@ -12,7 +12,6 @@ use crate::error::Fault;
 use crate::raw::{
     BetaCase, Case, OutlineCase, PlanformCase, RectangleCase, StructureCase, WingCase, WingMeshCase,
 };
-use crate::sides::mirror_name;
 
 /// All wings in the order of their names, mirror images among them.
 pub(super) fn build_all(case: &Case) -> Built<Vec<Wing>> {
