@@ -4,7 +4,7 @@ use wingbeat_flight::AirModel;
 use wingbeat_model::Wing;
 
 use crate::loaded::LoadedCase;
-use crate::raw::{ControllerCase, MotionCase, TargetCase};
+use crate::raw::{ControllerCase, TargetCase};
 
 impl LoadedCase {
     /// Which keys change nothing, in sentences.
@@ -19,14 +19,9 @@ impl LoadedCase {
         if wings.is_empty() || !wings.iter().all(Wing::is_still) {
             return vec![];
         }
-        let plain = MotionCase::default();
-        let keys = [
-            ("phase", motion.phase != plain.phase),
-            ("start", motion.start != plain.start),
-            ("start_beats", motion.start_beats != plain.start_beats),
-        ];
-        let acts = keys.into_iter().filter(|k| k.1);
-        acts.map(|(key, _)| {
+        let acts = |key: &&str| ["phase", "start", "start_beats"].contains(key);
+        let keys = motion.unlike_default().into_iter().filter(acts);
+        keys.map(|key| {
             format!("motion.{key} changes nothing: no wing has angles that vary over the beat (wing.NAME.motion), and laws of joints have phases of their own")
         })
         .collect()
