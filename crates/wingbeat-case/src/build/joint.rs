@@ -214,9 +214,8 @@ fn anchors(
         .filter(|_| wing(parent).is_none())
         .map(|w| w.hinge_b);
     let at = joint.at_m.map(vector).or(own).ok_or_else(|| {
-        Fault::new(
+        Fault::missing(
             format!("{path}.at_m"),
-            "this key is missing",
             "the joint point in body axes in the reference configuration; on a wing in wing axes",
             "add `at_m = [..., ..., ...]`",
         )
@@ -309,9 +308,8 @@ fn axis(path: &str, joint: &JointCase) -> Built<DVec3> {
     let key = format!("{path}.axis");
     match joint.axis {
         Some(axis) => unit(&key, axis),
-        None => Err(Fault::new(
+        None => Err(Fault::missing(
             key,
-            "this key is missing",
             "a direction [x, y, z]",
             "axis = [0, 1, 0]",
         )),

@@ -224,9 +224,8 @@ fn fault_of_wing(path: &str, source: &Source<'_>, error: &wingbeat_model::ModelE
 fn hinge(source: &Source<'_>) -> Built<DVec3> {
     let (name, wing, mirrored) = source.of(|w| w.hinge_m.is_some());
     let missing = || {
-        Fault::new(
+        Fault::missing(
             format!("wing.{name}.hinge_m"),
-            "this key is missing",
             "the hinge in body axes [forward, right, down] in metres",
             "add `hinge_m = [..., ..., ...]`",
         )
@@ -243,9 +242,8 @@ fn mesh(source: &Source<'_>, side: Side) -> Built<GridMesh> {
     let (name, wing, mirrored) = source.of(|w| w.planform.is_some());
     let path = format!("wing.{name}.planform");
     let Some(case) = &wing.planform else {
-        return Err(Fault::new(
+        return Err(Fault::missing(
             path,
-            "this key is missing",
             "planform.beta, planform.rectangle, planform.outline or planform.nodes_m",
             format!("add [wing.{name}.planform.beta] with length_m, mean_chord_m and r2_hat"),
         ));
