@@ -376,6 +376,11 @@ enum Part<'a> {
     Index(usize),
 }
 
+/// A part of the raw case as the table that would be read; an empty one of a part that is left out.
+pub(crate) fn table_of(raw: &impl serde::Serialize) -> Table {
+    Table::try_from(raw).unwrap_or_default()
+}
+
 /// The value at a path.
 pub(crate) fn find<'a>(table: &'a Table, path: &str) -> Option<&'a Value> {
     let mut steps = parts(path);

@@ -13,7 +13,7 @@ use crate::error::Fault;
 use crate::raw::{
     BeamCase, BeamMassCase, RegionCase, ShellCase, ShellRule, StructureCase, VeinCase,
 };
-use crate::source::find;
+use crate::source::{find, table_of};
 
 /// Elements of a beam where nothing is said.
 const ELEMENTS: usize = 10;
@@ -70,7 +70,7 @@ pub(super) fn make(wing: Wing, path: &str, case: &StructureCase) -> Built<Wing> 
 /// A fault of the model traced to the table it is about; a number of a law is one along the span.
 fn traced(path: &str, case: &StructureCase, error: &ModelError) -> Fault {
     let fault = traced_to_key(path, case, error);
-    let whole = toml::Table::try_from(case).unwrap_or_default();
+    let whole = table_of(case);
     let inside = fault
         .key
         .strip_prefix(path)
@@ -137,7 +137,7 @@ fn of_row(path: &str, case: &StructureCase, table: &str, row: usize, problem: &s
         .map_or(table, |(_, name)| name);
     let inside = inside.strip_suffix(".table").unwrap_or(inside);
     let (holder, stem) = inside.rsplit_once('.').unwrap_or(("", inside));
-    let whole = toml::Table::try_from(case).unwrap_or_default();
+    let whole = table_of(case);
     let keys = find(&whole, holder).and_then(toml::Value::as_table);
     let begins = |key: &&String| key.starts_with(&format!("{stem}_table"));
     let key = keys.and_then(|t| t.keys().find(begins));
