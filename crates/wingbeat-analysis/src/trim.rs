@@ -6,6 +6,7 @@
 //! for the Jacobian and a line search; a failure keeps the best point found. A search with bounds stays inside;
 //! only where it finds nothing there, another one says where beyond them steady flight is.
 
+use wingbeat_dynamics::BodyMotion;
 use wingbeat_flight::{
     AirModel, FlightSetup, FormulationChoice, IntegratorChoice, MotionMode, PrescribedMotion,
     StabilizationChoice, StartState, TimeGrid, closes_loop,
@@ -213,9 +214,12 @@ fn periodic_joints(beat: &Beat, attitude: DMat3) -> Result<Vec<f64>, AnalysisErr
     if joints.is_empty() {
         return Ok(joints);
     }
-    let still = DVec3::ZERO;
+    let still = BodyMotion {
+        r: attitude,
+        ..BodyMotion::REST
+    };
     for _ in 0..SETTLING_BEATS {
-        let y = beat.state_with(still, attitude, still, still, &joints);
+        let y = beat.state_at(0.0, &still, &joints);
         joints = beat.advance(&y)?[JOINTS..].to_vec();
     }
     let sizes = beat.joint_sizes();
@@ -237,8 +241,13 @@ fn evaluate(setup: &FlightSetup, problem: &TrimProblem, x: &[f64]) -> Result<Tri
     let sizes = beat.joint_sizes();
     let joints = x[2 * n..].iter().zip(sizes).map(|(x, s)| x * s);
     let joints: Vec<f64> = joints.collect();
-    let attitude = steady::attitude([solution.body_pitch, solution.body_roll]);
-    let state = beat.state_with(DVec3::ZERO, attitude, velocity, rate, &joints);
+    let centre = BodyMotion {
+        p: DVec3::ZERO,
+        r: steady::attitude([solution.body_pitch, solution.body_roll]),
+        v: velocity,
+        w: rate,
+    };
+    let state = beat.state_at(0.0, &centre, &joints);
     let end = beat.advance(&state)?;
     let size = Measures {
         length,
