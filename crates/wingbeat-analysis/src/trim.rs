@@ -15,10 +15,12 @@ use wingbeat_math::{DMat3, DVec3, EulerSequence};
 
 use crate::AnalysisError;
 use crate::beat::{Beat, JOINTS, State, steadied};
+use crate::problem::{TrimProblem, first_controls};
 use crate::progress;
+use crate::residuals::{FlyerMotion, Measures, Residuals, attitude, turning};
 use crate::root::{Map, Search, largest, matrix_of, moved};
 use crate::solution::TrimSolution;
-use crate::steady::{self, AT_START, Measures, Residuals, Snapshot, TrimProblem, check_symmetric};
+use crate::steady::{AT_START, check_determined, check_symmetric};
 
 /// A trimmed flight, or the best point found.
 #[derive(Clone, Debug)]
@@ -139,13 +141,13 @@ pub fn trim(setup: &FlightSetup, problem: &TrimProblem) -> Result<Trim, Analysis
             "choose one: air.model = \"blade_element\", for instance",
         ));
     }
-    steady::check_determined(setup, problem)?;
+    check_determined(setup, problem)?;
     let first = Beat::new(setup, problem.settings.steps)?;
     let speed = first.wing_length() / first.period();
-    let rate = steady::turning(problem, problem.angles()) * first.period();
+    let rate = turning(problem, problem.angles()) * first.period();
     let mut x = Residuals::of(problem).point(problem.velocity / speed, rate);
-    x.extend(steady::first_controls(problem));
-    x.extend(periodic_joints(&first, steady::attitude(problem.angles()))?);
+    x.extend(first_controls(problem));
+    x.extend(periodic_joints(&first, attitude(problem.angles()))?);
     let begun = evaluate(&steadied(setup), problem, &x)?;
     check_symmetric(begun.solution.lateral, AT_START * ROUNDING)?;
     if !problem.bounds.is_empty() && problem.given.is_empty() {
@@ -243,7 +245,7 @@ fn evaluate(setup: &FlightSetup, problem: &TrimProblem, x: &[f64]) -> Result<Tri
     let joints: Vec<f64> = joints.collect();
     let centre = BodyMotion {
         p: DVec3::ZERO,
-        r: steady::attitude([solution.body_pitch, solution.body_roll]),
+        r: attitude([solution.body_pitch, solution.body_roll]),
         v: velocity,
         w: rate,
     };
@@ -254,7 +256,7 @@ fn evaluate(setup: &FlightSetup, problem: &TrimProblem, x: &[f64]) -> Result<Tri
         period,
         weight: beat.mass() * beat.gravity().length(),
     };
-    let seen = |y: &[f64]| Snapshot {
+    let seen = |y: &[f64]| FlyerMotion {
         centre: DVec3::from_slice(y),
         momentum: DVec3::from_slice(&y[7..]),
         spin: DVec3::from_slice(&y[10..]),
