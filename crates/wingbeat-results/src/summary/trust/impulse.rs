@@ -21,9 +21,9 @@ const APART: f64 = 0.1;
 /// Residual of the impulse over what is in play from which on forces have little to do with the vorticity.
 const MEANINGLESS: f64 = 0.5;
 
-/// The same that wakes which are cut may leave, as rows at their ends are drawn out by what is no longer there. The
-/// residual of membrane-wing, 0.012 with its whole wake, is 0.15 with three and a half chords of it, its lift 0.6 % lower;
-/// at an incidence of 40 deg it is 0.52 and the lift within 1 %.
+/// The same that wakes which are cut may leave, as rows at their ends are drawn out by what is no longer there.
+/// The residual of membrane-wing, 0.012 with its whole wake, is 0.15 with three and a half chords of it, its lift
+/// 0.6 % lower; at an incidence of 40 deg it is 0.52 and the lift within 1 %.
 /// More than all that is in play no cut leaves.
 const OF_A_CUT: f64 = 1.0;
 
