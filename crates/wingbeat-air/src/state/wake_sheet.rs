@@ -74,15 +74,15 @@ impl WakeSheet {
 
     /// Circulation of the newest ring of a column, zero while there is none [m2/s].
     pub(crate) fn newest(&self, column: usize) -> f64 {
-        self.from_newest(0, column)
+        self.back_from_newest(0, column)
     }
 
     /// The same of the ring shed before it.
     pub(crate) fn before_newest(&self, column: usize) -> f64 {
-        self.from_newest(1, column)
+        self.back_from_newest(1, column)
     }
 
-    fn from_newest(&self, back: usize, column: usize) -> f64 {
+    fn back_from_newest(&self, back: usize, column: usize) -> f64 {
         let row = self.rows().checked_sub(back + 1);
         row.map_or(0.0, |row| self.ring(row, column))
     }
