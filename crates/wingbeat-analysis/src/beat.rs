@@ -196,38 +196,25 @@ impl Beat {
     /// `velocity` [m/s] (N components), the root has the attitude `rotation` (root to N) and the
     /// angular velocity `rate` [rad/s] (root components); free joints at their start.
     pub fn state(&self, centre: DVec3, rotation: DMat3, velocity: DVec3, rate: DVec3) -> State {
-        self.state_with(centre, rotation, velocity, rate, &self.joints_at_start())
+        let centre = BodyMotion {
+            p: centre,
+            r: rotation,
+            v: velocity,
+            w: rate,
+        };
+        self.state_at(0.0, &centre, &self.joints_at_start())
     }
 
-    /// As [`Self::state`], the free joints at `joints` (coordinates [rad or m], then speeds).
-    pub fn state_with(
-        &self,
-        centre: DVec3,
-        rotation: DMat3,
-        velocity: DVec3,
-        rate: DVec3,
-        joints: &[f64],
-    ) -> State {
-        self.state_at(0.0, centre, rotation, velocity, rate, joints)
-    }
-
-    /// The same at `time` [s] within the beat.
-    pub fn state_at(
-        &self,
-        time: f64,
-        centre: DVec3,
-        rotation: DMat3,
-        velocity: DVec3,
-        rate: DVec3,
-        joints: &[f64],
-    ) -> State {
+    /// The state at `time` [s] within the beat in which the mass centre moves like `centre`, the frame of the root put
+    /// there, and the free joints are at `joints` (coordinates [rad or m], then speeds).
+    pub fn state_at(&self, time: f64, centre: &BodyMotion, joints: &[f64]) -> State {
         let whole = self.whole(time, joints);
-        let h = rotation * (whole.inertia * rate + whole.h);
+        let h = centre.r * (whole.inertia * centre.w + whole.h);
         let mut y = vec![0.0; JOINTS];
-        centre.write_to_slice(&mut y);
-        let q = DQuat::from_mat3(&rotation).normalize();
+        centre.p.write_to_slice(&mut y);
+        let q = DQuat::from_mat3(&centre.r).normalize();
         q.write_to_slice(&mut y[3..]);
-        (self.mass * velocity).write_to_slice(&mut y[7..]);
+        (self.mass * centre.v).write_to_slice(&mut y[7..]);
         h.write_to_slice(&mut y[10..]);
         y.extend_from_slice(joints);
         y

@@ -14,12 +14,12 @@ use wingbeat_math::DVec3;
 use crate::AnalysisError;
 use crate::departure::{Limits, Reference};
 use crate::part::Orbit;
+use crate::problem::{TrimProblem, TrimSettings};
 use crate::regulator::observer::ProcessNoise;
 use crate::regulator::{Regulator, Timing, Weights};
 use crate::route::Route;
 use crate::sensors::Sensors;
 use crate::stabiliser::{ProportionalDerivative, Stiffness};
-use crate::steady::{TrimProblem, TrimSettings};
 use crate::steering::{Held, Law, Steering};
 use crate::trim::{Trim, trim};
 

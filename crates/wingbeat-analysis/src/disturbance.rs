@@ -77,11 +77,11 @@ pub fn disturbed(trim: &Trim, by: &Perturbation) -> State {
     let level = Level::new(root.r, trim.beat.gravity());
     let with = Disturbance::new(&level, by);
     let v = DVec3::from_slice(&trim.state[7..]) / trim.beat.mass();
-    trim.beat.state_with(
-        DVec3::ZERO,
-        with.turned * level.to_root.transpose(),
-        trim.velocity + with.turn * (v - trim.velocity) + level.to_n * by.velocity,
-        root.w + with.rate,
-        &trim.state[JOINTS..],
-    )
+    let centre = BodyMotion {
+        p: DVec3::ZERO,
+        r: with.turned * level.to_root.transpose(),
+        v: trim.velocity + with.turn * (v - trim.velocity) + level.to_n * by.velocity,
+        w: root.w + with.rate,
+    };
+    trim.beat.state_at(0.0, &centre, &trim.state[JOINTS..])
 }

@@ -13,10 +13,11 @@ use wingbeat_flight::FlightSetup;
 use crate::AnalysisError;
 use crate::plausibility::stroke_amplitude;
 use crate::power::power_of_trim;
+use crate::problem::TrimProblem;
 use crate::progress;
+use crate::residuals::Residuals;
 use crate::solution::TrimSolution;
-use crate::steady::TrimProblem;
-use crate::steady::{Residuals, check};
+use crate::steady::check;
 use crate::trim::{Trim, trim, trim_from};
 use crate::unknown::{Bound, Unknown};
 

@@ -1,5 +1,6 @@
 //! The level frame of a reference attitude, and small departures from it.
 
+use wingbeat_dynamics::BodyMotion;
 use wingbeat_math::{DMat3, DQuat, DVec3, rotation_vector};
 
 use crate::beat::{Beat, State};
@@ -109,9 +110,13 @@ impl Perturbation {
     /// The same at `time` [s] within the beat.
     pub fn state_at(&self, beat: &Beat, time: f64, level: &Level, joints: &[f64]) -> State {
         let turned = level.to_n * DMat3::from_quat(DQuat::from_scaled_axis(self.tilt));
-        let r = turned * level.to_root.transpose();
-        let rate = level.to_root * self.rate;
-        beat.state_at(time, DVec3::ZERO, r, turned * self.velocity, rate, joints)
+        let centre = BodyMotion {
+            p: DVec3::ZERO,
+            r: turned * level.to_root.transpose(),
+            v: turned * self.velocity,
+            w: level.to_root * self.rate,
+        };
+        beat.state_at(time, &centre, joints)
     }
 
     /// What the state at the start of a beat looks like.

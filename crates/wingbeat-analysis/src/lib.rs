@@ -50,10 +50,12 @@ mod moving;
 mod part;
 mod plausibility;
 mod power;
+mod problem;
 pub mod progress;
 mod realisation;
 mod regulator;
 mod request;
+mod residuals;
 mod rigid_body;
 mod root;
 mod route;
@@ -85,15 +87,15 @@ pub use plausibility::{
     kept_wake, stroke_amplitude, way_in_a_step,
 };
 pub use power::{Power, power, power_of_trim, power_with_wake};
+pub use problem::{TrimProblem, TrimSettings, turned_inside_out};
 pub use request::TrimRequest;
+pub use residuals::Residuals;
 pub use solution::TrimSolution;
 pub use stability::{
     LOADS, LinearModel, floquet, floquet_of_trim, input_matrix, linear_model, orbit_monodromy,
     trimmed_controls,
 };
-pub use steady::{
-    Residuals, SPEED_OF_SOUND, TRIM_STEPS, TrimProblem, TrimSettings, turned_inside_out,
-};
+pub use steady::{SPEED_OF_SOUND, TRIM_STEPS};
 pub use sweep::{Lost, Sweep, Swept, sweep};
 pub use table::{rigid_animal, table_model};
 pub use trim::{Trim, trim, trim_from};

@@ -4,7 +4,8 @@ use wingbeat_flight::FlightSetup;
 use wingbeat_math::DVec3;
 
 use crate::AnalysisError;
-use crate::steady::{Residuals, TrimProblem, TrimSettings};
+use crate::problem::{TrimProblem, TrimSettings};
+use crate::residuals::Residuals;
 use crate::unknown::{Bound, Unknown};
 
 /// The unknowns of flight that turns or slips sideways, beside those of straight flight.

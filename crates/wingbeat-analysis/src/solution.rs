@@ -4,8 +4,9 @@ use wingbeat_flight::FlightSetup;
 use wingbeat_model::motion::Adjustment;
 
 use crate::AnalysisError;
+use crate::problem::TrimProblem;
 use crate::root::largest;
-use crate::steady::{TrimProblem, check_symmetric};
+use crate::steady::check_symmetric;
 use crate::unknown::{Unknown, adjusted};
 
 /// The solution of a [`TrimProblem`], or the best point found.

@@ -11,8 +11,8 @@ use wingbeat_math::DVec3;
 use crate::AnalysisError;
 use crate::plausibility::stroke_amplitude;
 use crate::power::{Power, power_of_trim};
+use crate::problem::TrimProblem;
 use crate::progress;
-use crate::steady::TrimProblem;
 use crate::trim::{Trim, trim, trim_from};
 use crate::unknown::Unknown;
 

@@ -6,6 +6,7 @@
 //! for the Jacobian and a line search; a failure keeps the best point found. A search with bounds stays inside;
 //! only where it finds nothing there, another one says where beyond them steady flight is.
 
+use wingbeat_dynamics::BodyMotion;
 use wingbeat_flight::{
     AirModel, FlightSetup, FormulationChoice, IntegratorChoice, MotionMode, PrescribedMotion,
     StabilizationChoice, StartState, TimeGrid, closes_loop,
@@ -14,10 +15,12 @@ use wingbeat_math::{DMat3, DVec3, EulerSequence};
 
 use crate::AnalysisError;
 use crate::beat::{Beat, JOINTS, State, steadied};
+use crate::problem::{TrimProblem, first_controls};
 use crate::progress;
+use crate::residuals::{FlyerMotion, Measures, Residuals, attitude, turning};
 use crate::root::{Map, Search, largest, matrix_of, moved};
 use crate::solution::TrimSolution;
-use crate::steady::{self, AT_START, Measures, Residuals, Snapshot, TrimProblem, check_symmetric};
+use crate::steady::{AT_START, check_determined, check_symmetric};
 
 /// A trimmed flight, or the best point found.
 #[derive(Clone, Debug)]
@@ -138,13 +141,13 @@ pub fn trim(setup: &FlightSetup, problem: &TrimProblem) -> Result<Trim, Analysis
             "choose one: air.model = \"blade_element\", for instance",
         ));
     }
-    steady::check_determined(setup, problem)?;
+    check_determined(setup, problem)?;
     let first = Beat::new(setup, problem.settings.steps)?;
     let speed = first.wing_length() / first.period();
-    let rate = steady::turning(problem, problem.angles()) * first.period();
+    let rate = turning(problem, problem.angles()) * first.period();
     let mut x = Residuals::of(problem).point(problem.velocity / speed, rate);
-    x.extend(steady::first_controls(problem));
-    x.extend(periodic_joints(&first, steady::attitude(problem.angles()))?);
+    x.extend(first_controls(problem));
+    x.extend(periodic_joints(&first, attitude(problem.angles()))?);
     let begun = evaluate(&steadied(setup), problem, &x)?;
     check_symmetric(begun.solution.lateral, AT_START * ROUNDING)?;
     if !problem.bounds.is_empty() && problem.given.is_empty() {
@@ -213,9 +216,12 @@ fn periodic_joints(beat: &Beat, attitude: DMat3) -> Result<Vec<f64>, AnalysisErr
     if joints.is_empty() {
         return Ok(joints);
     }
-    let still = DVec3::ZERO;
+    let still = BodyMotion {
+        r: attitude,
+        ..BodyMotion::REST
+    };
     for _ in 0..SETTLING_BEATS {
-        let y = beat.state_with(still, attitude, still, still, &joints);
+        let y = beat.state_at(0.0, &still, &joints);
         joints = beat.advance(&y)?[JOINTS..].to_vec();
     }
     let sizes = beat.joint_sizes();
@@ -237,15 +243,20 @@ fn evaluate(setup: &FlightSetup, problem: &TrimProblem, x: &[f64]) -> Result<Tri
     let sizes = beat.joint_sizes();
     let joints = x[2 * n..].iter().zip(sizes).map(|(x, s)| x * s);
     let joints: Vec<f64> = joints.collect();
-    let attitude = steady::attitude([solution.body_pitch, solution.body_roll]);
-    let state = beat.state_with(DVec3::ZERO, attitude, velocity, rate, &joints);
+    let centre = BodyMotion {
+        p: DVec3::ZERO,
+        r: attitude([solution.body_pitch, solution.body_roll]),
+        v: velocity,
+        w: rate,
+    };
+    let state = beat.state_at(0.0, &centre, &joints);
     let end = beat.advance(&state)?;
     let size = Measures {
         length,
         period,
         weight: beat.mass() * beat.gravity().length(),
     };
-    let seen = |y: &[f64]| Snapshot {
+    let seen = |y: &[f64]| FlyerMotion {
         centre: DVec3::from_slice(y),
         momentum: DVec3::from_slice(&y[7..]),
         spin: DVec3::from_slice(&y[10..]),

@@ -108,16 +108,12 @@ fn explain(path: &str, message: &str) -> Fault {
     }
     if message.starts_with("missing field") {
         let key = inside(path, quoted[0]);
-        return Fault::new(
-            key,
-            "this key is missing",
-            "it has no default",
-            match quoted[0] {
-                // The only one there is.
-                "format" => "add `format = 1`".to_owned(),
-                key => format!("add `{key} = ...`"),
-            },
-        );
+        let remedy = match quoted[0] {
+            // The only one there is.
+            "format" => "add `format = 1`".to_owned(),
+            key => format!("add `{key} = ...`"),
+        };
+        return Fault::missing(key, "it has no default", remedy);
     }
     let (problem, expected) = message.split_once(", expected ").unwrap_or((message, ""));
     if let Some(fault) = of_choice(path, problem, expected) {

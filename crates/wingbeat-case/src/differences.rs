@@ -7,7 +7,7 @@ use toml::{Table, Value};
 
 use crate::LoadedCase;
 use crate::keys::effective;
-use crate::source::in_one_line;
+use crate::source::{in_one_line, table_of};
 
 /// A key that two cases do not have alike.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -39,7 +39,7 @@ pub fn differences(first: &LoadedCase, second: &LoadedCase) -> Vec<Difference> {
 
 fn keys(case: &LoadedCase) -> BTreeMap<String, Value> {
     let mut keys = BTreeMap::new();
-    let table = Table::try_from(&case.raw).unwrap_or_default(); // what was read can be written
+    let table = table_of(&case.raw);
     gather("", effective(&table, &table), &mut keys);
     keys
 }

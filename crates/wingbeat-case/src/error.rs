@@ -34,6 +34,15 @@ impl Fault {
             remedy: remedy.into(),
         }
     }
+
+    /// A key that has to be there and is not.
+    pub fn missing(
+        key: impl Into<String>,
+        allowed: impl Into<String>,
+        remedy: impl Into<String>,
+    ) -> Self {
+        Self::new(key, "this key is missing", allowed, remedy)
+    }
 }
 
 /// Something in a case that cannot be flown.

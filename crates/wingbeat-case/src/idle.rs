@@ -1,10 +1,10 @@
 //! Keys that change nothing in this flight and are no contradiction: they are named, not refused.
 
 use wingbeat_flight::AirModel;
+use wingbeat_model::Wing;
 
-use crate::build::is_still;
 use crate::loaded::LoadedCase;
-use crate::raw::{ControllerCase, MotionCase, TargetCase};
+use crate::raw::{ControllerCase, TargetCase};
 
 impl LoadedCase {
     /// Which keys change nothing, in sentences.
@@ -16,17 +16,12 @@ impl LoadedCase {
     /// moments move.
     fn idle_motion(&self) -> Vec<String> {
         let (wings, motion) = (&self.setup.animal.wings, &self.raw.motion);
-        if wings.is_empty() || !wings.iter().all(is_still) {
+        if wings.is_empty() || !wings.iter().all(Wing::is_still) {
             return vec![];
         }
-        let plain = MotionCase::default();
-        let keys = [
-            ("phase", motion.phase != plain.phase),
-            ("start", motion.start != plain.start),
-            ("start_beats", motion.start_beats != plain.start_beats),
-        ];
-        let acts = keys.into_iter().filter(|k| k.1);
-        acts.map(|(key, _)| {
+        let acts = |key: &&str| ["phase", "start", "start_beats"].contains(key);
+        let keys = motion.unlike_default().into_iter().filter(acts);
+        keys.map(|key| {
             format!("motion.{key} changes nothing: no wing has angles that vary over the beat (wing.NAME.motion), and laws of joints have phases of their own")
         })
         .collect()

@@ -31,7 +31,6 @@ mod output;
 pub mod presets;
 pub mod raw;
 mod resolve;
-mod sides;
 mod source;
 mod species;
 mod trimmed;

@@ -5,9 +5,9 @@ use std::ops::Range;
 
 use toml::de::{DeTable, DeValue};
 use toml::{Spanned, Table, Value};
+use wingbeat_model::mirror_name;
 
 use crate::error::{CaseError, Fault};
-use crate::sides::mirror_name;
 
 /// Parts of a key at most; `wing.right.deformation.twist[0].course.fourier.cosine_deg[0]` has ten.
 const MAX_PARTS: usize = 32;
@@ -374,6 +374,11 @@ fn parts(path: &str) -> impl Iterator<Item = Part<'_>> {
 enum Part<'a> {
     Name(&'a str),
     Index(usize),
+}
+
+/// A part of the raw case as the table that would be read; an empty one of a part that is left out.
+pub(crate) fn table_of(raw: &impl serde::Serialize) -> Table {
+    Table::try_from(raw).unwrap_or_default()
 }
 
 /// The value at a path.

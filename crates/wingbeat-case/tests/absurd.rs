@@ -3,12 +3,12 @@
 
 use std::path::Path;
 
+use crate::common::refusal;
 use wingbeat_case::{LoadedCase, presets};
 
 /// What is said about the fruit fly with one more override.
-fn refusal(set: &str) -> String {
-    let case = LoadedCase::find("fruit-fly-hover", &[set.to_owned()]);
-    case.expect_err(set).to_string()
+fn refused(set: &str) -> String {
+    refusal("fruit-fly-hover", &[set])
 }
 
 #[test]
@@ -34,7 +34,7 @@ fn refuses_absurd_sizes() {
         ),
         ("corrector.max_passes", "9000000000000000000", "<= 10000"),
     ] {
-        let said = refusal(&format!("{key}={value}"));
+        let said = refused(&format!("{key}={value}"));
         assert!(said.contains(allowed) && said.contains("try: "), "{said}");
         // Too many steps are the fault of the longest flight, whatever made them many.
         let named = key != "time.steps_per_beat";
@@ -52,7 +52,7 @@ fn refuses_winds_that_no_air_has() {
         (gust, "air.gust[0].turbulence.time_scale_s"),
         (street, "air.vortex_street.spacing_m"),
     ] {
-        let said = refusal(set);
+        let said = refused(set);
         assert!(said.contains(key), "{said}");
     }
 }
@@ -61,7 +61,7 @@ fn refuses_winds_that_no_air_has() {
 #[test]
 fn refuses_a_scale_beyond_numbers_by_name() {
     for scale in ["1e200", "1e-200"] {
-        let said = refusal(&format!("animal.scale={scale}"));
+        let said = refused(&format!("animal.scale={scale}"));
         assert!(said.contains("animal.scale"), "{said}");
     }
 }
@@ -76,7 +76,7 @@ fn refuses_sizes_beyond_numbers_by_name() {
         ("body.part.thorax.length_m", "1e200"),
         ("wing.right.mass_kg", "1e308"),
     ] {
-        let said = refusal(&format!("{set}={value}"));
+        let said = refused(&format!("{set}={value}"));
         assert!(said.contains(&format!("{set} = {value}")), "{said}");
         assert!(said.contains("beyond all numbers"), "{said}");
     }

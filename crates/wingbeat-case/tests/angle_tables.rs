@@ -5,7 +5,7 @@ use std::path::Path;
 
 use wingbeat_case::LoadedCase;
 
-use crate::slips::refusal;
+use crate::common::refusal;
 
 #[test]
 fn refuses_tables_without_a_header() {

@@ -3,8 +3,9 @@
 use std::f64::consts::PI;
 use std::path::Path;
 
+use crate::common;
 use wingbeat_case::LoadedCase;
-use wingbeat_flight::Simulation;
+use wingbeat_flight::Record;
 use wingbeat_math::DVec3;
 
 /// Stream [m/s].
@@ -36,15 +37,8 @@ fn gliding(half_span: f64, cores: &str) -> [f64; 2] {
 /// Force of the air \[N\] and impulse of all vorticity \[kg m/s\], N, step by step.
 fn fly(text: &str) -> Vec<[DVec3; 2]> {
     let case = LoadedCase::from_text("attached", text, Path::new(""), &[]).unwrap();
-    let mut flight = Simulation::new(case.setup).unwrap();
-    let mut flown = Vec::new();
-    while !flight.finished() {
-        flight.step().unwrap();
-        let record = flight.record();
-        let force = record.air.iter().map(|a| a.force).sum();
-        flown.push([force, record.vortex_impulse]);
-    }
-    flown
+    let seen = |record: &Record| [record.air_force(), record.vortex_impulse];
+    common::fly(case.setup)[1..].iter().map(seen).collect()
 }
 
 /// A vortex lattice of straight thin filaments, 25 chords long behind rings without inset (4 x 60 panels, a program of

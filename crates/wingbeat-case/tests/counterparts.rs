@@ -4,8 +4,8 @@ use std::path::Path;
 
 use wingbeat_case::{LoadedCase, case_of};
 
+use crate::common::refusal;
 use crate::idle::ANIMAL;
-use crate::slips::refusal;
 
 /// Doubts about an animal of two pairs of wings on one hinge on either side; strokes of the right ones \[deg\].
 fn doubts(names: [&str; 2], strokes: [f64; 2], more: &str) -> String {

@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use crate::common::fly;
 use wingbeat_case::LoadedCase;
 use wingbeat_flight::{Record, Simulation};
 
@@ -40,13 +41,7 @@ fn load(set: &[&str]) -> Result<LoadedCase, String> {
 }
 
 fn flown(set: &[&str]) -> Vec<Record> {
-    let case = load(set).unwrap_or_else(|e| panic!("{e}"));
-    let mut flight = Simulation::new(case.setup).unwrap();
-    let mut records = vec![flight.record().clone()];
-    while !flight.finished() {
-        records.push(flight.step().unwrap().clone());
-    }
-    records
+    fly(load(set).unwrap_or_else(|e| panic!("{e}")).setup)
 }
 
 /// The angular velocity of the start is that of the release: until then a held body does not turn, and its

@@ -1,6 +1,7 @@
 //! Wings on passive hinges in the lattice, and flyers that are light as a whole: the air that wings carry along
 //! weighs more than what carries them.
 
+use crate::common::fly;
 use wingbeat_case::LoadedCase;
 use wingbeat_flight::{FlightError, FlightSetup, Record, Simulation};
 
@@ -37,18 +38,7 @@ fn light_flyer(pitch: &str, set: &[&str]) -> FlightSetup {
 
 /// The robot's records.
 fn robot(set: &[&str]) -> Vec<Record> {
-    flown(setup(set), set)
-}
-
-/// The records of a flight.
-fn flown(setup: FlightSetup, set: &[&str]) -> Vec<Record> {
-    let mut flight = Simulation::new(setup).expect("a start");
-    let mut records = vec![flight.record().clone()];
-    while !flight.finished() {
-        let step = flight.step().unwrap_or_else(|e| panic!("{set:?}: {e}"));
-        records.push(step.clone());
-    }
-    records
+    fly(setup(set))
 }
 
 /// Most steps in a row in which the force on the right wing turns back.
@@ -210,7 +200,7 @@ fn agrees_a_flyer_that_is_light_as_a_whole_by_either_integrator() {
                     "time.beats=1.25".into(),
                 ];
                 let set: Vec<&str> = set.iter().map(String::as_str).collect();
-                let records = flown(light_flyer(pitch, &set), &set);
+                let records = fly(light_flyer(pitch, &set));
                 let (rows, most) = (alternating(&records), passes(&records));
                 // Since the release; before, a support takes part.
                 let (last, released) = (&records[records.len() - 1], &records[records.len() * 2 / 5 + 1]);
@@ -285,7 +275,7 @@ fn conserves_momentum_of_a_light_flyer_with_elastic_wings() {
     ];
     let fly = |more: &[&str]| {
         let set = [&own, more].concat();
-        flown(light_flyer("1e-5", &set), &set)
+        fly(light_flyer("1e-5", &set))
     };
     let rigid = fly(&[]);
     let end = |records: &[Record]| records[records.len() - 1].mass_centre;
@@ -394,7 +384,7 @@ fn limit_vibrations_of_an_elastic_wing_on_a_hinge_do_not_grow() {
     let lattice = "air={model=\"vortex_lattice\", shed=[\"trailing\"], body=false, max_wake_rows=20, stream_m_s=[-8, 0, 0]}";
     for air in [lattice, stream] {
         let set = [air, incidence, "wing.right.mesh.spanwise=6"];
-        let records = flown(slender(&set), &set);
+        let records = fly(slender(&set));
         let rate = |r: &Record| r.joints[0][1];
         let rough = |part: &[Record]| {
             let second = |r: &[Record]| (rate(&r[2]) - 2.0 * rate(&r[1]) + rate(&r[0])).abs();
@@ -423,7 +413,7 @@ fn limit_an_elastic_wing_on_a_hinge_in_thin_air_moves_as_in_none() {
     ];
     let angles = |air: &[&str]| -> Vec<f64> {
         let set = [&own, air].concat();
-        let records = flown(slender(&set), &set);
+        let records = fly(slender(&set));
         records.iter().map(|r| r.joints[0][0]).collect()
     };
     let none = angles(&["air.model=none"]);

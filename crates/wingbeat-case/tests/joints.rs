@@ -1,5 +1,6 @@
 //! Bodies and joints from case files: the presets fly alone and with the vortex lattice.
 
+use crate::common;
 use wingbeat_analysis::{TrimProblem, trim};
 use wingbeat_case::{LoadedCase, presets};
 use wingbeat_dynamics::ElementLaw;
@@ -10,17 +11,7 @@ use wingbeat_math::DVec3;
 fn fly(name: &str, set: &[&str]) -> Vec<Record> {
     let set: Vec<String> = set.iter().map(|s| (*s).to_owned()).collect();
     let case = LoadedCase::find(name, &set).unwrap_or_else(|e| panic!("{e}"));
-    let mut flight = Simulation::new(case.setup.clone()).unwrap_or_else(|e| panic!("{e}"));
-    let mut records = vec![flight.record().clone()];
-    while !flight.finished() {
-        records.push(
-            flight
-                .step()
-                .unwrap_or_else(|e| panic!("{name}: {e}"))
-                .clone(),
-        );
-    }
-    records
+    common::fly(case.setup)
 }
 
 /// Whether loads bend its wings.

@@ -1,5 +1,6 @@
 //! Flights whose wakes are summed on meshes.
 
+use crate::common::fly;
 use wingbeat_case::LoadedCase;
 use wingbeat_flight::{Record, Simulation};
 
@@ -11,15 +12,6 @@ fn case(more: &[&str]) -> LoadedCase {
 }
 
 const MESH: [&str; 2] = ["air.summation=mesh", "air.summation_tolerance=1e-3"];
-
-fn fly(case: &LoadedCase) -> Vec<Record> {
-    let mut flight = Simulation::new(case.setup.clone()).unwrap();
-    let mut records = vec![flight.record().clone()];
-    while !flight.finished() {
-        records.push(flight.step().unwrap().clone());
-    }
-    records
-}
 
 /// Largest difference of the force of the air over the largest force.
 fn apart(a: &[Record], b: &[Record]) -> f64 {
@@ -34,8 +26,8 @@ fn apart(a: &[Record], b: &[Record]) -> f64 {
 fn agrees_flights_on_meshes_with_sums_of_single_precision() {
     let ground = "air.ground={point_m=[0,0,3e-3],normal=[0,0,-1]}";
     for more in [&["air.mirror=false"][..], &["air.mirror=true"], &[ground]] {
-        let [mesh, direct] =
-            [&MESH[..], &["air.summation=single"]].map(|how| fly(&case(&[how, more].concat())));
+        let [mesh, direct] = [&MESH[..], &["air.summation=single"]]
+            .map(|how| fly(case(&[how, more].concat()).setup));
         let apart = apart(&mesh, &direct);
         println!("{more:?}: {apart:e}");
         // Sums are good to 4e-4 of the velocity of the wake; measured up to 2e-4.
@@ -46,7 +38,7 @@ fn agrees_flights_on_meshes_with_sums_of_single_precision() {
 #[test]
 fn exact_flights_on_meshes_go_on_bit_for_bit() {
     let case = case(&MESH);
-    let whole = fly(&case);
+    let whole = fly(case.setup.clone());
     let mut flight = Simulation::new(case.setup.clone()).unwrap();
     for _ in 0..40 {
         flight.step().unwrap();

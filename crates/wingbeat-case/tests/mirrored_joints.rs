@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use crate::common;
 use wingbeat_analysis::{TrimProblem, Unknown, trim};
 use wingbeat_case::LoadedCase;
 use wingbeat_flight::{AirModel, Record, Simulation};
@@ -50,12 +51,7 @@ fn load(set: &[&str]) -> Result<LoadedCase, String> {
 }
 
 fn fly(set: &[&str]) -> Vec<Record> {
-    let mut flight = Simulation::new(load(set).unwrap().setup).unwrap();
-    let mut records = vec![flight.record().clone()];
-    while !flight.finished() {
-        records.push(flight.step().unwrap().clone());
-    }
-    records
+    common::fly(load(set).unwrap().setup)
 }
 
 fn place(record: &Record, body: usize) -> DVec3 {

@@ -1,8 +1,10 @@
 //! What dampers and stops take up, where steps are long beside what happens at them.
 
 use std::path::Path;
+
+use crate::common::fly;
 use wingbeat_case::LoadedCase;
-use wingbeat_flight::{Record, Simulation};
+use wingbeat_flight::Record;
 
 /// A pendulum without weight on a hinge with this element, that starts at this rate \[deg/s\], in steps of 1 ms.
 fn flight(element: &str, rate: f64) -> Vec<Record> {
@@ -13,13 +15,9 @@ fn flight(element: &str, rate: f64) -> Vec<Record> {
          [joint.ja]\nchild = \"a\"\nat_m = [0, 0, 0]\nkind = \"revolute\"\naxis = [0, 1, 0]\nstart_deg_s = [{rate}]\n\
          element = [{element}]\n"
     );
-    let case = LoadedCase::from_text("pendulum", &text, Path::new(""), &[]).unwrap();
-    let mut flight = Simulation::new(case.setup).unwrap();
-    let mut records = vec![flight.record().clone()];
-    while !flight.finished() {
-        records.push(flight.step().unwrap().clone());
-    }
-    records
+    fly(LoadedCase::from_text("pendulum", &text, Path::new(""), &[])
+        .unwrap()
+        .setup)
 }
 
 /// A hinge that only a damped stop acts at: its work is that of the hinge, and what has been lost of the energy

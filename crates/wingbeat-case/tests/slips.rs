@@ -2,13 +2,8 @@
 
 use std::path::Path;
 
+use crate::common::refusal;
 use wingbeat_case::{LoadedCase, presets};
-
-/// What is said about a preset with overrides.
-pub fn refusal(case: &str, set: &[&str]) -> String {
-    let set: Vec<String> = set.iter().map(|s| (*s).to_owned()).collect();
-    LoadedCase::find(case, &set).expect_err(case).to_string()
-}
 
 #[test]
 fn refuses_slips_by_name() {

@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use crate::common::go_on;
 use wingbeat_case::LoadedCase;
 use wingbeat_flight::{FlightError, FlightSetup, Record, Simulation, growing_joint, inertia_about};
 
@@ -47,12 +48,7 @@ start_deg = [1.0]
 }
 
 fn flown(setup: FlightSetup) -> Result<Vec<Record>, FlightError> {
-    let mut flight = Simulation::new(setup)?;
-    let mut records = vec![flight.record().clone()];
-    while !flight.finished() {
-        records.push(flight.step()?.clone());
-    }
-    Ok(records)
+    go_on(&mut Simulation::new(setup)?)
 }
 
 /// What is left of a wing on a spring and a damper grows as the largest root of the method has it: by a damper

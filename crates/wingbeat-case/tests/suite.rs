@@ -4,6 +4,7 @@ mod absurd;
 mod angle_tables;
 mod attached_wakes;
 mod bodies_in_wind;
+mod common;
 mod counterparts;
 mod defaults;
 mod differences;

@@ -55,14 +55,17 @@ fn setup(preset: &str) -> FlightSetup {
 
 /// Wings that beat, in distinction to tails.
 fn beats(wing: &Wing) -> bool {
-    !matches!(wing.motion.angles.phi, AngleLaw::Constant(_))
+    !wing.motion.angles.phi.is_constant()
 }
 
 /// Angles of a wing that change over the beat.
 fn angles(wing: &Wing) -> usize {
     let a = &wing.motion.angles;
-    let still = |law: &&AngleLaw| !matches!(law, AngleLaw::Constant(_));
-    [&a.phi, &a.theta, &a.psi].into_iter().filter(still).count()
+    let varies = |law: &&AngleLaw| !law.is_constant();
+    [&a.phi, &a.theta, &a.psi]
+        .into_iter()
+        .filter(varies)
+        .count()
 }
 
 fn air(setup: &FlightSetup) -> Air {

@@ -6,7 +6,7 @@ use std::path::Path;
 
 use wingbeat_case::LoadedCase;
 
-use crate::slips::refusal;
+use crate::common::refusal;
 
 /// Samples of a stroke in time: five wingbeats at the frequency `at` \[wingbeats per ms\] of each time \[ms\].
 fn filmed(at: impl Fn(f64) -> f64) -> String {

@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use crate::common::go_on;
 use wingbeat_case::LoadedCase;
 use wingbeat_flight::{FlightError, FlightSetup, MotionMode, PrescribedMotion, Record, Simulation};
 use wingbeat_math::{DMat3, DVec3};
@@ -46,16 +47,8 @@ fn setup(set: &[&str]) -> FlightSetup {
     case.unwrap_or_else(|e| panic!("{e}")).setup
 }
 
-fn fly(flight: &mut Simulation) -> Result<Vec<Record>, FlightError> {
-    let mut records = vec![flight.record().clone()];
-    while !flight.finished() {
-        records.push(flight.step()?.clone());
-    }
-    Ok(records)
-}
-
 fn flown(set: &[&str]) -> Result<Vec<Record>, FlightError> {
-    fly(&mut Simulation::new(setup(set)).unwrap())
+    go_on(&mut Simulation::new(setup(set)).unwrap())
 }
 
 /// Largest step of the angle of the joint, and its last value \[deg\].
@@ -118,7 +111,7 @@ fn exact_angles_of_joints_go_on_in_resumed_flights() {
         whole.step().unwrap();
     }
     let mut again = Simulation::resume(setup, states.swap_remove(100)).unwrap();
-    let end = fly(&mut again).unwrap().pop().unwrap();
+    let end = go_on(&mut again).unwrap().pop().unwrap();
     assert_eq!(end.joints, whole.record().joints);
 }
 
@@ -171,7 +164,7 @@ fn exact_yaw_goes_on_beyond_a_quarter_turn() {
             "flight={ mode = \"tethered\", tether = { yaw = { rate_deg_s = 4000 } } }",
             start,
         ]);
-        fly(&mut Simulation::new(case).unwrap()).unwrap()
+        go_on(&mut Simulation::new(case).unwrap()).unwrap()
     };
     for (start, from) in [("flight.yaw_deg=0", 0.0_f64), ("flight.yaw_deg=171", 171.0)] {
         for record in at(start) {
@@ -219,13 +212,13 @@ fn exact_tether_starts_from_rest() {
         assert!(by_turn.distance(now.angular_acceleration) < 1e-3, "{t}");
     }
     let motion = motion.clone();
-    let whole = fly(&mut Simulation::new(setup.clone()).unwrap()).unwrap();
+    let whole = go_on(&mut Simulation::new(setup.clone()).unwrap()).unwrap();
     // With a free joint the root is supported by multipliers; it follows the same motion.
     let mut hinged = self::setup(&[mode, FREE]);
     hinged.time = setup.time;
     for records in [
         whole.clone(),
-        fly(&mut Simulation::new(hinged).unwrap()).unwrap(),
+        go_on(&mut Simulation::new(hinged).unwrap()).unwrap(),
     ] {
         for r in &records {
             let root = motion.at(r.time);

@@ -1,8 +1,9 @@
 //! Deforming and joined wings, section drag and side edges from case files; what does not fit is
 //! refused at its line.
 
+use crate::common::fly;
 use crate::defaults::load;
-use wingbeat_flight::{AirModel, FlightSetup, Record, Simulation};
+use wingbeat_flight::{AirModel, FlightSetup, Simulation};
 use wingbeat_model::WingMotion;
 
 const GOOD: &str = r#"format = 1
@@ -48,15 +49,6 @@ fn why_refused(set: &[&str]) -> String {
         Ok(_) => panic!("{set:?} is accepted"),
         Err(why) => why,
     }
-}
-
-fn fly(setup: FlightSetup) -> Vec<Record> {
-    let mut flight = Simulation::new(setup).unwrap_or_else(|e| panic!("{e}"));
-    let mut records = vec![flight.record().clone()];
-    while !flight.finished() {
-        records.push(flight.step().unwrap_or_else(|e| panic!("{e}")).clone());
-    }
-    records
 }
 
 /// The case is refused at the line of `at`, and the report has all of `wanted`.

@@ -244,6 +244,23 @@ pub struct JointModel {
 }
 
 impl JointModel {
+    /// Damping \[N m s or N s/m\] and stiffness \[N m/rad or N/m\] along free direction `k`, of all elements but stops.
+    pub fn damping_and_stiffness(&self, k: usize) -> [f64; 2] {
+        let along = self.elements.iter().filter(|e| e.direction == k);
+        let of = |law: &ElementLaw| match *law {
+            ElementLaw::Spring { stiffness, .. } => [0.0, stiffness],
+            ElementLaw::Damper { coefficient } => [coefficient, 0.0],
+            ElementLaw::Follow {
+                stiffness, damping, ..
+            } => [damping, stiffness],
+            ElementLaw::Stop { .. } | ElementLaw::Effort(_) => [0.0; 2],
+        };
+        along.fold([0.0; 2], |sum, e| {
+            let [c, k] = of(&e.law);
+            [sum[0] + c, sum[1] + k]
+        })
+    }
+
     /// A joint with `freedom`, nothing acting on it, at rest at zero coordinates.
     pub fn new(freedom: JointType) -> Self {
         Self {

@@ -14,9 +14,7 @@
 
 use std::sync::Arc;
 
-use wingbeat_dynamics::{
-    ElementLaw, Formulation, Joint, JointType, QuaternionForm, Stabilization, mobilities,
-};
+use wingbeat_dynamics::{Formulation, Joint, JointType, QuaternionForm, Stabilization, mobilities};
 use wingbeat_math::DVec3;
 use wingbeat_math::ode::EqualSteps;
 
@@ -70,11 +68,11 @@ pub fn growing_joint(setup: &FlightSetup) -> Option<JointSteps> {
     let joints = setup.joints.iter().enumerate();
     let open = joints.filter(|(k, _)| !closes_loop(&setup.joints, *k));
     let directions = open.flat_map(|(_, j)| (0..j.model.kind.directions()).map(move |k| (j, k)));
-    let acted = directions.filter(|(j, k)| acting(j, *k) != [0.0; 2]);
+    let acted = directions.filter(|(j, k)| j.model.damping_and_stiffness(*k) != [0.0; 2]);
     let acted: Vec<(&Joint, usize)> = acted.collect();
     let found = mobilities_of(setup, &acted)?;
     let of = |(&(joint, k), mobility): (&(&Joint, usize), f64)| {
-        let [damping, stiffness] = acting(joint, k);
+        let [damping, stiffness] = joint.model.damping_and_stiffness(k);
         let both = [damping * mobility, stiffness.max(0.0) * mobility];
         let growth = method.growth(both, h);
         let found = JointSteps {
@@ -143,23 +141,6 @@ fn equal_steps(setup: &FlightSetup) -> Option<EqualSteps> {
         IntegratorChoice::RungeKutta => Some(EqualSteps::RungeKutta),
         IntegratorChoice::OrderEight { .. } => None,
     }
-}
-
-/// Damping \[N m s or N s/m\] and stiffness \[N m/rad or N/m\] along free direction `k` of a joint.
-fn acting(joint: &Joint, k: usize) -> [f64; 2] {
-    let elements = joint.model.elements.iter().filter(|e| e.direction == k);
-    let of = |law: &ElementLaw| match law {
-        ElementLaw::Spring { stiffness, .. } => [0.0, *stiffness],
-        ElementLaw::Damper { coefficient } => [*coefficient, 0.0],
-        ElementLaw::Follow {
-            stiffness, damping, ..
-        } => [*damping, *stiffness],
-        ElementLaw::Stop { .. } | ElementLaw::Effort(_) => [0.0; 2],
-    };
-    elements.fold([0.0; 2], |sum, e| {
-        let [c, k] = of(&e.law);
-        [sum[0] + c, sum[1] + k]
-    })
 }
 
 /// Moment of inertia \[kg m2\] about the axis of free direction `k` of `joint`, one that turns, of the child of

@@ -1,7 +1,7 @@
 //! Tethers and wings that move at one frequency, and start differently.
 
 use wingbeat_math::DriftingFourier;
-use wingbeat_model::{AngleLaw, AngleLaws, Start, Wing};
+use wingbeat_model::Start;
 
 use crate::prescribed::PrescribedMotion;
 use crate::setup::{FlightSetup, MotionMode};
@@ -15,7 +15,7 @@ impl FlightSetup {
     pub fn starts_apart(&self) -> Option<String> {
         let beat = 1.0 / self.time.period?;
         let motion = tether(&self.mode)?;
-        let wing = self.animal.wings.iter().find(|w| varies(w))?;
+        let wing = self.animal.wings.iter().find(|w| !w.is_still())?;
         let ahead = late(&wing.motion.start) - late(&motion.start);
         let laws = motion.position.iter().chain(&motion.angles);
         let apart = laws.filter_map(|law| apart(law, beat, ahead));
@@ -34,13 +34,6 @@ fn tether(mode: &MotionMode) -> Option<&PrescribedMotion> {
         MotionMode::Tethered(motion) => Some(motion),
         MotionMode::Free(start) => start.held_motion.as_deref(),
     }
-}
-
-/// Whether angles or shape of the wing follow the beat.
-fn varies(wing: &Wing) -> bool {
-    let is_constant = |law: &AngleLaw| matches!(law, AngleLaw::Constant(_));
-    let AngleLaws { phi, theta, psi } = &wing.motion.angles;
-    ![phi, theta, psi].into_iter().all(is_constant) || wing.deformation.is_some()
 }
 
 /// By how much a motion is late once its start is over \[s\].

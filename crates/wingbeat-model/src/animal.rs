@@ -49,6 +49,11 @@ impl Wing {
         }
     }
 
+    /// Whether all its angles are constant, and its shape is, too.
+    pub fn is_still(&self) -> bool {
+        self.motion.angles.are_constant() && self.deformation.is_none()
+    }
+
     /// Corner nodes of all panels, normal +axis 3.
     pub fn panels(&self) -> Vec<[usize; 4]> {
         self.mesh.panels(self.side)

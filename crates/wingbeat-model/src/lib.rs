@@ -52,7 +52,7 @@ pub use error::ModelError;
 pub use import::Imported;
 pub use inside::{Inside, Solid, inside};
 pub use integrate::MassInput;
-pub use mesh::{GridMesh, QuadMesh, Side, Spacing};
+pub use mesh::{GridMesh, QuadMesh, Side, Spacing, mirror_name};
 pub use motion::{AngleLaw, AngleLaws, Start, WingMotion};
 pub use planform::{Planform, WingShape};
 pub use revolution::{Profile, Revolution};

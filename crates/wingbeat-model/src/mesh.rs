@@ -143,6 +143,14 @@ pub fn mirror(x: DVec3) -> DVec3 {
     DVec3::new(x.x, -x.y, x.z)
 }
 
+/// The name of a wing with `left` and `right` exchanged: that of its mirror image.
+pub fn mirror_name(name: &str) -> Option<String> {
+    [("right", "left"), ("left", "right")]
+        .into_iter()
+        .find(|(this, _)| name.contains(this))
+        .map(|(this, other)| name.replace(this, other))
+}
+
 /// A surface of quadrilaterals. On a closed surface `(c2-c0) x (c3-c1)` points outward.
 #[derive(Clone, Debug, PartialEq)]
 pub struct QuadMesh {

@@ -46,7 +46,7 @@ pub(crate) fn add_front(
 /// the two newest rows. None where there are not as many, as in a wake that is cut to one.
 fn left_before(sheet: &WakeSheet, column: usize) -> Option<f64> {
     let older = sheet.rows().checked_sub(2)?;
-    let change = sheet.newest(column) - sheet.gamma[older * sheet.columns + column];
+    let change = sheet.newest(column) - sheet.ring(older, column);
     Some(change / (1.0 - NEW_VORTEX))
 }
 

@@ -49,6 +49,16 @@ impl WakeSheet {
         row >= self.converted[column]
     }
 
+    /// Circulation of ring (`row`, `column`) [m2/s].
+    pub fn ring(&self, row: usize, column: usize) -> f64 {
+        self.gamma[row * self.columns + column]
+    }
+
+    /// The same, to be changed.
+    pub(crate) fn ring_mut(&mut self, row: usize, column: usize) -> &mut f64 {
+        &mut self.gamma[row * self.columns + column]
+    }
+
     /// Rings that are still there.
     pub fn ring_count(&self) -> usize {
         self.gamma.len() - self.converted.iter().sum::<usize>()
@@ -64,24 +74,33 @@ impl WakeSheet {
 
     /// Circulation of the newest ring of a column, zero while there is none [m2/s].
     pub(crate) fn newest(&self, column: usize) -> f64 {
-        match self.rows() {
-            0 => 0.0,
-            rows => self.gamma[(rows - 1) * self.columns + column],
-        }
+        self.back_from_newest(0, column)
+    }
+
+    /// The same of the ring shed before it.
+    pub(crate) fn before_newest(&self, column: usize) -> f64 {
+        self.back_from_newest(1, column)
+    }
+
+    fn back_from_newest(&self, back: usize, column: usize) -> f64 {
+        let row = self.rows().checked_sub(back + 1);
+        row.map_or(0.0, |row| self.ring(row, column))
     }
 
     /// Circulation of the edge that lies between the columns `c - 1` and `c` of row `r` [m2/s].
     pub(crate) fn between_columns(&self, r: usize, c: usize) -> f64 {
-        let gamma = |c: usize| self.gamma[r * self.columns + c];
-        let left = if c > 0 { gamma(c - 1) } else { 0.0 };
-        let right = if c < self.columns { gamma(c) } else { 0.0 };
+        let left = if c > 0 { self.ring(r, c - 1) } else { 0.0 };
+        let right = if c < self.columns {
+            self.ring(r, c)
+        } else {
+            0.0
+        };
         left - right
     }
 
     /// Circulation of the edge of column `c` that lies between the rows `r - 1` and `r` [m2/s].
     pub(crate) fn between_rows(&self, r: usize, c: usize) -> f64 {
-        let gamma = |r: usize| self.gamma[r * self.columns + c];
-        gamma(r) - if r > 0 { gamma(r - 1) } else { 0.0 }
+        self.ring(r, c) - if r > 0 { self.ring(r - 1, c) } else { 0.0 }
     }
 
     /// Impulse per density [m4/s], N, of the rings of the oldest `rows` rows with the nodes `at` (row, column).
@@ -91,7 +110,7 @@ impl WakeSheet {
             for c in (0..self.columns).filter(|&c| self.is_ring(r, c)) {
                 let ring = [at(r + 1, c + 1), at(r + 1, c), at(r, c), at(r, c + 1)];
                 let area = (ring[2] - ring[0]).cross(ring[3] - ring[1]);
-                sum += 0.5 * self.gamma[r * self.columns + c] * area;
+                sum += 0.5 * self.ring(r, c) * area;
             }
         }
         sum

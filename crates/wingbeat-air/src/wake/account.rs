@@ -114,7 +114,7 @@ pub(crate) fn impulse_with(
         return sheet.impulse_with(rows, at);
     }
     let gamma = |r: usize, c: usize| match r < rows {
-        true => sheet.gamma[r * sheet.columns + c],
+        true => sheet.ring(r, c),
         false => 0.0,
     };
     let mut sum = DVec3::ZERO;

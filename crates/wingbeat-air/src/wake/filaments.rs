@@ -84,8 +84,8 @@ impl Filaments {
             let inner = inner.filter(|(_, ring, root)| ring != root && sheet.rows() > 0);
             self.inner.push(inner.clone().count());
             let inner = inner.map(|(c, ring, _)| (c, ring));
-            let (network, shares) = (&mut self.near_wake, &mut self.shares);
-            add_near_wake(network, shares, &row, t, edge, inner);
+            let filaments = (&mut self.near_wake, &mut self.shares);
+            add_near_wake(filaments, &row, t, edge, inner);
         }
         if lattice.settings().is_symmetric() {
             let joined = &lattice.topology().joined_columns;

@@ -225,13 +225,12 @@ fn strip(row: &Row, column: usize, k: usize) -> Strip {
     }
 }
 
-/// Fills in the filaments of the row of sheet `s` beyond the shedding edge, whose nodes are `edge`.
+/// Fills in the filaments of the row of a sheet beyond the shedding edge, whose nodes are `edge`, and their shares.
 ///
 /// Where a wake begins ahead of the rings, at the very leading edge, its sides go on from there to the rings,
 /// whose nodes come last (`inner`: column and place).
 pub(crate) fn add_near_wake(
-    near_wake: &mut Network,
-    shares: &mut Vec<Share>,
+    (near_wake, shares): (&mut Network, &mut Vec<Share>),
     row: &Row,
     t: f64,
     edge: impl Iterator<Item = DVec3> + Clone,

@@ -64,11 +64,7 @@ impl Lattice {
         {
             return 1.0;
         }
-        let before = match sheet.rows() {
-            0 | 1 => 0.0,
-            rows => sheet.gamma[(rows - 2) * sheet.columns + column],
-        };
-        let left = (sheet.newest(column) - before).abs();
+        let left = (sheet.newest(column) - sheet.before_newest(column)).abs();
         smoothstep(left / (HARDLY * scale).max(f64::MIN_POSITIVE))
     }
 
@@ -110,14 +106,10 @@ impl Lattice {
         let Some(&length) = newest[wake.sheet].lengths.get(wake.column) else {
             return [1.0, 0.0]; // nothing has left yet
         };
-        let before = match sheet.rows() {
-            0 | 1 => 0.0,
-            rows => sheet.gamma[(rows - 2) * sheet.columns + wake.column],
-        };
         let ring = sheet.newest(wake.column);
         let net = root.signs[wake.column] * state.gamma[strip.panels[0]] - ring;
         let held = net.abs().min(state.hold[k]);
-        let left = (ring - before) / length.max(f64::MIN_POSITIVE);
+        let left = (ring - sheet.before_newest(wake.column)) / length.max(f64::MIN_POSITIVE);
         let leaves = net.abs() - held;
         let beside = match left.abs() > leaves {
             true => left,

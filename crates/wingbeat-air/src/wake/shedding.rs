@@ -59,7 +59,7 @@ impl Lattice {
         let root = &self.sheets()[k];
         for c in 0..sheet.columns {
             if self.suction().of_column(k, c).is_none() && shape.feeding[c] > 0.0 {
-                let ring = &mut sheet.gamma[newest * sheet.columns + c];
+                let ring = sheet.ring_mut(newest, c);
                 let present = root.signs[c] * state.gamma[root.panels[c]];
                 let wanted = self.to_shed(state, (k, c), present, *ring);
                 *ring += shape.feeding[c] * kept(shape.lengths[c]) * (wanted - *ring);
@@ -80,12 +80,12 @@ fn carry(
         let of = |w: WakeColumn| {
             let wing = &wings[w.sheet];
             let row = wing.rows().checked_sub(back)?;
-            Some(0.5 * sign * w.sign * wing.gamma[row * wing.columns + w.column])
+            Some(0.5 * sign * w.sign * wing.ring(row, w.column))
         };
         Some(of(beside[0])? + of(beside[1])?)
     };
     if let (Some(newest), Some(gamma)) = (sheet.rows().checked_sub(1), mean(2)) {
-        sheet.gamma[newest * sheet.columns + column] = gamma;
+        *sheet.ring_mut(newest, column) = gamma;
     }
     sheet.gamma.push(mean(1).unwrap_or(0.0));
 }
@@ -96,7 +96,7 @@ fn carry(
 fn leave_edge(sheet: &mut WakeSheet, column: usize, leaving: f64) {
     let before = sheet.newest(column);
     if let Some(newest) = sheet.rows().checked_sub(1) {
-        sheet.gamma[newest * sheet.columns + column] += NEW_VORTEX * leaving;
+        *sheet.ring_mut(newest, column) += NEW_VORTEX * leaving;
     }
     sheet.gamma.push(before + leaving);
 }

@@ -28,7 +28,7 @@ pub(super) fn doubts(setup: &FlightSetup, frequency: Option<f64>, list: &mut Dou
                     list.0.extend(beyond(joint, start, [*lower, *upper]));
                 }
                 ElementLaw::Spring { stiffness, .. } | ElementLaw::Follow { stiffness, .. } => {
-                    let inertia = inertia(setup, joint, k);
+                    let inertia = inertia_about(setup, joint, joint, k);
                     let omega = inertia.map(|j| (stiffness / j).sqrt() / (2.0 * PI));
                     let what = format!(
                         "joint `{}`: frequency of what hangs on its spring over the wingbeat frequency",
@@ -65,16 +65,7 @@ pub(crate) fn chain(setup: &FlightSetup, wing: usize) -> Vec<&Joint> {
 pub(crate) fn slowest_on_springs(setup: &FlightSetup, wing: usize) -> Option<(String, f64)> {
     let chain = chain(setup, wing);
     let of = |(place, joint): (usize, &&Joint)| {
-        let stiffness = |k: usize| -> f64 {
-            let elements = joint.model.elements.iter().filter(|e| e.direction == k);
-            let springs = elements.map(|element| match &element.law {
-                ElementLaw::Spring { stiffness, .. } | ElementLaw::Follow { stiffness, .. } => {
-                    *stiffness
-                }
-                _ => 0.0,
-            });
-            springs.sum()
-        };
+        let stiffness = |k: usize| joint.model.damping_and_stiffness(k)[1];
         let inertia = |k: usize| -> f64 {
             let outward = chain[..=place].iter();
             outward
@@ -108,10 +99,4 @@ fn beyond(joint: &Joint, q: f64, [lower, upper]: [f64; 2]) -> Option<String> {
             joint.name
         )
     })
-}
-
-/// Moment of inertia \[kg m2\] of the child about the axis of free direction `k`, of one that turns; its mass
-/// \[kg\] of one that slides.
-fn inertia(setup: &FlightSetup, joint: &Joint, k: usize) -> Option<f64> {
-    inertia_about(setup, joint, joint, k)
 }

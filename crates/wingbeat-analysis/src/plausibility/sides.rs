@@ -1,8 +1,8 @@
 //! Left and right wings that move unlike each other, as seen in a mirror: signs of one side taken for those of
 //! the other.
 
-use wingbeat_math::DVec3;
-use wingbeat_model::{AngleLaw, AngleLaws, Wing};
+use wingbeat_model::mesh::mirror;
+use wingbeat_model::{AngleLaw, AngleLaws, Wing, mirror_name};
 
 use super::numbers::SAMPLES;
 
@@ -45,24 +45,13 @@ pub(super) fn against_each_other(wings: &[Wing]) -> Vec<String> {
 /// `upper-left` has in `upper-right`; else by hinges that are mirror images. Several wings may have one hinge.
 fn is_pair(wings: &[Wing], a: &Wing, b: &Wing) -> bool {
     let partner = |of: &Wing| {
-        let name = other_side(&of.name)?;
+        let name = mirror_name(&of.name)?;
         wings.iter().find(|w| w.name == name && w.side != of.side)
     };
     match (partner(a), partner(b)) {
-        (None, None) => {
-            let place = DVec3::new(b.hinge_b.x, -b.hinge_b.y, b.hinge_b.z);
-            a.hinge_b.distance(place) <= 1e-6 * a.report().length
-        }
+        (None, None) => a.hinge_b.distance(mirror(b.hinge_b)) <= 1e-6 * a.report().length,
         (partner, _) => partner.is_some_and(|p| p.name == b.name),
     }
-}
-
-/// The name with left for right, or right for left; none where it says neither.
-fn other_side(name: &str) -> Option<String> {
-    [("left", "right"), ("right", "left")]
-        .into_iter()
-        .find(|(this, _)| name.contains(this))
-        .map(|(this, other)| name.replace(this, other))
 }
 
 /// The angles in which a wing and one on the other side go opposite ways. Where the strokes do, the others mean

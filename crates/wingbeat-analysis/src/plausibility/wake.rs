@@ -6,7 +6,7 @@ use super::limit::rounded;
 use super::numbers::{Estimate, WingEstimate};
 use super::sizes::sizes;
 use wingbeat_math::{DVec3, RotationLaw};
-use wingbeat_model::{Start, Wing, WingMotion};
+use wingbeat_model::Wing;
 
 /// Way over the root of the area of both wings from which on what is left out of a wake is felt little. A rectangle of
 /// aspect ratio 8 in a stream has 36, 25, 14, 7, 2.4 and 0.7 % less lift with 0.25, 0.5, 1, 2, 4 and 8 chords of wake
@@ -139,10 +139,7 @@ impl Wakes {
 
 /// Farthest that two places of a tip are apart in a beat of a rigid wing, at 100 instants \[m\].
 fn stroke_of_tip(wing: &Wing) -> f64 {
-    let motion = WingMotion {
-        start: Start::Impulsive,
-        ..wing.motion.clone()
-    };
+    let motion = wing.motion.impulsive();
     if motion.frequency == 0.0 {
         return 0.0;
     }

@@ -11,10 +11,12 @@ use super::orbit::{check_alike, check_orbit, has_orbit, periodic_beat};
 use super::sway::sway;
 use crate::AnalysisError;
 use crate::beat::steadied;
+use crate::problem::{TrimProblem, first_controls};
 use crate::progress;
+use crate::residuals::{FlyerMotion, Measures, Residuals};
 use crate::root::{Map, Search, matrix_of, moved};
 use crate::solution::TrimSolution;
-use crate::steady::{self, AT_START, Measures, Residuals, Snapshot, TrimProblem, check_symmetric};
+use crate::steady::{AT_START, check_determined, check_symmetric};
 
 /// How the flights are flown.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -86,7 +88,7 @@ pub fn trim_with_wake(
     settings: &WakeSettings,
 ) -> Result<WakeTrim, AnalysisError> {
     check_alike(setup)?;
-    steady::check_determined(setup, problem)?;
+    check_determined(setup, problem)?;
     if problem.turn_rate != 0.0 {
         return Err(AnalysisError::not_covered(
             "with a memory of wakes or elastic wings flight is trimmed straight, and a steady turn was asked for",
@@ -182,7 +184,7 @@ impl Flights<'_> {
             _ => (problem.velocity, DVec3::ZERO),
         };
         let mut x = self.residuals.point(v * period / length, w * period);
-        x.extend(steady::first_controls(problem));
+        x.extend(first_controls(problem));
         x
     }
 
@@ -257,7 +259,7 @@ impl Flights<'_> {
             period,
             weight: setup.animal.mass() * setup.gravity.length(),
         };
-        let seen = ends.each_ref().map(|r| Snapshot {
+        let seen = ends.each_ref().map(|r| FlyerMotion {
             centre: r.mass_centre,
             momentum: r.momentum,
             spin: spin(r),

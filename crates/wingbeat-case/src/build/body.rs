@@ -66,9 +66,8 @@ fn shapes(case: &BodyCase) -> Built<Vec<(String, Revolution)>> {
 fn revolution(path: &str, part: &PartCase) -> Built<Revolution> {
     let needed = |key: &str, value: Option<f64>| {
         let missing = || {
-            Fault::new(
+            Fault::missing(
                 format!("{path}.{key}"),
-                "this key is missing",
                 "a surface of revolution has length_m and diameter_m; or give file = \"NAME.obj\"",
                 format!("add `{key} = ...`"),
             )

@@ -3,12 +3,11 @@
 use wingbeat_flight::check_joined;
 use wingbeat_model::deformation::{MovingSurface, SpanLaw, Term};
 use wingbeat_model::motion::Fourier;
-use wingbeat_model::{Animal, Deformation, ModelError, Wing};
+use wingbeat_model::{Animal, Deformation, ModelError, Wing, mirror_name};
 
 use super::fault::Built;
 use crate::error::Fault;
 use crate::raw::{Case, CourseCase, DeformationCase, SurfaceCase};
-use crate::sides::mirror_name;
 
 /// A term as it is written, whatever it deforms.
 struct Written<'a> {

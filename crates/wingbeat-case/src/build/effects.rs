@@ -1,18 +1,16 @@
 //! Keys that others make idle in ways no single key tells: each is refused by name.
 
 use wingbeat_flight::{FlightSetup, MotionMode};
-use wingbeat_model::Wing;
-use wingbeat_model::motion::{Adjustment, AngleLaw, AngleLaws};
+use wingbeat_model::motion::Adjustment;
 use wingbeat_model::planform::Spacing;
+use wingbeat_model::{Wing, mirror_name};
 
 use super::fault::{Built, idle};
 use super::{model_keys, spacing, wingless};
 use crate::error::Fault;
 use crate::raw::{
-    AdjustCase, AirModel, Case, Formulation, JointCase, Mode, MotionCase, StartCase, TetherCase,
-    TurnCase, WingCase, WingMeshCase,
+    AirModel, Case, Formulation, JointCase, Mode, TetherCase, TurnCase, WingCase, WingMeshCase,
 };
-use crate::sides::mirror_name;
 use crate::source::CaseSource;
 
 /// Checks what takes more than one look: `setup` was made of `case`, which was read from `source`.
@@ -29,62 +27,73 @@ pub(crate) fn check(case: &Case, setup: &FlightSetup, source: &CaseSource) -> Bu
     model_keys::check(case, source)?;
     senses(case, source)?;
     loads(case, source)?;
+    springs(case)?;
+    held_beats(case, setup)?;
+    tether(case, setup)?;
+    formulation(case, setup)
+}
+
+/// Springs that neither pull nor damp.
+fn springs(case: &Case) -> Built<()> {
     for (name, spring) in &case.spring {
         if spring.stiffness_newton_per_m == 0.0 && spring.damping_newton_s_per_m == 0.0 {
             let why = "without stiffness_newton_per_m or damping_newton_s_per_m";
             return Err(idle(format!("spring.{name}"), why));
         }
     }
-    if case.flight.held_beats > 0.0 {
-        match (setup.time.period, &setup.mode) {
-            (None, _) => return Err(idle("flight.held_beats", "where nothing beats")),
-            (_, MotionMode::Free(start)) if start.held_steps == 0 => {
-                let why = "as it is shorter than half a step of the flight";
-                return Err(idle("flight.held_beats", why));
-            }
-            _ => {}
+    Ok(())
+}
+
+/// Beats at which a body is to be held that are none.
+fn held_beats(case: &Case, setup: &FlightSetup) -> Built<()> {
+    let why = match (setup.time.period, &setup.mode) {
+        _ if case.flight.held_beats <= 0.0 => return Ok(()),
+        (None, _) => "where nothing beats",
+        (_, MotionMode::Free(start)) if start.held_steps == 0 => {
+            "as it is shorter than half a step of the flight"
         }
-    }
-    if let Some(tether) = &case.flight.tether {
-        still_on_tether(tether)?;
-    }
-    let is_free = case.flight.mode == Mode::Free;
-    if is_free && case.flight.tether.is_some() && case.flight.held_beats == 0.0 {
-        return Err(idle(
+        _ => return Ok(()),
+    };
+    Err(idle("flight.held_beats", why))
+}
+
+/// A tether that holds nothing, oscillates at no frequency, or starts what does not start.
+fn tether(case: &Case, setup: &FlightSetup) -> Built<()> {
+    let Some(tether) = &case.flight.tether else {
+        return Ok(());
+    };
+    still_on_tether(tether)?;
+    let starts = tether.start_s.is_some();
+    let start = |why| Err(idle("flight.tether.start_s", why));
+    match &setup.mode {
+        MotionMode::Free(_) if case.flight.held_beats == 0.0 => Err(idle(
             "flight.tether",
             "in free flight that is not held at first: give flight.held_beats, or mode = \"tethered\"",
-        ));
+        )),
+        MotionMode::Free(_) if starts => start("in free flight, which goes on as it is held"),
+        MotionMode::Tethered(motion) if starts && motion.rests() => start("on a body at rest"),
+        _ => Ok(()),
     }
-    if case
-        .flight
-        .tether
-        .as_ref()
-        .is_some_and(|t| t.start_s.is_some())
-    {
-        let why = match &setup.mode {
-            MotionMode::Free(_) => Some("in free flight, which goes on as it is held"),
-            MotionMode::Tethered(motion) => motion.rests().then_some("on a body at rest"),
-        };
-        if let Some(why) = why {
-            return Err(idle("flight.tether.start_s", why));
-        }
-    }
+}
+
+/// A formulation that a held body does not take.
+fn formulation(case: &Case, setup: &FlightSetup) -> Built<()> {
+    const KEY: &str = "dynamics.formulation";
     let has_joints = setup.joints.iter().any(|j| j.model.kind.directions() > 0);
-    let default = case.dynamics.formulation.value() == Formulation::Momentum;
-    if case.flight.mode == Mode::Tethered && !has_joints && !default {
-        let why = "with flight.mode = \"tethered\": all motion is prescribed";
-        return Err(idle("dynamics.formulation", why));
-    }
-    let is_quaternion = case.dynamics.formulation.value() == Formulation::Quaternion;
-    if case.flight.mode == Mode::Tethered && has_joints && !is_quaternion {
-        return Err(Fault::new(
-            "dynamics.formulation",
+    match (has_joints, case.dynamics.formulation.value()) {
+        _ if case.flight.mode != Mode::Tethered => Ok(()),
+        (false, Formulation::Momentum) | (true, Formulation::Quaternion) => Ok(()),
+        (false, _) => {
+            let why = "with flight.mode = \"tethered\": all motion is prescribed";
+            Err(idle(KEY, why))
+        }
+        (true, _) => Err(Fault::new(
+            KEY,
             "a held body with free joints is integrated in the quaternion form, whatever this says",
             "\"quaternion\"",
             "remove it, or set it to \"quaternion\"",
-        ));
+        )),
     }
-    Ok(())
 }
 
 /// Frames of air without surfaces and wakes. Those that the file wants for a lattice stand by where the command
@@ -170,34 +179,14 @@ fn meshes(case: &Case, source: &CaseSource) -> Built<()> {
 
 /// Motions of wings that are not there.
 fn motion_without_wings(case: &Case, source: &CaseSource) -> Built<()> {
-    let motion = &case.motion;
-    let still = AdjustCase::default();
-    for (key, acts) in [
-        (
-            "data", // gives the frequency where the case does not
-            motion.data.is_some() && source.gives("motion.frequency_hz"),
-        ),
-        (
-            "stroke_plane_pitch_deg",
-            motion.stroke_plane_pitch_deg.value() != 0.0,
-        ),
-        ("phase", motion.phase != 0.0),
-        ("adjust", motion.adjust != still),
-        ("difference", motion.difference != still),
-        (
-            "start",
-            motion.start != StartCase::Smooth && case.joint.is_empty(),
-        ),
-        (
-            "start_beats",
-            motion.start_beats != MotionCase::default().start_beats && case.joint.is_empty(),
-        ),
-    ] {
-        if acts {
-            return Err(idle(format!("motion.{key}"), "without wings"));
-        }
+    // A data set gives the frequency where the case does not.
+    let data = case.motion.data.is_some() && source.gives("motion.frequency_hz");
+    let acts = |key: &&str| case.joint.is_empty() || !key.starts_with("start");
+    let keys = data.then_some("data").into_iter();
+    match keys.chain(case.motion.unlike_default()).find(acts) {
+        Some(key) => Err(idle(format!("motion.{key}"), "without wings")),
+        None => Ok(()),
     }
-    Ok(())
 }
 
 /// Motions for all wings that every wing replaces.
@@ -269,30 +258,20 @@ fn adjustments(case: &Case, setup: &FlightSetup) -> Built<()> {
     Ok(())
 }
 
-/// Whether all angles of the wing are constant, and its shape is, too.
-pub(crate) fn is_still(wing: &Wing) -> bool {
-    let is_constant = |law: &AngleLaw| matches!(law, AngleLaw::Constant(_));
-    let AngleLaws { phi, theta, psi } = &wing.motion.angles;
-    [phi, theta, psi].into_iter().all(is_constant) && wing.deformation.is_none()
-}
-
 /// Phase and length of the start of wings whose angles are all constant.
 fn still_motion(case: &Case, setup: &FlightSetup) -> Built<()> {
     let wings = &setup.animal.wings;
-    if wings.is_empty() || !wings.iter().all(is_still) || !case.joint.is_empty() {
+    if wings.is_empty() || !wings.iter().all(Wing::is_still) || !case.joint.is_empty() {
         return Ok(());
     }
-    let plain = MotionCase::default();
-    for (key, acts) in [
-        ("phase", case.motion.phase != plain.phase),
-        ("start_beats", case.motion.start_beats != plain.start_beats),
-    ] {
-        if acts {
+    let acts = |key: &&str| ["phase", "start_beats"].contains(key);
+    match case.motion.unlike_default().into_iter().find(acts) {
+        Some(key) => {
             let why = "on wings whose angles are all constant";
-            return Err(idle(format!("motion.{key}"), why));
+            Err(idle(format!("motion.{key}"), why))
         }
+        None => Ok(()),
     }
-    Ok(())
 }
 
 /// What sees no otherwise than without, and leads nowhere.

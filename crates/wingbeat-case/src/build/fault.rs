@@ -5,6 +5,7 @@ use wingbeat_math::MassError;
 use wingbeat_model::ModelError;
 
 use crate::error::Fault;
+use crate::source::table_of;
 
 pub(super) type Built<T> = Result<T, Fault>;
 
@@ -25,7 +26,7 @@ pub(super) fn fault_at(path: &str, raw: &impl Serialize, error: &ModelError) -> 
         let rest = key.strip_prefix(stem);
         !stem.is_empty() && rest.is_some_and(|r| r.is_empty() || r.starts_with('_'))
     };
-    let table = toml::Table::try_from(raw).unwrap_or_default();
+    let table = table_of(raw);
     let same = table.keys().find(|key| *key == stem);
     let found = same.or_else(|| table.keys().find(matching));
     let (key, problem) = match found {
@@ -54,8 +55,7 @@ pub(super) fn beyond_numbers(
         MassError::Mass(mass) if !mass.is_finite() => {}
         _ => return None,
     }
-    let table = toml::Table::try_from(raw).ok()?;
-    let (powers, key) = most_extreme(path.to_owned(), &toml::Value::Table(table))?;
+    let (powers, key) = most_extreme(path.to_owned(), &toml::Value::Table(table_of(raw)))?;
     (powers > EXTREME).then(|| {
         Fault::new(
             key,

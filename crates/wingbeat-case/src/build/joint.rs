@@ -6,7 +6,7 @@ use wingbeat_dynamics::{DynamicsError, Joint, JointModel, JointType};
 use wingbeat_flight::joints::{AxisTurn, Path};
 use wingbeat_flight::{DriftingFourier, FlightSetup};
 use wingbeat_math::DVec3;
-use wingbeat_model::Animal;
+use wingbeat_model::{Animal, mirror_name};
 
 use super::fault::Built;
 use super::flight::bends;
@@ -16,7 +16,6 @@ use super::numbers::vector;
 use super::{element, segment, wing};
 use crate::error::Fault;
 use crate::raw::{Case, JointCase, JointKind, TravelCase, TurnCase};
-use crate::sides::mirror_name;
 
 /// All joints, those mirrored to left wings among them.
 pub(super) fn build_all(case: &Case, animal: &Animal) -> Built<Vec<Joint>> {
@@ -215,9 +214,8 @@ fn anchors(
         .filter(|_| wing(parent).is_none())
         .map(|w| w.hinge_b);
     let at = joint.at_m.map(vector).or(own).ok_or_else(|| {
-        Fault::new(
+        Fault::missing(
             format!("{path}.at_m"),
-            "this key is missing",
             "the joint point in body axes in the reference configuration; on a wing in wing axes",
             "add `at_m = [..., ..., ...]`",
         )
@@ -310,9 +308,8 @@ fn axis(path: &str, joint: &JointCase) -> Built<DVec3> {
     let key = format!("{path}.axis");
     match joint.axis {
         Some(axis) => unit(&key, axis),
-        None => Err(Fault::new(
+        None => Err(Fault::missing(
             key,
-            "this key is missing",
             "a direction [x, y, z]",
             "axis = [0, 1, 0]",
         )),

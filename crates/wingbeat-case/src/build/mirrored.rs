@@ -1,12 +1,11 @@
 //! Joints of wings on one side that the wings on the other side have in mirror image.
 
-use wingbeat_model::Animal;
+use wingbeat_model::{Animal, mirror_name};
 
 use super::fault::Built;
 use super::names::body_names;
 use crate::error::Fault;
 use crate::raw::{AirModel, Case, ElementCase, JointCase, JointKind, SeriesCase, TravelCase};
-use crate::sides::mirror_name;
 
 /// The joint of a right wing for a left wing that has none, and the other way round, unless that wing is not to
 /// be mirrored: points and displacements are mirrored, axes of rotation too, so that equal angles are mirror

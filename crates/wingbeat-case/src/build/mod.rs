@@ -33,7 +33,7 @@ mod wind;
 mod wing;
 mod wingless;
 
-pub(crate) use effects::{check as check_effects, is_still};
+pub(crate) use effects::check as check_effects;
 pub(crate) use motion::radians;
 pub use names::column_name;
 pub(crate) use output::output;

@@ -27,8 +27,7 @@ pub(super) fn law(
     let laws = laws(case, &path, own, side, base.map(|b| &b.angles))?;
     let shared = case.motion.stroke_plane_pitch_deg.value().to_radians();
     let pitch = own.stroke_plane_pitch_deg.map(f64::to_radians);
-    let still = |law: &AngleLaw| matches!(law, AngleLaw::Constant(_));
-    if frequency == 0.0 && ![&laws.phi, &laws.theta, &laws.psi].into_iter().all(still) {
+    if frequency == 0.0 && !laws.are_constant() {
         return Err(Fault::new(
             "motion.frequency_hz",
             "the wing angles vary over a beat, but there is no wingbeat frequency",

@@ -1,11 +1,12 @@
 //! Size of the case: a surface of too many panels, and what many small parts add up to, are refused
 //! before anything is built.
 
+use wingbeat_model::mirror_name;
+
 use super::body::resolution;
 use super::fault::Built;
 use crate::error::Fault;
 use crate::raw::{AirModel, Case, PartCase, PlanformCase, WingCase, WingMeshCase};
-use crate::sides::mirror_name;
 
 /// Panels of a wing or of a part of the body at most.
 const MAX_ON_A_SURFACE: usize = 10_000;

@@ -13,7 +13,7 @@ use crate::error::Fault;
 use crate::raw::{
     BeamCase, BeamMassCase, RegionCase, ShellCase, ShellRule, StructureCase, VeinCase,
 };
-use crate::source::find;
+use crate::source::{find, table_of};
 
 /// Elements of a beam where nothing is said.
 const ELEMENTS: usize = 10;
@@ -70,7 +70,7 @@ pub(super) fn make(wing: Wing, path: &str, case: &StructureCase) -> Built<Wing> 
 /// A fault of the model traced to the table it is about; a number of a law is one along the span.
 fn traced(path: &str, case: &StructureCase, error: &ModelError) -> Fault {
     let fault = traced_to_key(path, case, error);
-    let whole = toml::Table::try_from(case).unwrap_or_default();
+    let whole = table_of(case);
     let inside = fault
         .key
         .strip_prefix(path)
@@ -137,7 +137,7 @@ fn of_row(path: &str, case: &StructureCase, table: &str, row: usize, problem: &s
         .map_or(table, |(_, name)| name);
     let inside = inside.strip_suffix(".table").unwrap_or(inside);
     let (holder, stem) = inside.rsplit_once('.').unwrap_or(("", inside));
-    let whole = toml::Table::try_from(case).unwrap_or_default();
+    let whole = table_of(case);
     let keys = find(&whole, holder).and_then(toml::Value::as_table);
     let begins = |key: &&String| key.starts_with(&format!("{stem}_table"));
     let key = keys.and_then(|t| t.keys().find(begins));
@@ -201,15 +201,11 @@ fn lumped(case: &BeamMassCase) -> BeamMass {
 }
 
 fn shell(path: &str, case: &ShellCase) -> Built<WingShell> {
-    let missing = |key: &str, remedy: &str| {
-        Fault::new(
-            format!("{path}.{key}"),
-            "this key is missing",
-            "a number above 0",
-            remedy,
-        )
+    let missing = || {
+        let key = format!("{path}.young_pa");
+        Fault::missing(key, "a number above 0", "3e9 is that of cuticle")
     };
-    let young = (case.young_pa).ok_or_else(|| missing("young_pa", "3e9 is that of cuticle"))?;
+    let young = case.young_pa.ok_or_else(missing)?;
     let thickness = (case.thickness_m, case.thickness_table_m.as_ref());
     let wing = WingShell {
         young: [young, case.young_chord_pa.unwrap_or(young)],
@@ -324,8 +320,7 @@ fn regions(path: &str, case: &StructureCase, shell: &ShellCase) -> Built<Vec<Reg
 fn veins(path: &str, case: &StructureCase) -> Built<Vec<Vein>> {
     let vein = |(k, v): (usize, &VeinCase)| {
         let missing = |key: &str, allowed: &str, remedy: &str| {
-            let key = format!("{path}.vein[{k}].{key}");
-            Fault::new(key, "this key is missing", allowed, remedy)
+            Fault::missing(format!("{path}.vein[{k}].{key}"), allowed, remedy)
         };
         let stiffness = match (v.young_pa, v.bending_newton_m2, v.torsion_newton_m2) {
             (Some(young), _, _) => VeinStiffness::Solid {
@@ -366,9 +361,8 @@ fn given((linear, table): Values<'_>) -> Option<SpanLaw> {
 
 fn law(path: &str, name: &str, unit: &str, values: Values<'_>) -> Built<SpanLaw> {
     given(values).ok_or_else(|| {
-        Fault::new(
+        Fault::missing(
             format!("{path}.{name}_{unit}"),
-            "this key is missing",
             format!("{name}_{unit} = [value at the root, value at the tip] or {name}_table_{unit}"),
             "give the stiffness along the span",
         )

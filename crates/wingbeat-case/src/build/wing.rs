@@ -2,7 +2,7 @@
 
 use wingbeat_math::DVec3;
 use wingbeat_model::planform::{Beta, ChordSize, Planform, WingShape};
-use wingbeat_model::{GridMesh, MassInput, Side, Spacing, Wing, WingMotion};
+use wingbeat_model::{GridMesh, MassInput, Side, Spacing, Wing, WingMotion, mirror_name};
 
 use super::fault::{Built, fault_at};
 use super::numbers::{given_mass, symmetric, vector};
@@ -12,7 +12,6 @@ use crate::error::Fault;
 use crate::raw::{
     BetaCase, Case, OutlineCase, PlanformCase, RectangleCase, StructureCase, WingCase, WingMeshCase,
 };
-use crate::sides::mirror_name;
 
 /// All wings in the order of their names, mirror images among them.
 pub(super) fn build_all(case: &Case) -> Built<Vec<Wing>> {
@@ -225,9 +224,8 @@ fn fault_of_wing(path: &str, source: &Source<'_>, error: &wingbeat_model::ModelE
 fn hinge(source: &Source<'_>) -> Built<DVec3> {
     let (name, wing, mirrored) = source.of(|w| w.hinge_m.is_some());
     let missing = || {
-        Fault::new(
+        Fault::missing(
             format!("wing.{name}.hinge_m"),
-            "this key is missing",
             "the hinge in body axes [forward, right, down] in metres",
             "add `hinge_m = [..., ..., ...]`",
         )
@@ -244,9 +242,8 @@ fn mesh(source: &Source<'_>, side: Side) -> Built<GridMesh> {
     let (name, wing, mirrored) = source.of(|w| w.planform.is_some());
     let path = format!("wing.{name}.planform");
     let Some(case) = &wing.planform else {
-        return Err(Fault::new(
+        return Err(Fault::missing(
             path,
-            "this key is missing",
             "planform.beta, planform.rectangle, planform.outline or planform.nodes_m",
             format!("add [wing.{name}.planform.beta] with length_m, mean_chord_m and r2_hat"),
         ));

@@ -6,7 +6,7 @@ use super::fault::{Built, idle};
 use crate::error::Fault;
 use crate::raw::{AirCase, AirModel, Case};
 use crate::resolve;
-use crate::source::CaseSource;
+use crate::source::{CaseSource, table_of};
 
 const WITHOUT_WINGS: &str = "without wings";
 
@@ -71,7 +71,7 @@ fn lattice(air: &AirCase, source: &CaseSource) -> Built<()> {
         ..AirCase::default()
     };
     resolve::air(&mut plain);
-    unchanged("air", &LATTICE, [&table(air), &table(&plain)], source)?;
+    unchanged("air", &LATTICE, [&table_of(air), &table_of(&plain)], source)?;
     // One core asks for the other, of the same kind.
     match source.gives("air.wake_core") && !source.gives("air.bound_core") {
         true => Err(idle("air.wake_core", WITHOUT_WINGS)),
@@ -89,7 +89,7 @@ fn blades(air: &AirCase, source: &CaseSource) -> Built<()> {
             "give air.blade.body_drag, or fly without air: air.model = \"none\"",
         ));
     }
-    let tables = [&air.blade, &AirCase::default().blade].map(table);
+    let tables = [&air.blade, &AirCase::default().blade].map(table_of);
     unchanged("air.blade", &BLADES, [&tables[0], &tables[1]], source)
 }
 
@@ -106,9 +106,4 @@ fn unchanged(
         Some(key) => Err(idle(full(key), WITHOUT_WINGS)),
         None => Ok(()),
     }
-}
-
-/// A table of the case as TOML.
-fn table(raw: &impl serde::Serialize) -> Table {
-    Table::try_from(raw).unwrap_or_default()
 }

@@ -3,6 +3,7 @@
 use toml::{Table, Value};
 
 use super::schema::Shape;
+use crate::source::find;
 
 /// What a key needs to have an effect.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -36,14 +37,7 @@ impl Need {
     /// defaults, `given` tells the keys of the table that were given.
     pub fn is_met(self, root: &Table, around: &Table, given: &Table) -> bool {
         match self {
-            Self::Value { key, .. } => {
-                let value = if key.contains('.') {
-                    find(root, key)
-                } else {
-                    around.get(key)
-                };
-                value.is_none_or(|v| self.allows(v))
-            }
+            Self::Value { key, .. } => value_of(key, root, around).is_none_or(|v| self.allows(v)),
             Self::Given(keys) => {
                 let is_empty = |v: &Value| v.as_array().is_some_and(Vec::is_empty);
                 let given = |key| given.get(key).is_some_and(|v| !is_empty(v));
@@ -82,12 +76,7 @@ impl Need {
     pub fn explained(self, root: &Table, around: &Table) -> [String; 3] {
         match self {
             Self::Value { key, values } => {
-                let value = if key.contains('.') {
-                    find(root, key)
-                } else {
-                    around.get(key)
-                };
-                let value = value.map_or(String::new(), Value::to_string);
+                let value = value_of(key, root, around).map_or(String::new(), Value::to_string);
                 [
                     format!("this has no effect with {key} = {value}"),
                     format!("with {key} = {values}"),
@@ -126,9 +115,10 @@ impl Need {
     }
 }
 
-/// The value at a path of names.
-fn find<'a>(root: &'a Table, path: &str) -> Option<&'a Value> {
-    let (first, rest) = path.split_once('.')?;
-    rest.split('.')
-        .try_fold(root.get(first)?, |value, name| value.get(name))
+/// The value of a key: by its path in the whole case, or by its name in the table around.
+fn value_of<'a>(key: &str, root: &'a Table, around: &'a Table) -> Option<&'a Value> {
+    match key.contains('.') {
+        true => find(root, key),
+        false => around.get(key),
+    }
 }

@@ -87,6 +87,24 @@ pub struct AdjustCase {
     pub stroke_plane_deg: f64,
 }
 
+impl MotionCase {
+    /// Names of the keys beside frequency and data set whose values are not the default, in a resolved case.
+    pub(crate) fn unlike_default(&self) -> Vec<&'static str> {
+        let plain = Self::default();
+        let pitch = self.stroke_plane_pitch_deg.value();
+        let differ = [
+            ("stroke_plane_pitch_deg", pitch != 0.0),
+            ("phase", self.phase != plain.phase),
+            ("adjust", self.adjust != plain.adjust),
+            ("difference", self.difference != plain.difference),
+            ("start", self.start != plain.start),
+            ("start_beats", self.start_beats != plain.start_beats),
+        ];
+        let differ = differ.into_iter().filter(|(_, differs)| *differs);
+        differ.map(|(key, _)| key).collect()
+    }
+}
+
 impl From<&AdjustCase> for Adjustment {
     fn from(case: &AdjustCase) -> Self {
         Self {

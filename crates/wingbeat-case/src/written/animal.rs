@@ -2,14 +2,13 @@
 
 use wingbeat_flight::{AirModel, FlightSetup};
 use wingbeat_math::MassProperties;
-use wingbeat_model::{Animal, BodyPart, Wing};
+use wingbeat_model::{Animal, BodyPart, Wing, mirror_name};
 
 use super::motion;
 use super::refusal::{Written, no_keys, same};
 use crate::raw::{
     AnimalCase, BodyCase, Case, PartCase, PlanformCase, StructureCase, WingCase, WingInertia,
 };
-use crate::sides::mirror_name;
 
 /// The animal by its meshes and masses. Segments and the body they are parts of stay what they are in the case.
 pub(super) fn write(case: &mut Case, animal: &Animal, old: Option<&FlightSetup>) -> Written<()> {

@@ -16,7 +16,6 @@ pub use super::equations::AbsoluteScratch;
 use super::equations::{eliminate, put_bodies, put_constraints, put_efforts, read, step};
 use super::joint::{JointKinematics, Row, kinematics};
 use super::structure::Mechanism;
-use crate::body::kinetic_energy;
 use crate::check::check_state;
 use crate::joint::Joint;
 use crate::mirror::MirrorSymmetry;
@@ -276,22 +275,6 @@ impl AbsoluteForm {
     /// Links as last found.
     pub(crate) fn joints(s: &AbsoluteScratch) -> &[JointKinematics] {
         &s.joints
-    }
-
-    /// Kinetic energy, potential energy in the field of gravity, energy stored in springs \[J\].
-    pub fn energies(&self, t: f64, motions: &[BodyMotion]) -> [f64; 3] {
-        let mut sum = [0.0; 3];
-        for (b, m) in self.mechanism.bodies().iter().zip(motions) {
-            sum[0] += kinetic_energy(&b.mass, m);
-            let moment = b.mass.mass * m.p + m.r * b.mass.first_moment;
-            sum[1] -= self.mechanism.gravity().dot(moment);
-        }
-        for joint in self.mechanism.joints() {
-            let q = kinematics(joint, t, motions).coordinates();
-            let stored = |e: &crate::Element| e.law.stored(q[e.direction][0]);
-            sum[2] += joint.model.elements.iter().map(stored).sum::<f64>();
-        }
-        sum
     }
 
     /// Natural sizes of the components of the state.

@@ -136,12 +136,12 @@ impl LatticeAir {
             nodes.extend((0..=cols).map(|c| sheet.node(row, c)));
             // Rings that have become particles are drawn without circulation.
             let of = |c: usize| match sheet.is_ring(row, c) {
-                true => sheet.gamma[row * cols + c],
+                true => sheet.ring(row, c),
                 false => 0.0,
             };
             circulation.extend((0..cols).map(of));
             if let Some(all) = &mut shared_circulation {
-                let shared = |c: usize| sheet.gamma[row * cols + c] - of(c);
+                let shared = |c: usize| sheet.ring(row, c) - of(c);
                 all.extend((0..cols).map(shared));
             }
         }

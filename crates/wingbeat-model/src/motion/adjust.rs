@@ -4,6 +4,11 @@ use super::{AngleLaw, WingMotion};
 use crate::mesh::Side;
 
 impl AngleLaw {
+    /// Whether it is one angle at all times.
+    pub fn is_constant(&self) -> bool {
+        matches!(self, AngleLaw::Constant(_))
+    }
+
     /// Mean over a beat \[rad\].
     pub fn mean(&self) -> f64 {
         match self {
@@ -172,12 +177,11 @@ impl Adjustment {
 impl WingMotion {
     /// What of `by` has an effect here: of an angle that is constant there is neither swing nor lead.
     pub fn heeded(&self, by: &Adjustment) -> Adjustment {
-        let is_constant = |law: &AngleLaw| matches!(law, AngleLaw::Constant(_));
         let mut heeded = *by;
-        if is_constant(&self.angles.phi) {
+        if self.angles.phi.is_constant() {
             heeded.stroke_amplitude = 0.0;
         }
-        if is_constant(&self.angles.psi) {
+        if self.angles.psi.is_constant() {
             (heeded.feathering_amplitude, heeded.feathering_lead) = (0.0, 0.0);
         }
         heeded

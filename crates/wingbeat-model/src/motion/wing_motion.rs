@@ -99,6 +99,13 @@ pub struct AngleLaws {
 }
 
 impl AngleLaws {
+    /// Whether none of them varies.
+    pub fn are_constant(&self) -> bool {
+        [&self.phi, &self.theta, &self.psi]
+            .into_iter()
+            .all(AngleLaw::is_constant)
+    }
+
     /// The laws of the other wing by mirror symmetry: `phi -> -phi`, `theta -> -theta`, `psi`
     /// as it is.
     pub fn mirrored(&self) -> Self {

@@ -2,13 +2,13 @@
 //! have too much.
 
 use wingbeat_air::{AirSettings, CoreModel, LoadMethod};
-use wingbeat_analysis::{kept_wake, way_in_a_step};
+use wingbeat_analysis::way_in_a_step;
 use wingbeat_flight::FlightSetup;
 use wingbeat_math::RotationLaw;
 use wingbeat_model::{Wing, nearest_nodes};
 
 use super::lattice::differences;
-use super::wakes::held_off;
+use super::wakes::{cut_wake, held_off};
 use crate::summary::beats::BeatMeans;
 use crate::summary::numbers::Summary;
 use crate::summary::verdict::{Verdict, Warnings};
@@ -21,7 +21,9 @@ const APART: f64 = 0.1;
 /// Residual of the impulse over what is in play from which on forces have little to do with the vorticity.
 const MEANINGLESS: f64 = 0.5;
 
-/// The same that wakes which are cut may leave: membrane-wing at an incidence of 40 deg has 0.52 and its lift within 1 %.
+/// The same that wakes which are cut may leave, as rows at their ends are drawn out by what is no longer there.
+/// The residual of membrane-wing, 0.012 with its whole wake, is 0.15 with three and a half chords of it, its lift
+/// 0.6 % lower; at an incidence of 40 deg it is 0.52 and the lift within 1 %.
 /// More than all that is in play no cut leaves.
 const OF_A_CUT: f64 = 1.0;
 
@@ -38,7 +40,7 @@ pub(super) fn warnings(
     if !lattice.wind.is_none() {
         return;
     }
-    let is_cut = is_cut(setup, summary);
+    let is_cut = cut_wake(setup, summary).is_some();
     let why = || causes(setup, lattice, summary);
     // What a sudden start gives in no time is no part of the mean force of the first beat.
     let later = &summary.beats[usize::from(summary.beats.len() > 1)..];
@@ -86,12 +88,6 @@ fn judged(residual: f64, is_cut: bool) -> Verdict {
     }
 }
 
-/// Whether part of the wakes was dropped: rows at their ends are drawn out by what is no longer there. The residual of
-/// membrane-wing, 0.012 with its whole wake, is 0.15 with three and a half chords of it, its lift 0.6 % lower.
-fn is_cut(setup: &FlightSetup, summary: &Summary) -> bool {
-    kept_wake(setup).is_some_and(|kept| summary.time_s > kept.time)
-}
-
 /// By how much impulses part, as the end of a sentence: in per cent, or in powers of ten where it is many times the whole.
 fn part(x: f64) -> String {
     let by = match x {
@@ -116,8 +112,7 @@ fn causes(setup: &FlightSetup, lattice: &AirSettings, summary: &Summary) -> Stri
         .then(|| "cores that are not algebraic (air.wake_core, air.bound_core)".to_owned());
     let narrow = (lattice.wake_overlap == 0.0)
         .then(|| "wake cores that do not overlap (air.wake_overlap = 0)".to_owned());
-    let cut = kept_wake(setup).filter(|kept| summary.time_s > kept.time);
-    let cut = cut.map(|kept| kept.said);
+    let cut = cut_wake(setup, summary).map(|kept| kept.said);
     let held = held_off(summary);
     let held = (held > 0).then(|| format!("nodes held off surfaces ({held} times)"));
     let limited = (summary.limited > 0 && lattice.max_displacement.is_some()).then(|| {

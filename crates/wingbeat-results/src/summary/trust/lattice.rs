@@ -44,8 +44,7 @@ fn leading_edges_held(setup: &FlightSetup, summary: &Summary) -> bool {
 /// Whether cores of the wake are so thin, beside an overlap that keeps its impulse, that induced drag is that of thin
 /// filaments.
 fn has_sharp_wake(setup: &FlightSetup, lattice: &AirSettings) -> bool {
-    let reports = setup.animal.wing_reports();
-    let chord = reports.first().map_or(1.0, |r| r.mean_chord);
+    let chord = mean_chord(setup);
     let [slope, radius] = SHARP;
     let overlaps = lattice.wake_overlap > 0.0 && lattice.overlap_slope <= slope;
     lattice.is_symmetric() && overlaps && core(&lattice.wake_core).1 <= radius * chord
@@ -206,13 +205,15 @@ fn has_vortex_lift(lattice: &AirSettings) -> bool {
     lattice.shedding.leading && matches!(lattice.leading, LeadingEdge::VortexLift(_))
 }
 
+/// Mean chord of the first wing \[m\]; 1 without wings.
+fn mean_chord(setup: &FlightSetup) -> f64 {
+    let reports = setup.animal.wing_reports();
+    reports.first().map_or(1.0, |r| r.mean_chord)
+}
+
 /// What is said of the vortex core of the wakes.
 fn core_is_an_input(setup: &FlightSetup, lattice: &AirSettings) -> String {
-    let chord = setup
-        .animal
-        .wing_reports()
-        .first()
-        .map_or(1.0, |r| r.mean_chord);
+    let chord = mean_chord(setup);
     let (kind, size) = core(&lattice.wake_core);
     let overlap = match lattice.wake_overlap {
         0.0 => String::new(),

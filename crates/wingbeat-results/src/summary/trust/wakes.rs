@@ -1,7 +1,7 @@
 //! What was cut, limited or left over in the wakes of a lattice.
 
 use wingbeat_air::AirSettings;
-use wingbeat_analysis::kept_wake;
+use wingbeat_analysis::{KeptWake, kept_wake};
 use wingbeat_flight::FlightSetup;
 
 use crate::summary::numbers::Summary;
@@ -46,9 +46,14 @@ pub(super) fn held_off(summary: &Summary) -> usize {
     summary.regularised.saturating_sub(summary.limited)
 }
 
+/// What is kept of wakes of which part was dropped; none of whole ones.
+pub(super) fn cut_wake(setup: &FlightSetup, summary: &Summary) -> Option<KeptWake> {
+    kept_wake(setup).filter(|kept| summary.time_s > kept.time)
+}
+
 /// Wakes that were cut.
 fn cut(setup: &FlightSetup, summary: &Summary, list: &mut Warnings) {
-    let Some(kept) = kept_wake(setup).filter(|kept| summary.time_s > kept.time) else {
+    let Some(kept) = cut_wake(setup, summary) else {
         return;
     };
     let dropped = summary.impulse_budget.as_ref().map(|b| {

@@ -1,0 +1,27 @@
+//! Flights and refusals that several tests look at.
+
+use wingbeat_case::LoadedCase;
+use wingbeat_flight::{FlightError, FlightSetup, Record, Simulation};
+
+/// The records of a flight, that of its start first.
+pub fn fly(setup: FlightSetup) -> Vec<Record> {
+    let flown = Simulation::new(setup).and_then(|mut flight| go_on(&mut flight));
+    flown.unwrap_or_else(|e| panic!("{e}"))
+}
+
+/// The records of a flight from where it stands to its end.
+pub fn go_on(flight: &mut Simulation) -> Result<Vec<Record>, FlightError> {
+    let mut records = vec![flight.record().clone()];
+    while !flight.finished() {
+        records.push(flight.step()?.clone());
+    }
+    Ok(records)
+}
+
+/// What is said about a preset with overrides.
+pub fn refusal(preset: &str, set: &[&str]) -> String {
+    let set: Vec<String> = set.iter().map(|s| (*s).to_owned()).collect();
+    LoadedCase::find(preset, &set)
+        .expect_err(preset)
+        .to_string()
+}
