@@ -1,14 +1,8 @@
 //! Wings whose roots lie on bodies: which of them the lattice carries through, and what it does not say of the others.
 
-use wingbeat_model::{
-    BodyPart, PairOnPart, inside, pairs_on_parts, roots_beside_parts, roots_on_parts,
-};
+use wingbeat_model::{BodyPart, PairOnPart, inside, roots_beside_parts, roots_on_parts};
 
-use crate::air::wing_pairs;
 use crate::setup::{AirModel, AirOptions, FlightSetup};
-
-/// Distance of two roots over their chord below which there is no room for a body's panels between them.
-const CLOSE: f64 = 0.25;
 
 /// Length along the chord of panels of a body beside a root, in chords of the root, above which the lattice has
 /// too few to say how the lift parts between wing and body.
@@ -136,25 +130,5 @@ impl FlightSetup {
         let ways = (ages.into_iter().chain([lattice.max_age])).map(|age| age.map(|t| speed * t));
         let mut ways = ways.chain([lattice.max_distance]).flatten();
         ways.any(|way| way < pair.part_length)
-    }
-
-    /// Pairs of wings, each the mirror image of the other, whose circulation the lattice carries through the
-    /// part of the body on which both roots lie ([`pairs_on_parts`]): where bodies are surfaces of `air` and
-    /// roots shed nothing; not those that are joined or inside parts or too close to each other, nor those with
-    /// joints of their own.
-    pub fn carried_pairs(&self, air: &AirOptions) -> Vec<PairOnPart> {
-        if !air.body_surfaces || air.lattice.shedding.root {
-            return vec![];
-        }
-        let mut pairs = wing_pairs(&self.animal);
-        let prescribed = self.prescribed_wings();
-        let is_joined = |w: &usize| air.joined.iter().flatten().any(|j| j == w);
-        pairs.retain(|pair| (pair.iter()).all(|w| prescribed.contains(w) && !is_joined(w)));
-        let mut found = pairs_on_parts(&self.animal, &pairs);
-        let wings: Vec<usize> = found.iter().flat_map(|p| p.wings).collect();
-        let within = inside(&self.animal, &wings);
-        found.retain(|p| within.iter().all(|i| !p.wings.contains(&i.wing)));
-        found.retain(|p| p.apart_chords >= CLOSE);
-        found
     }
 }

@@ -2,7 +2,7 @@
 
 use wingbeat_model::{BodyPart, Crossing, FlownCrossings, crossing_depth, crossings, inside};
 
-use crate::air::{check_joined, wing_pairs};
+use crate::air::check_joined;
 use crate::setup::{AirModel, FlightSetup};
 
 /// Depth ([`crossing_depth`]) over the mean chord up to which wings that pass through each other graze \[1\].
@@ -110,24 +110,5 @@ impl FlightSetup {
         };
         let parts = self.animal.parts.iter().enumerate();
         parts.filter_map(of_part).collect()
-    }
-
-    /// Wings without joints of their own.
-    pub(crate) fn prescribed_wings(&self) -> Vec<usize> {
-        let has_joint = |w: usize| self.joints.iter().any(|j| j.child == w + 1);
-        let all = 0..self.animal.wings.len();
-        all.filter(|&w| !has_joint(w)).collect()
-    }
-
-    /// Pairs of wings that are joined at their roots; where no air joins them, those that could be.
-    pub fn joined_pairs(&self) -> Vec<[usize; 2]> {
-        match &self.air {
-            AirModel::VortexLattice(air) => air.joined.clone(),
-            _ => {
-                let mut pairs = wing_pairs(&self.animal);
-                pairs.retain(|&pair| check_joined(&self.animal, pair).is_ok());
-                pairs
-            }
-        }
     }
 }
