@@ -1,5 +1,7 @@
 //! The interface between a mechanical system and a time integrator.
 
+use std::fmt;
+
 use crate::mirror::MirrorSymmetry;
 use crate::shape::ShapeMass;
 use crate::{AddedMass, BodyMotion, DynamicsError, Solution, System, Workspace, Wrench};
@@ -8,7 +10,7 @@ use crate::{AddedMass, BodyMotion, DynamicsError, Solution, System, Workspace, W
 ///
 /// `loads` holds one [`Wrench`] per body, gravity not included. All buffers are in the
 /// [`Workspace`]: steps allocate nothing, errors apart.
-pub trait Formulation: Send + Sync {
+pub trait Formulation: fmt::Debug + Send + Sync {
     /// The system.
     fn system(&self) -> &System;
 

@@ -7,14 +7,13 @@ mod loads;
 use std::sync::Arc;
 
 use wingbeat_dynamics::{
-    AbsoluteForm, AddedMass, BodyMotion, Mechanism, Solution, Stabilization, Workspace, Wrench,
-    mass_centre, relative_energy,
+    AbsoluteForm, AddedMass, BodyMotion, Formulation, Mechanism, Solution, Stabilization,
+    Workspace, Wrench, mass_centre, relative_energy,
 };
 
 use crate::air::{Air, AirScratch, Instant};
 use crate::applied::{AppliedLoad, PointSpring};
 use crate::carried::{CarriedAir, CarriedScratch, CarriedState};
-use crate::core::Core;
 use crate::dynamic_pressure::DynamicPressure;
 use crate::elastic::{ElasticScratch, ElasticState, ElasticWings};
 use crate::error::FlightError;
@@ -38,7 +37,7 @@ pub struct Memory<'a> {
 #[derive(Debug)]
 pub struct Equations {
     /// The bodies: free or tethered.
-    pub core: Core,
+    pub core: Box<dyn Formulation>,
     /// The air around them.
     pub air: Arc<dyn Air>,
     /// What it could do to the wings, for the coefficients of a record.
@@ -187,7 +186,7 @@ impl Equations {
     /// Singular attitude, numbers that are not finite.
     pub fn root(&self, t: f64, y: &[f64], s: &mut Scratch) -> Result<BodyMotion, FlightError> {
         let moved = self.core.motions(t, y, &mut s.dynamics, &mut s.motions);
-        moved.map(|()| s.motions[0])
+        Ok(moved.map(|()| s.motions[0])?)
     }
 
     /// Length of the state vector: core and quadratures.
@@ -244,7 +243,11 @@ impl Equations {
 
     /// Components of the state that nothing depends on and that a [`Self::pass`] leaves out.
     pub fn followers(&self) -> Vec<usize> {
-        let works = if self.core.is_held() { &[][..] } else { &WORKS };
+        let works = if self.core.is_supported() {
+            &[][..]
+        } else {
+            &WORKS
+        };
         works.iter().map(|k| self.core.dim() + k).collect()
     }
 
@@ -260,7 +263,7 @@ impl Equations {
         s: &mut Scratch,
         dy: &mut [f64],
     ) -> Result<(), FlightError> {
-        if self.core.is_held() || !self.elastic.is_empty() {
+        if self.core.is_supported() || !self.elastic.is_empty() {
             return self.evaluate(t, y, memory, s, dy); // impulses ask for the force of the support
         }
         self.loaded_rates(t, y, memory, s, dy)?;
@@ -306,7 +309,7 @@ impl Equations {
         dy: &mut [f64],
     ) -> Result<(), FlightError> {
         let mirror = self.mirror.as_ref();
-        mirror.map_or(Ok(()), |m| m.keep(&self.core, at, dy, &mut s.rates))
+        mirror.map_or(Ok(()), |m| m.keep(self.core.as_ref(), at, dy, &mut s.rates))
     }
 
     /// Rates of the core's state `y` alone, without records and quadratures.
@@ -323,7 +326,10 @@ impl Equations {
     ) -> Result<(), FlightError> {
         self.known_loads(t, y, memory, s)?;
         let (ws, out) = (&mut s.dynamics, &mut s.solution);
-        (self.core).rates_with((t, y), &s.added, &mut s.total, ws, out, dy)?;
+        match s.added.is_empty() {
+            true => (self.core).rates(t, y, &s.total, ws, dy)?,
+            false => (self.core).rates_with((t, y), &s.added, &mut s.total, ws, out, dy)?,
+        }
         self.symmetrise((t, y), s, dy)
     }
 
@@ -333,7 +339,7 @@ impl Equations {
     /// The projection fails.
     pub fn normalise(&self, t: f64, y: &mut [f64], s: &mut Scratch) -> Result<(), FlightError> {
         let n = self.core.dim();
-        self.core.normalise(t, &mut y[..n], &mut s.dynamics)
+        Ok(self.core.normalise(t, &mut y[..n], &mut s.dynamics)?)
     }
 
     /// Names of joints that close loops and nearly ask for the same thing twice in the state `y` at

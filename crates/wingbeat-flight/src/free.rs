@@ -16,7 +16,6 @@ use wingbeat_dynamics::{
 use crate::air::{Air, AirScratch, Instant};
 use crate::bodies::{WingLaw, system_with};
 use crate::carried::CarriedAir;
-use crate::core::Core;
 use crate::equations::{Equations, Memory, Scratch};
 use crate::error::FlightError;
 use crate::setup::{AirModel, FlightSetup};
@@ -103,7 +102,7 @@ impl FreeFlight {
     fn in_air(setup: &FlightSetup, form: MomentumForm, air: Arc<dyn Air>, step: f64) -> Self {
         let equations = Equations {
             mechanism: Mechanism::of(form.system()),
-            core: Core::Free(Box::new(form.clone())),
+            core: Box::new(form.clone()),
             air,
             pressure: Arc::default(), // no records are made of it
             elastic: Arc::default(),

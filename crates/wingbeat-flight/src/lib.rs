@@ -3,8 +3,8 @@
 //! The chapter in order: [`setup`] says what a flight is made of; [`joints`] and `bodies` map the animal to the
 //! multibody system, `applied` adds loads and springs; `interface` is what is asked of the air, whose models
 //! stand in [`air`]; `carried` and `light` are the air that wings carry along, and the flyers that weigh little
-//! beside it, [`elastic`] the wings that loads bend; `equations` is the coupled right-hand side; `stages` and
-//! `core` choose between free, tethered and held; [`control`] looks in between and adjusts the wings;
+//! beside it, [`elastic`] the wings that loads bend; `equations` is the coupled right-hand side; `stages`
+//! choose between free, `tethered` and held; [`control`] looks in between and adjusts the wings;
 //! [`simulation`] integrates all of it with Hamming's predictor-corrector (or, without a wake, another method of
 //! `solver`), the wake frozen during corrector passes (seed sec. 4 and 5); `recorder` turns every accepted step
 //! into a [`Record`]. `doubts` says beforehand what of a setup is likely to be a mistake; nothing hangs on it.
@@ -29,7 +29,6 @@ mod bodies;
 mod carried;
 pub mod control;
 mod controller;
-mod core;
 mod doubts;
 mod dynamic_pressure;
 pub mod elastic;
@@ -52,6 +51,7 @@ pub mod setup;
 pub mod simulation;
 mod solver;
 mod stages;
+mod tethered;
 mod turns;
 mod validate;
 

@@ -1,5 +1,6 @@
 //! Motions prescribed as Fourier series in time, from rest on or at once.
 
+use wingbeat_dynamics::{BodyAcceleration, BodyMotion, RootMotion};
 use wingbeat_math::{DMat3, DVec3, DriftingFourier, MovingRotation};
 use wingbeat_model::Start;
 
@@ -99,5 +100,22 @@ impl PrescribedMotion {
             angular_velocity: r.w,
             angular_acceleration: r.w_dot,
         }
+    }
+}
+
+/// The prescribed root in the words of the dynamics.
+pub fn root_motion(motion: &PrescribedMotion, t: f64) -> RootMotion {
+    let root = motion.at(t);
+    RootMotion {
+        motion: BodyMotion {
+            p: root.position,
+            r: root.rotation,
+            v: root.velocity,
+            w: root.angular_velocity,
+        },
+        acceleration: BodyAcceleration {
+            linear: root.acceleration,
+            angular: root.angular_acceleration,
+        },
     }
 }

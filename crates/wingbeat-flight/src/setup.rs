@@ -7,8 +7,8 @@ mod start;
 use std::fmt;
 use std::sync::Arc;
 
-use wingbeat_dynamics::Joint;
-use wingbeat_math::DVec3;
+use wingbeat_dynamics::{BodyMotion, Joint};
+use wingbeat_math::{DVec3, EulerSequence};
 use wingbeat_model::Animal;
 
 pub use self::air::{AirModel, AirOptions, BladeOptions};
@@ -20,6 +20,7 @@ pub use self::start::{MotionMode, StartState};
 pub use crate::applied::{AppliedLoad, LoadFrame, PointSpring};
 use crate::controller::Controller;
 use crate::error::FlightError;
+use crate::prescribed::root_motion;
 pub use crate::prescribed::{PrescribedMotion, PrescribedRoot};
 pub use wingbeat_math::DriftingFourier;
 
@@ -90,6 +91,38 @@ impl FlightSetup {
         matches!(self.mode, MotionMode::Free(_))
             || self.joints.iter().any(|j| j.model.kind.directions() > 0)
             || self.animal.is_elastic()
+    }
+
+    /// Motion of the root at time zero.
+    pub fn root_at_start(&self) -> BodyMotion {
+        match &self.mode {
+            MotionMode::Tethered(motion) => root_motion(motion, 0.0).motion,
+            MotionMode::Free(start) if start.held_steps > 0 => {
+                root_motion(&start.hold(), 0.0).motion
+            }
+            MotionMode::Free(start) if start.held_motion.is_some() => start.released(0.0),
+            MotionMode::Free(start) => BodyMotion {
+                p: start.position,
+                r: start.rotation(),
+                v: start.velocity,
+                w: start.angular_velocity,
+            },
+        }
+    }
+
+    /// Pitch, yaw and roll of the root where its free flight begins, be it released then or not; tethered all
+    /// along, the means over its motion \[rad\].
+    pub fn angles_at_release(&self) -> DVec3 {
+        match &self.mode {
+            MotionMode::Tethered(motion) => {
+                DVec3::from_array(motion.angles.each_ref().map(|a| a.constant))
+            }
+            MotionMode::Free(start) if start.held_motion.is_some() => {
+                let root = start.released(start.held_steps as f64 * self.time.step);
+                EulerSequence::BODY_231.angles(root.r)
+            }
+            MotionMode::Free(start) => start.angles,
+        }
     }
 }
 

@@ -278,7 +278,7 @@ impl Simulation {
             let mut motions = self.scratch.motions.clone();
             core.motions(0.0, &y0, &mut core.workspace(), &mut motions)?;
             let shapes: Vec<_> = elastic.shape_masses(&self.scratch.elastic).collect();
-            y0 = core.initial_from(0.0, &motions, &shapes)?;
+            y0 = core.initial_shaped(0.0, &motions, &shapes)?;
         }
         y0.resize(y0.len() + QUADRATURES, 0.0);
         self.state.air = (self.stages[0].equations).initial_air(&y0, &mut self.scratch)?;

@@ -108,7 +108,8 @@ impl Equations {
         self.core
             .motions(t, &y[..n], &mut s.dynamics, &mut s.motions)?;
         self.applied_loads(t, s);
-        if self.core.prescribes_all() {
+        // Without a state all accelerations follow from time alone.
+        if n == 0 {
             let (ws, out) = (&mut s.dynamics, &mut s.solution);
             self.core.solve(t, &y[..n], &s.total, ws, out)?;
         }
