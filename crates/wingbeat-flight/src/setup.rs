@@ -20,8 +20,7 @@ pub use self::start::{MotionMode, StartState};
 pub use crate::applied::{AppliedLoad, LoadFrame, PointSpring};
 use crate::controller::Controller;
 use crate::error::FlightError;
-use crate::prescribed::root_motion;
-pub use crate::prescribed::{PrescribedMotion, PrescribedRoot};
+pub use crate::prescribed::PrescribedMotion;
 pub use wingbeat_math::DriftingFourier;
 
 /// Everything that defines one flight. Constant once built; the state is elsewhere.
@@ -96,10 +95,8 @@ impl FlightSetup {
     /// Motion of the root at time zero.
     pub fn root_at_start(&self) -> BodyMotion {
         match &self.mode {
-            MotionMode::Tethered(motion) => root_motion(motion, 0.0).motion,
-            MotionMode::Free(start) if start.held_steps > 0 => {
-                root_motion(&start.hold(), 0.0).motion
-            }
+            MotionMode::Tethered(motion) => motion.at(0.0).motion,
+            MotionMode::Free(start) if start.held_steps > 0 => start.hold().at(0.0).motion,
             MotionMode::Free(start) if start.held_motion.is_some() => start.released(0.0),
             MotionMode::Free(start) => BodyMotion {
                 p: start.position,

@@ -5,7 +5,7 @@ use wingbeat_dynamics::{
     tethered, tethered_motions,
 };
 
-use crate::prescribed::{PrescribedMotion, root_motion};
+use crate::prescribed::PrescribedMotion;
 
 /// A root that moves as prescribed, and so all bodies: the state is empty.
 #[derive(Debug)]
@@ -40,7 +40,7 @@ impl Formulation for TetheredForm {
         ws: &mut Workspace,
         out: &mut [BodyMotion],
     ) -> Result<(), DynamicsError> {
-        let root = root_motion(&self.motion, t).motion;
+        let root = self.motion.at(t).motion;
         tethered_motions(&self.system, t, &root, ws, out);
         Ok(())
     }
@@ -64,14 +64,7 @@ impl Formulation for TetheredForm {
         ws: &mut Workspace,
         out: &mut Solution,
     ) -> Result<(), DynamicsError> {
-        tethered(
-            &self.system,
-            t,
-            &root_motion(&self.motion, t),
-            loads,
-            ws,
-            out,
-        );
+        tethered(&self.system, t, &self.motion.at(t), loads, ws, out);
         Ok(())
     }
 

@@ -4,7 +4,7 @@ use wingbeat_dynamics::BodyMotion;
 use wingbeat_math::{DMat3, DVec3, DriftingFourier, EulerSequence};
 use wingbeat_model::Start;
 
-use crate::prescribed::{PrescribedMotion, root_motion};
+use crate::prescribed::PrescribedMotion;
 
 /// How the root body moves.
 #[derive(Clone, Debug)]
@@ -62,7 +62,7 @@ impl StartState {
     }
     /// Motion of the root that is released at `time` \[s\].
     pub fn released(&self, time: f64) -> BodyMotion {
-        let mut root = root_motion(&self.hold(), time).motion;
+        let mut root = self.hold().at(time).motion;
         root.w += self.angular_velocity;
         root
     }
