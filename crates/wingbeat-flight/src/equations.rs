@@ -17,7 +17,6 @@ use crate::carried::{CarriedAir, CarriedScratch, CarriedState};
 use crate::dynamic_pressure::DynamicPressure;
 use crate::elastic::{ElasticScratch, ElasticState, ElasticWings};
 use crate::error::FlightError;
-use crate::interface::Shape;
 use crate::memory::AirMemory;
 use crate::mirrored::Mirrored;
 use crate::quadratures::{QUADRATURES, Quadratures, WORKS};
@@ -160,22 +159,6 @@ impl Scratch {
         for (sum, c) in self.total.iter_mut().zip(&self.elastic_loads) {
             *sum += *c;
         }
-    }
-}
-
-/// The bodies at an instant.
-fn instant<'a>(
-    time: f64,
-    step: f64,
-    motions: &'a [BodyMotion],
-    shapes: &'a [Option<Shape>],
-) -> Instant<'a> {
-    Instant {
-        time,
-        step,
-        motions,
-        accelerations: &[],
-        shapes,
     }
 }
 
@@ -361,7 +344,10 @@ impl Equations {
         let n = self.core.dim();
         self.core
             .motions(t, &y[..n], &mut s.dynamics, &mut s.motions)?;
-        let at = instant(t, self.step, &s.motions, s.elastic.shapes());
+        let at = Instant {
+            shapes: s.elastic.shapes(),
+            ..Instant::rigid(t, self.step, &s.motions)
+        };
         self.air.place(&at, &mut s.air_scratch)
     }
 

@@ -193,13 +193,7 @@ impl FreeFlight {
         accelerations: &[BodyAcceleration],
         s: &mut AirScratch,
     ) -> Result<Vec<Wrench>, FlightError> {
-        let at = Instant {
-            time: t,
-            step: self.equations.step,
-            motions,
-            accelerations: &[],
-            shapes: &[],
-        };
+        let at = Instant::rigid(t, self.equations.step, motions);
         let (mut loads, mut added) = (vec![Wrench::default(); motions.len()], vec![]);
         self.air().place(&at, s)?;
         self.air().loads(&at, None, s, &mut loads)?;

@@ -30,6 +30,19 @@ pub struct Instant<'a> {
     pub shapes: &'a [Option<Shape>],
 }
 
+impl<'a> Instant<'a> {
+    /// Bodies that move like `motions` at `time` \[s\], in steps of `step` \[s\]; no wing bends.
+    pub fn rigid(time: f64, step: f64, motions: &'a [BodyMotion]) -> Self {
+        Self {
+            time,
+            step,
+            motions,
+            accelerations: &[],
+            shapes: &[],
+        }
+    }
+}
+
 /// A wing as loads bend it: the nodes of its mesh relative to the frame of the wing, wing components.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Shape {

@@ -330,13 +330,7 @@ pub fn check_joined(animal: &Animal, pair: [usize; 2]) -> Result<(), FlightError
     };
     let wings = animal.wings.iter().map(at);
     let motions: Vec<BodyMotion> = std::iter::once(BodyMotion::REST).chain(wings).collect();
-    let at = Instant {
-        time: 0.0,
-        step: 0.0,
-        motions: &motions,
-        accelerations: &[],
-        shapes: &[],
-    };
+    let at = Instant::rigid(0.0, 0.0, &motions);
     SurfaceMap::new(animal, false, (&[pair], &[])).node_motion(&at, &mut NodeMotion::default())
 }
 
