@@ -13,7 +13,7 @@ use wingbeat_model::motion::{Adjustment, wing_rotation};
 use wingbeat_model::{Side, Wing, WingMotion};
 
 pub use crate::controller::{Aim, Controller, Sensed, check_heeded, fits, for_all};
-use crate::error::FlightError;
+use crate::error::{FlightError, RESUME_AS_SAVED};
 use crate::felt::FeltAir;
 use crate::setup::{AirModel, FlightSetup, MotionMode};
 pub use crate::setup::{ControlModel, Feedback};
@@ -185,11 +185,11 @@ impl Loop {
         wings: Vec<Arc<CommandedMotion>>,
     ) -> Result<Self, FlightError> {
         if feedback.interval < MIN_INTERVAL {
-            return Err(FlightError::Setup {
-                key: "control.interval",
-                value: feedback.interval.to_string(),
-                problem: format!("looks must lie at least {MIN_INTERVAL} time steps apart"),
-            });
+            return Err(FlightError::setup(
+                "control.interval",
+                feedback.interval.to_string(),
+                format!("looks must lie at least {MIN_INTERVAL} time steps apart"),
+            ));
         }
         let none = vec![Adjustment::default(); wings.len()];
         let duration = feedback.interval as f64 * setup.time.step;
@@ -227,25 +227,18 @@ impl Loop {
     /// # Errors
     /// What is not the memory of this feedback.
     pub fn restore(&mut self, state: &ControlState) -> Result<(), FlightError> {
-        let misfit = |value: String, problem: String| FlightError::Setup {
-            key: "state",
-            value,
-            problem,
-        };
         let own = &self.state;
         let commands = [&state.from, &state.to].into_iter().chain(&state.queue);
         let wings = self.wings.len();
         if state.queue.len() != own.queue.len() || commands.into_iter().any(|c| c.len() != wings) {
-            return Err(misfit(
+            let due = own.queue.len();
+            return Err(FlightError::misfit(
                 format!("{} commands under way", state.queue.len()),
-                format!(
-                    "the case has {}, of {wings} wings; resume with the case that was saved with it",
-                    own.queue.len()
-                ),
+                format!("the case has {due}, of {wings} wings; {RESUME_AS_SAVED}"),
             ));
         }
         let restored = self.controller.restore(&state.memory);
-        restored.map_err(|problem| misfit("what the controller remembers".into(), problem))?;
+        restored.map_err(|e| FlightError::misfit("what the controller remembers", e))?;
         self.state = state.clone();
         self.apply();
         Ok(())
@@ -351,11 +344,7 @@ pub(crate) fn feedback(setup: &FlightSetup) -> Result<Option<Loop>, FlightError>
         return Ok(None);
     };
     if let Some(problem) = unsteered(setup) {
-        return Err(FlightError::Setup {
-            key: "control",
-            value: String::new(),
-            problem: problem.into(),
-        });
+        return Err(FlightError::setup("control", "", problem));
     }
     let wings = setup.animal.wings.iter();
     let wings = wings.map(|w| Arc::new(CommandedMotion::new(w))).collect();

@@ -5,6 +5,7 @@ use wingbeat_math::DVec3;
 use wingbeat_model::Wing;
 use wingbeat_model::motion::Adjustment;
 
+use crate::error::RESUME_AS_SAVED;
 use crate::felt::FeltAir;
 
 /// What a controller sees.
@@ -84,7 +85,7 @@ pub fn fits(memory: &[f64], numbers: usize) -> Result<(), String> {
     match memory.len() == numbers {
         true => Ok(()),
         false => Err(format!(
-            "the controller remembers {numbers} numbers, and {} were saved; resume with the case that was saved with it",
+            "the controller remembers {numbers} numbers, and {} were saved; {RESUME_AS_SAVED}",
             memory.len()
         )),
     }

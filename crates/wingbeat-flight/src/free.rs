@@ -90,11 +90,11 @@ impl FreeFlight {
                 Some(Unsteady::Peters { .. }) => ("air.blade.unsteady", "peters"),
                 None => ("air.model", setup.air.key_value()),
             };
-            return Err(FlightError::Setup {
+            return Err(FlightError::setup(
                 key,
-                value: value.into(),
-                problem: "a map of one wingbeat (averaged models, control derivatives, feedback that is laid out) needs air that depends on the present motion alone: blade_element without air.blade.unsteady, or none".into(),
-            });
+                value,
+                "a map of one wingbeat (averaged models, control derivatives, feedback that is laid out) needs air that depends on the present motion alone: blade_element without air.blade.unsteady, or none",
+            ));
         }
         Ok(Self::in_air(setup, form, air, step))
     }
@@ -209,13 +209,13 @@ fn untabulated(setup: &FlightSetup, law: &WingLaw<'_>) -> Result<MomentumForm, F
     let system = system_with(setup, law)?;
     match system.loops().first() {
         None => Ok(MomentumForm::new(system)),
-        Some(joint) => Err(FlightError::Setup {
-            key: "joint",
-            value: String::new(),
-            problem: format!(
+        Some(joint) => Err(FlightError::setup(
+            "joint",
+            "",
+            format!(
                 "`{}` closes a loop, which is solved for motions that are known beforehand only: leave it out",
                 joint.name
             ),
-        }),
+        )),
     }
 }

@@ -63,7 +63,7 @@ pub use bodies::{
 pub use control::Passage;
 pub use controller::{Aim, Controller, Sensed};
 pub use doubts::CrossingWings;
-pub use error::FlightError;
+pub use error::{FlightError, RESUME_AS_SAVED};
 pub use felt::FeltAir;
 pub use free::{FreeFlight, FreeFlightScratch};
 pub use interface::{

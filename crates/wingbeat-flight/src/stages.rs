@@ -164,11 +164,11 @@ fn carried(
 fn check_integrator(setup: &FlightSetup, elastic: &ElasticWings) -> Result<(), FlightError> {
     let is_hamming = setup.integrator == IntegratorChoice::Hamming;
     match is_hamming && elastic.is_delicate() && !elastic.is_empty() {
-        true => Err(FlightError::Setup {
-            key: "dynamics.integrator",
-            value: "hamming".into(),
-            problem: "elastic wings on free joints, or on a body that weighs little beside the air, vibrate together with what carries them, and by hamming that grows from step to step: take bdf, or leave out [wing.NAME.structure]".into(),
-        }),
+        true => Err(FlightError::setup(
+            "dynamics.integrator",
+            "hamming",
+            "elastic wings on free joints, or on a body that weighs little beside the air, vibrate together with what carries them, and by hamming that grows from step to step: take bdf, or leave out [wing.NAME.structure]",
+        )),
         false => Ok(()),
     }
 }
