@@ -3,24 +3,28 @@
 use wingbeat_model::{PairOnPart, inside, pairs_on_parts};
 
 use crate::air::{check_joined, wing_pairs};
-use crate::setup::{AirModel, AirOptions, FlightSetup};
+use crate::setup::{AirOptions, FlightSetup};
 
 /// Distance of two roots over their chord below which there is no room for a body's panels between them.
 const CLOSE: f64 = 0.25;
 
 impl FlightSetup {
+    /// Whether wing `w` hangs on a joint of its own.
+    pub(crate) fn has_own_joint(&self, w: usize) -> bool {
+        self.joints.iter().any(|j| j.child == w + 1)
+    }
+
     /// Wings without joints of their own.
     pub(crate) fn prescribed_wings(&self) -> Vec<usize> {
-        let has_joint = |w: usize| self.joints.iter().any(|j| j.child == w + 1);
         let all = 0..self.animal.wings.len();
-        all.filter(|&w| !has_joint(w)).collect()
+        all.filter(|&w| !self.has_own_joint(w)).collect()
     }
 
     /// Pairs of wings that are joined at their roots; where no air joins them, those that could be.
     pub fn joined_pairs(&self) -> Vec<[usize; 2]> {
-        match &self.air {
-            AirModel::VortexLattice(air) => air.joined.clone(),
-            _ => {
+        match self.air.lattice() {
+            Some(air) => air.joined.clone(),
+            None => {
                 let mut pairs = wing_pairs(&self.animal);
                 pairs.retain(|&pair| check_joined(&self.animal, pair).is_ok());
                 pairs

@@ -1,4 +1,4 @@
-//! Velocity of the undisturbed air past a wing in its prescribed motion.
+//! Velocity of the undisturbed air past a wing in its prescribed motion, and the strips that meet it.
 
 use wingbeat_dynamics::BodyMotion;
 use wingbeat_math::{DVec3, RotationLaw};
@@ -37,4 +37,14 @@ impl FlightSetup {
             MotionMode::Tethered(motion) => motion.impulsive().at(t).motion,
         }
     }
+}
+
+/// Middle of the leading and of the trailing edge of every strip, and its way along the leading edge.
+pub fn strips(wing: &Wing) -> impl Iterator<Item = [DVec3; 3]> {
+    let mesh = &wing.mesh;
+    let at = |i: usize, j: usize| mesh.nodes[mesh.node(i, j)];
+    (0..mesh.cols).map(move |j| {
+        let [front, rear] = [0, mesh.rows].map(|i| at(i, j).midpoint(at(i, j + 1)));
+        [front, rear, at(0, j + 1) - at(0, j)]
+    })
 }

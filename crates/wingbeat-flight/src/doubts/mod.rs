@@ -13,7 +13,8 @@
 //! | cores of wings that are wide beside the panels | `bound_core` |
 //! | gusts that a flight never meets | `late_gusts` |
 //!
-//! `air_past`: the undisturbed air past a wing in its prescribed motion, by which the motion is judged.
+//! `air_past`: the undisturbed air past a wing in its prescribed motion, by which the motion is judged. `said`: names
+//! of wings, and those of which the same is said.
 
 mod air_past;
 mod bound_core;
@@ -21,6 +22,7 @@ mod edge_ahead;
 mod impossible;
 mod late_gusts;
 mod on_bodies;
+mod said;
 mod scattered;
 mod shed_by_motion;
 mod starts_apart;

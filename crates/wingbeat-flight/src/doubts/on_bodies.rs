@@ -2,7 +2,8 @@
 
 use wingbeat_model::{BodyPart, PairOnPart, inside, roots_beside_parts, roots_on_parts};
 
-use crate::setup::{AirModel, AirOptions, FlightSetup};
+use super::said::names;
+use crate::setup::{AirOptions, FlightSetup};
 
 /// Length along the chord of panels of a body beside a root, in chords of the root, above which the lattice has
 /// too few to say how the lift parts between wing and body.
@@ -18,9 +19,8 @@ impl FlightSetup {
     /// ([`Self::carried_pairs`]), so that the lift is low, or what lies in its way (docs/wings.md, "Wings on a
     /// body"). Wings inside parts are left out.
     pub fn roots_on_bodies(&self) -> Vec<String> {
-        let air = match &self.air {
-            AirModel::VortexLattice(air) if air.body_surfaces => air,
-            _ => return vec![],
+        let Some(air) = self.air.lattice().filter(|air| air.body_surfaces) else {
+            return vec![];
         };
         let mut wings: Vec<usize> = (0..self.animal.wings.len()).collect();
         let within = inside(&self.animal, &wings);
@@ -40,10 +40,8 @@ impl FlightSetup {
         };
         let of_part = |(k, part): (usize, &BodyPart)| {
             let here = found.iter().filter(|r| r.part == k);
-            let names: Vec<String> = here
-                .map(|r| format!("`{}`", self.animal.wings[r.wing].name))
-                .collect();
-            let (roots, lie) = match names.len() {
+            let wings: Vec<&str> = here.map(|r| &self.animal.wings[r.wing].name[..]).collect();
+            let (roots, lie) = match wings.len() {
                 0 => return None,
                 1 => ("root of wing", "lies"),
                 _ => ("roots of wings", "lie"),
@@ -51,7 +49,7 @@ impl FlightSetup {
             Some(format!(
                 "the {roots} {} {lie} on the body part `{}`, and the circulation ends there: in a stream the lift comes out a quarter to a \
                  third low, and the drag is not to be trusted; {remedy} (docs/wings.md, \"Wings on a body\")",
-                names.join(" and "),
+                names(wings, " and "),
                 part.name,
             ))
         };
@@ -70,16 +68,14 @@ impl FlightSetup {
         let beside = roots_beside_parts(&self.animal, wings);
         let of_part = |(k, part): (usize, &BodyPart)| {
             let here = beside.iter().filter(|r| r.part == k);
-            let names: Vec<String> = here
-                .map(|r| format!("`{}`", self.animal.wings[r.wing].name))
-                .collect();
+            let names = names(here.map(|r| &self.animal.wings[r.wing].name[..]), ", ");
             (!names.is_empty()).then(|| {
                 format!(
                     "roots off the body part `{}` by a tenth to a quarter of their chord (wing {}): air passes between them, and the lift is up to \
                      two fifths less than on the body; move them onto the part (hinge_m), or farther off if there is such a gap (docs/wings.md, \
                      \"Wings on a body\")",
                     part.name,
-                    names.join(", ")
+                    names
                 )
             })
         };
