@@ -28,7 +28,7 @@ pub struct Memory<'a> {
     pub air: Option<&'a AirMemory>,
     /// The elastic wings; empty where there are none.
     pub wings: &'a [ElasticState],
-    /// The wings that carry air along on free joints; empty where there are none.
+    /// The wings that carry air along (on free joints, or of a light flyer); empty where there are none.
     pub carried: &'a [CarriedState],
 }
 
@@ -43,7 +43,7 @@ pub struct Equations {
     pub pressure: Arc<DynamicPressure>,
     /// The wings that loads bend.
     pub elastic: Arc<ElasticWings>,
-    /// The wings on free joints, which carry air along.
+    /// The wings that carry air along: on free joints, or all of a light flyer.
     pub carried: CarriedAir,
     /// All joints, for their coordinates.
     pub mechanism: Mechanism,
@@ -79,7 +79,7 @@ pub struct Scratch {
     added_at: Option<f64>,
     /// The same with those of elastic wings.
     carried: Vec<AddedMass>,
-    /// Air that wings on free joints carry along.
+    /// Air that wings carry along.
     carried_air: CarriedScratch,
     /// Accelerations, reactions, energies.
     pub solution: Solution,

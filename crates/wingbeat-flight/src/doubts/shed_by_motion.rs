@@ -26,7 +26,7 @@ use wingbeat_air::{AirSettings, LeadingEdge};
 use wingbeat_math::DVec3;
 use wingbeat_model::Wing;
 
-/// Of a sweep angle, relative.
+/// Part of a sweep angle that is rounding \[1\].
 const ROUNDING: f64 = 1e-9;
 
 /// Instants of a beat that are looked at.

@@ -55,7 +55,7 @@ pub(super) fn check_fits(
     check_control(state, has_feedback)?;
     if state.carried.len() != stage.equations.carried.initial().len() {
         return Err(others(format!(
-            "{} wings on free joints",
+            "{} wings that carry air along",
             state.carried.len()
         )));
     }
