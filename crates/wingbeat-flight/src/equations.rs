@@ -131,9 +131,7 @@ impl Scratch {
             elastic: equations.elastic.scratch(&equations.elastic.initial()),
         }
     }
-}
 
-impl Scratch {
     /// Forgets what it knows of the last evaluation: the same times and states may mean something else from now on.
     pub fn forget(&mut self) {
         self.dynamics.forget();
@@ -147,9 +145,7 @@ impl Scratch {
         self.added_at = None;
         self.carried_air.forget();
     }
-}
 
-impl Scratch {
     /// Air and applied loads together.
     fn sum_loads(&mut self) {
         for ((sum, a), b) in self.total.iter_mut().zip(&self.air).zip(&self.applied) {

@@ -176,9 +176,7 @@ impl ElasticWings {
         b.centre = first / mass;
         b.angular_momentum = angular - b.centre.cross(b.momentum);
     }
-}
 
-impl ElasticWings {
     /// Of each wing the scratch of the one whose shape it has, its own or its mirror image.
     fn originals<'a>(&'a self, s: &'a ElasticScratch) -> impl Iterator<Item = &'a WingScratch> {
         (0..self.wings.len()).map(|k| &s.wings[self.original(k)])
