@@ -139,8 +139,8 @@ pub trait Formulation: fmt::Debug + Send + Sync {
         self.rates(t, y, loads, ws, dy)
     }
 
-    /// Leaves of the rates `dy` of the state `y` those of a motion that is its own image in `mirror`; the Euler
-    /// form, which has no free joints, leaves them as they are.
+    /// Projects the rates `dy` of the state `y` onto motions that are symmetric in `mirror`; the Euler form,
+    /// which has no free joints, leaves them as they are.
     fn symmetrise(&self, _mirror: &MirrorSymmetry, _y: &[f64], _dy: &mut [f64]) {}
 
     /// Natural size of every component of y, for norms of differences.

@@ -24,6 +24,7 @@
 #![warn(missing_docs)]
 
 pub mod air;
+mod air_probe;
 mod applied;
 mod bodies;
 mod carried;
@@ -34,7 +35,6 @@ mod dynamic_pressure;
 pub mod elastic;
 mod equations;
 mod error;
-mod felt;
 mod free;
 mod interface;
 mod joint_steps;
@@ -56,15 +56,15 @@ mod turns;
 mod validate;
 
 pub use air::{check_joined, strips};
+pub use air_probe::AirProbe;
 pub use bodies::{
     JointCoordinate, WingLaw, check_assembly, doubtful_masses, joint_coordinates, loop_names,
     natural_units, system, system_of, system_with,
 };
-pub use control::Passage;
+pub use control::Transition;
 pub use controller::{Aim, Controller, Sensed};
 pub use doubts::CrossingWings;
 pub use error::{FlightError, RESUME_AS_SAVED};
-pub use felt::FeltAir;
 pub use free::{FreeFlight, FreeFlightScratch};
 pub use interface::{
     Air, AirScratch, Announcement, ExternalAir, ExternalSession, Instant, Shape, WingInertia,

@@ -23,8 +23,8 @@ impl Mirrored {
         Self { symmetry, sizes }
     }
 
-    /// Leaves of the rates `dy` of the state `y` of `core` at time `t` \[s\] those of a motion that is its own
-    /// mirror image. `before` is scratch.
+    /// Projects the rates `dy` of the state `y` of `core` at time `t` \[s\] onto mirror-symmetric motions. `before`
+    /// is scratch.
     ///
     /// # Errors
     /// [`FlightError::Asymmetric`]: what is taken away is more than rounding.

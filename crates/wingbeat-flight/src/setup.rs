@@ -130,7 +130,7 @@ pub struct Feedback {
     pub controller: Arc<dyn ControlModel>,
     /// Time steps from one look to the next, at least [`crate::control::MIN_INTERVAL`].
     pub interval: usize,
-    /// Looks from sensing to the beginning of the passage to the command.
+    /// Looks from sensing to the beginning of the transition to the command.
     pub latency: usize,
     /// Time constant of the actuators, a first-order lag: what acts goes over to the command by the share
     /// `1 - exp(-interval / lag)` from one look to the next; 0: wholly [s].
