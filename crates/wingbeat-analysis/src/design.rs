@@ -164,14 +164,11 @@ fn symmetric(e: AnalysisError) -> AnalysisError {
 
 impl ControlModel for Design {
     fn open(&self, setup: &FlightSetup) -> Result<Box<dyn Controller>, FlightError> {
-        let refused = |e: AnalysisError| FlightError::Setup {
-            key: "control",
-            value: match self.law {
-                LawDesign::Stabiliser(_) => "stabiliser".into(),
-                LawDesign::Regulator(_) => "regulator".into(),
-            },
-            problem: e.to_string(),
+        let law = match self.law {
+            LawDesign::Stabiliser(_) => "stabiliser",
+            LawDesign::Regulator(_) => "regulator",
         };
+        let refused = |e: AnalysisError| FlightError::setup("control", law, e.to_string());
         Ok(Box::new(self.steering(setup).map_err(refused)?))
     }
 

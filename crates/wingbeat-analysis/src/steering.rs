@@ -8,7 +8,7 @@ use std::collections::VecDeque;
 use std::sync::Arc;
 
 use wingbeat_flight::control::due;
-use wingbeat_flight::{Aim, Controller, Feedback, FlightSetup, Sensed};
+use wingbeat_flight::{Aim, Controller, Feedback, FlightSetup, RESUME_AS_SAVED, Sensed};
 use wingbeat_math::DVec3;
 use wingbeat_model::motion::Adjustment;
 
@@ -205,8 +205,7 @@ impl Controller for Steering {
         let Some((first, (command, law))) =
             parts.and_then(|(first, rest)| Some((first, rest.split_at_checked(CONTROLS)?)))
         else {
-            let problem = "it has no command; resume with the case that was saved with it";
-            return Err(problem.to_owned());
+            return Err(format!("it has no command; {RESUME_AS_SAVED}"));
         };
         self.law.restore(law)?;
         self.first = begun(first)?;
@@ -225,9 +224,7 @@ fn begun(memory: &[f64]) -> Result<Option<(Reference, DVec3)>, String> {
         let reference = Reference::from_slice(reference)?;
         Some((reference, DVec3::from_array(*origin)))
     });
-    known.map(Some).ok_or_else(|| {
-        "its reference flight is none; resume with the case that was saved with it".to_owned()
-    })
+    (known.map(Some)).ok_or_else(|| format!("its reference flight is none; {RESUME_AS_SAVED}"))
 }
 
 /// A flight under feedback on the map of wingbeats: as a flight of the trimmed setup with the looks of its

@@ -1,5 +1,7 @@
 //! The interface between a mechanical system and a time integrator.
 
+use std::fmt;
+
 use crate::mirror::MirrorSymmetry;
 use crate::shape::ShapeMass;
 use crate::{AddedMass, BodyMotion, DynamicsError, Solution, System, Workspace, Wrench};
@@ -8,7 +10,7 @@ use crate::{AddedMass, BodyMotion, DynamicsError, Solution, System, Workspace, W
 ///
 /// `loads` holds one [`Wrench`] per body, gravity not included. All buffers are in the
 /// [`Workspace`]: steps allocate nothing, errors apart.
-pub trait Formulation: Send + Sync {
+pub trait Formulation: fmt::Debug + Send + Sync {
     /// The system.
     fn system(&self) -> &System;
 
@@ -137,8 +139,8 @@ pub trait Formulation: Send + Sync {
         self.rates(t, y, loads, ws, dy)
     }
 
-    /// Leaves of the rates `dy` of the state `y` those of a motion that is its own image in `mirror`; the Euler
-    /// form, which has no free joints, leaves them as they are.
+    /// Projects the rates `dy` of the state `y` onto motions that are symmetric in `mirror`; the Euler form,
+    /// which has no free joints, leaves them as they are.
     fn symmetrise(&self, _mirror: &MirrorSymmetry, _y: &[f64], _dy: &mut [f64]) {}
 
     /// Natural size of every component of y, for norms of differences.

@@ -2,7 +2,7 @@
 //! wings' motion.
 //!
 //! From one look to the next the angles of every wing go over smoothly from the command before to
-//! the new one ([`Passage`]), so that wing inertia does its part and nothing jumps. A command acts
+//! the new one ([`Transition`]), so that wing inertia does its part and nothing jumps. A command acts
 //! some looks after it was formed (the latency).
 
 use std::collections::VecDeque;
@@ -12,9 +12,9 @@ use wingbeat_math::{DVec3, MovingRotation, RotationLaw, smoothstep7};
 use wingbeat_model::motion::{Adjustment, wing_rotation};
 use wingbeat_model::{Side, Wing, WingMotion};
 
+use crate::air_probe::AirProbe;
 pub use crate::controller::{Aim, Controller, Sensed, check_heeded, fits, for_all};
-use crate::error::FlightError;
-use crate::felt::FeltAir;
+use crate::error::{FlightError, RESUME_AS_SAVED};
 use crate::setup::{AirModel, FlightSetup, MotionMode};
 pub use crate::setup::{ControlModel, Feedback};
 
@@ -34,7 +34,7 @@ pub fn share(time: f64) -> f64 {
 
 /// A wing whose angles and stroke plane go over from one motion to another by [`smoothstep7`].
 #[derive(Clone, Debug)]
-pub struct Passage {
+pub struct Transition {
     /// The motion before.
     pub from: WingMotion,
     /// The motion after.
@@ -45,7 +45,7 @@ pub struct Passage {
     pub duration: f64,
 }
 
-impl Passage {
+impl Transition {
     /// Pitch of the stroke plane and angles phi, theta, psi at time `t` [s], each value, rate,
     /// acceleration [rad].
     pub fn angles(&self, t: f64) -> [[f64; 3]; 4] {
@@ -69,7 +69,7 @@ impl Passage {
     }
 }
 
-impl RotationLaw for Passage {
+impl RotationLaw for Transition {
     fn at(&self, t: f64) -> MovingRotation {
         let [plane, phi, theta, psi] = self.angles(t);
         wing_rotation(plane, [phi, theta, psi])
@@ -81,13 +81,13 @@ impl RotationLaw for Passage {
 pub struct CommandedMotion {
     motion: WingMotion,
     side: Side,
-    passage: RwLock<Passage>,
+    transition: RwLock<Transition>,
 }
 
 impl CommandedMotion {
     /// The wing's own motion until the first command.
     pub fn new(wing: &Wing) -> Self {
-        let own = Passage {
+        let own = Transition {
             from: wing.motion.clone(),
             to: wing.motion.clone(),
             start: 0.0,
@@ -96,32 +96,36 @@ impl CommandedMotion {
         Self {
             motion: wing.motion.clone(),
             side: wing.side,
-            passage: RwLock::new(own),
+            transition: RwLock::new(own),
         }
     }
 
     /// From `start` [s] on the wing goes over from one command to another, within `duration` [s].
     fn pass(&self, from: &Adjustment, to: &Adjustment, start: f64, duration: f64) {
         let motion = |by: &Adjustment| self.motion.adjusted(self.side, by);
-        let next = Passage {
+        let next = Transition {
             from: motion(from),
             to: motion(to),
             start,
             duration,
         };
-        *self.passage.write().expect("no writer panicked") = next;
+        *self.transition.write().expect("no writer panicked") = next;
     }
 
     /// Angles phi, theta, psi at time `t` [s] [rad].
     pub fn angles(&self, t: f64) -> DVec3 {
-        let [_, phi, theta, psi] = self.passage.read().expect("no writer panicked").angles(t);
+        let [_, phi, theta, psi] = self
+            .transition
+            .read()
+            .expect("no writer panicked")
+            .angles(t);
         DVec3::new(phi[0], theta[0], psi[0])
     }
 }
 
 impl RotationLaw for CommandedMotion {
     fn at(&self, t: f64) -> MovingRotation {
-        self.passage.read().expect("no writer panicked").at(t)
+        self.transition.read().expect("no writer panicked").at(t)
     }
 }
 
@@ -132,9 +136,9 @@ pub struct ControlState {
     pub looks: usize,
     /// Those at which the command stood at a limit.
     pub limited_looks: usize,
-    /// Start of the present passage [s].
+    /// Start of the present transition [s].
     pub since: f64,
-    /// Command before the present passage, wing by wing.
+    /// Command before the present transition, wing by wing.
     pub from: Vec<Adjustment>,
     /// Command at its end.
     pub to: Vec<Adjustment>,
@@ -162,7 +166,7 @@ pub fn due(
 }
 
 /// Feedback in a flight: controller, latency, and the wings it moves.
-pub struct Loop {
+pub struct FeedbackLoop {
     controller: Box<dyn Controller>,
     follows: bool,
     interval: usize,
@@ -174,7 +178,7 @@ pub struct Loop {
     state: ControlState,
 }
 
-impl Loop {
+impl FeedbackLoop {
     /// Feedback of a flight of `setup` on `wings`.
     ///
     /// # Errors
@@ -185,11 +189,11 @@ impl Loop {
         wings: Vec<Arc<CommandedMotion>>,
     ) -> Result<Self, FlightError> {
         if feedback.interval < MIN_INTERVAL {
-            return Err(FlightError::Setup {
-                key: "control.interval",
-                value: feedback.interval.to_string(),
-                problem: format!("looks must lie at least {MIN_INTERVAL} time steps apart"),
-            });
+            return Err(FlightError::setup(
+                "control.interval",
+                feedback.interval.to_string(),
+                format!("looks must lie at least {MIN_INTERVAL} time steps apart"),
+            ));
         }
         let none = vec![Adjustment::default(); wings.len()];
         let duration = feedback.interval as f64 * setup.time.step;
@@ -227,25 +231,18 @@ impl Loop {
     /// # Errors
     /// What is not the memory of this feedback.
     pub fn restore(&mut self, state: &ControlState) -> Result<(), FlightError> {
-        let misfit = |value: String, problem: String| FlightError::Setup {
-            key: "state",
-            value,
-            problem,
-        };
         let own = &self.state;
         let commands = [&state.from, &state.to].into_iter().chain(&state.queue);
         let wings = self.wings.len();
         if state.queue.len() != own.queue.len() || commands.into_iter().any(|c| c.len() != wings) {
-            return Err(misfit(
+            let due = own.queue.len();
+            return Err(FlightError::misfit(
                 format!("{} commands under way", state.queue.len()),
-                format!(
-                    "the case has {}, of {wings} wings; resume with the case that was saved with it",
-                    own.queue.len()
-                ),
+                format!("the case has {due}, of {wings} wings; {RESUME_AS_SAVED}"),
             ));
         }
         let restored = self.controller.restore(&state.memory);
-        restored.map_err(|problem| misfit("what the controller remembers".into(), problem))?;
+        restored.map_err(|e| FlightError::misfit("what the controller remembers", e))?;
         self.state = state.clone();
         self.apply();
         Ok(())
@@ -266,7 +263,7 @@ impl Loop {
         self.state.limited_looks
     }
 
-    /// Commands in force at the end of the present passage, wing by wing.
+    /// Commands in force at the end of the present transition, wing by wing.
     pub fn commands(&self) -> &[Adjustment] {
         &self.state.to
     }
@@ -293,11 +290,11 @@ impl Loop {
     }
 
     /// Gives it the air at the look that follows.
-    pub fn feel(&mut self, air: Option<FeltAir>) {
+    pub fn feel(&mut self, air: Option<AirProbe>) {
         self.controller.feel(air);
     }
 
-    /// Asks the controller at time `t` [s]; the passage to the command that is due begins.
+    /// Asks the controller at time `t` [s]; the transition to the command that is due begins.
     ///
     /// # Errors
     /// A controller that has no command; commands that are not finite, ask for another frequency, or are not one per
@@ -346,20 +343,16 @@ impl Loop {
 }
 
 /// Feedback of a setup that has it, and the wings it moves.
-pub(crate) fn feedback(setup: &FlightSetup) -> Result<Option<Loop>, FlightError> {
+pub(crate) fn feedback(setup: &FlightSetup) -> Result<Option<FeedbackLoop>, FlightError> {
     let Some(feedback) = &setup.feedback else {
         return Ok(None);
     };
     if let Some(problem) = unsteered(setup) {
-        return Err(FlightError::Setup {
-            key: "control",
-            value: String::new(),
-            problem: problem.into(),
-        });
+        return Err(FlightError::setup("control", "", problem));
     }
     let wings = setup.animal.wings.iter();
     let wings = wings.map(|w| Arc::new(CommandedMotion::new(w))).collect();
-    Ok(Some(Loop::new(setup, feedback, wings)?))
+    Ok(Some(FeedbackLoop::new(setup, feedback, wings)?))
 }
 
 /// Why commands to the wings of `setup` would move nothing; none where they act.

@@ -5,7 +5,8 @@ use wingbeat_math::DVec3;
 use wingbeat_model::Wing;
 use wingbeat_model::motion::Adjustment;
 
-use crate::felt::FeltAir;
+use crate::air_probe::AirProbe;
+use crate::error::RESUME_AS_SAVED;
 
 /// What a controller sees.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -50,7 +51,7 @@ pub trait Controller: Send {
     }
 
     /// The air at the look that follows; none where it is no vortex lattice.
-    fn feel(&mut self, _air: Option<FeltAir>) {}
+    fn feel(&mut self, _air: Option<AirProbe>) {}
 
     /// Where it steers to at `time` [s] since the release; none before its first look, or if it does not know.
     fn aim(&self, _time: f64) -> Option<Aim> {
@@ -84,7 +85,7 @@ pub fn fits(memory: &[f64], numbers: usize) -> Result<(), String> {
     match memory.len() == numbers {
         true => Ok(()),
         false => Err(format!(
-            "the controller remembers {numbers} numbers, and {} were saved; resume with the case that was saved with it",
+            "the controller remembers {numbers} numbers, and {} were saved; {RESUME_AS_SAVED}",
             memory.len()
         )),
     }

@@ -7,18 +7,16 @@ mod loads;
 use std::sync::Arc;
 
 use wingbeat_dynamics::{
-    AbsoluteForm, AddedMass, BodyMotion, Mechanism, Solution, Stabilization, Workspace, Wrench,
-    mass_centre, relative_energy,
+    AbsoluteForm, AddedMass, BodyMotion, Formulation, Mechanism, Solution, Stabilization,
+    Workspace, Wrench, mass_centre, relative_energy,
 };
 
 use crate::air::{Air, AirScratch, Instant};
 use crate::applied::{AppliedLoad, PointSpring};
 use crate::carried::{CarriedAir, CarriedScratch, CarriedState};
-use crate::core::Core;
 use crate::dynamic_pressure::DynamicPressure;
 use crate::elastic::{ElasticScratch, ElasticState, ElasticWings};
 use crate::error::FlightError;
-use crate::interface::Shape;
 use crate::memory::AirMemory;
 use crate::mirrored::Mirrored;
 use crate::quadratures::{QUADRATURES, Quadratures, WORKS};
@@ -30,7 +28,7 @@ pub struct Memory<'a> {
     pub air: Option<&'a AirMemory>,
     /// The elastic wings; empty where there are none.
     pub wings: &'a [ElasticState],
-    /// The wings that carry air along on free joints; empty where there are none.
+    /// The wings that carry air along (on free joints, or of a light flyer); empty where there are none.
     pub carried: &'a [CarriedState],
 }
 
@@ -38,14 +36,14 @@ pub struct Memory<'a> {
 #[derive(Debug)]
 pub struct Equations {
     /// The bodies: free or tethered.
-    pub core: Core,
+    pub core: Box<dyn Formulation>,
     /// The air around them.
     pub air: Arc<dyn Air>,
     /// What it could do to the wings, for the coefficients of a record.
     pub pressure: Arc<DynamicPressure>,
     /// The wings that loads bend.
     pub elastic: Arc<ElasticWings>,
-    /// The wings on free joints, which carry air along.
+    /// The wings that carry air along: on free joints, or all of a light flyer.
     pub carried: CarriedAir,
     /// All joints, for their coordinates.
     pub mechanism: Mechanism,
@@ -81,7 +79,7 @@ pub struct Scratch {
     added_at: Option<f64>,
     /// The same with those of elastic wings.
     carried: Vec<AddedMass>,
-    /// Air that wings on free joints carry along.
+    /// Air that wings carry along.
     carried_air: CarriedScratch,
     /// Accelerations, reactions, energies.
     pub solution: Solution,
@@ -133,9 +131,7 @@ impl Scratch {
             elastic: equations.elastic.scratch(&equations.elastic.initial()),
         }
     }
-}
 
-impl Scratch {
     /// Forgets what it knows of the last evaluation: the same times and states may mean something else from now on.
     pub fn forget(&mut self) {
         self.dynamics.forget();
@@ -149,9 +145,7 @@ impl Scratch {
         self.added_at = None;
         self.carried_air.forget();
     }
-}
 
-impl Scratch {
     /// Air and applied loads together.
     fn sum_loads(&mut self) {
         for ((sum, a), b) in self.total.iter_mut().zip(&self.air).zip(&self.applied) {
@@ -164,22 +158,6 @@ impl Scratch {
     }
 }
 
-/// The bodies at an instant.
-fn instant<'a>(
-    time: f64,
-    step: f64,
-    motions: &'a [BodyMotion],
-    shapes: &'a [Option<Shape>],
-) -> Instant<'a> {
-    Instant {
-        time,
-        step,
-        motions,
-        accelerations: &[],
-        shapes,
-    }
-}
-
 impl Equations {
     /// Motion of the root in the state `y` of the core at time `t` [s].
     ///
@@ -187,7 +165,7 @@ impl Equations {
     /// Singular attitude, numbers that are not finite.
     pub fn root(&self, t: f64, y: &[f64], s: &mut Scratch) -> Result<BodyMotion, FlightError> {
         let moved = self.core.motions(t, y, &mut s.dynamics, &mut s.motions);
-        moved.map(|()| s.motions[0])
+        Ok(moved.map(|()| s.motions[0])?)
     }
 
     /// Length of the state vector: core and quadratures.
@@ -244,7 +222,11 @@ impl Equations {
 
     /// Components of the state that nothing depends on and that a [`Self::pass`] leaves out.
     pub fn followers(&self) -> Vec<usize> {
-        let works = if self.core.is_held() { &[][..] } else { &WORKS };
+        let works = if self.core.is_supported() {
+            &[][..]
+        } else {
+            &WORKS
+        };
         works.iter().map(|k| self.core.dim() + k).collect()
     }
 
@@ -260,7 +242,7 @@ impl Equations {
         s: &mut Scratch,
         dy: &mut [f64],
     ) -> Result<(), FlightError> {
-        if self.core.is_held() || !self.elastic.is_empty() {
+        if self.core.is_supported() || !self.elastic.is_empty() {
             return self.evaluate(t, y, memory, s, dy); // impulses ask for the force of the support
         }
         self.loaded_rates(t, y, memory, s, dy)?;
@@ -306,7 +288,7 @@ impl Equations {
         dy: &mut [f64],
     ) -> Result<(), FlightError> {
         let mirror = self.mirror.as_ref();
-        mirror.map_or(Ok(()), |m| m.keep(&self.core, at, dy, &mut s.rates))
+        mirror.map_or(Ok(()), |m| m.keep(self.core.as_ref(), at, dy, &mut s.rates))
     }
 
     /// Rates of the core's state `y` alone, without records and quadratures.
@@ -323,7 +305,10 @@ impl Equations {
     ) -> Result<(), FlightError> {
         self.known_loads(t, y, memory, s)?;
         let (ws, out) = (&mut s.dynamics, &mut s.solution);
-        (self.core).rates_with((t, y), &s.added, &mut s.total, ws, out, dy)?;
+        match s.added.is_empty() {
+            true => (self.core).rates(t, y, &s.total, ws, dy)?,
+            false => (self.core).rates_with((t, y), &s.added, &mut s.total, ws, out, dy)?,
+        }
         self.symmetrise((t, y), s, dy)
     }
 
@@ -333,7 +318,7 @@ impl Equations {
     /// The projection fails.
     pub fn normalise(&self, t: f64, y: &mut [f64], s: &mut Scratch) -> Result<(), FlightError> {
         let n = self.core.dim();
-        self.core.normalise(t, &mut y[..n], &mut s.dynamics)
+        Ok(self.core.normalise(t, &mut y[..n], &mut s.dynamics)?)
     }
 
     /// Names of joints that close loops and nearly ask for the same thing twice in the state `y` at
@@ -355,7 +340,10 @@ impl Equations {
         let n = self.core.dim();
         self.core
             .motions(t, &y[..n], &mut s.dynamics, &mut s.motions)?;
-        let at = instant(t, self.step, &s.motions, s.elastic.shapes());
+        let at = Instant {
+            shapes: s.elastic.shapes(),
+            ..Instant::rigid(t, self.step, &s.motions)
+        };
         self.air.place(&at, &mut s.air_scratch)
     }
 

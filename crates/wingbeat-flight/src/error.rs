@@ -7,6 +7,9 @@ use wingbeat_dynamics::DynamicsError;
 /// Residual over the allowed one up to which a step that did not converge was nearly there.
 const NEARLY: f64 = 100.0;
 
+/// What to do where a saved state is that of another case.
+pub const RESUME_AS_SAVED: &str = "resume with the case that was saved with it";
+
 /// Why a flight cannot start or go on. Times in seconds.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum FlightError {
@@ -195,4 +198,20 @@ pub enum FlightError {
         /// What is allowed and what to try.
         problem: String,
     },
+}
+
+impl FlightError {
+    /// A setup that contradicts itself at `key`, whose value is `value`: what is allowed and what to try.
+    pub fn setup(key: &'static str, value: impl Into<String>, problem: impl Into<String>) -> Self {
+        Self::Setup {
+            key,
+            value: value.into(),
+            problem: problem.into(),
+        }
+    }
+
+    /// A saved state of which `value` does not fit the case.
+    pub(crate) fn misfit(value: impl Into<String>, problem: impl Into<String>) -> Self {
+        Self::setup("state", value, problem)
+    }
 }

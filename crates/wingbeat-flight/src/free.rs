@@ -16,7 +16,6 @@ use wingbeat_dynamics::{
 use crate::air::{Air, AirScratch, Instant};
 use crate::bodies::{WingLaw, system_with};
 use crate::carried::CarriedAir;
-use crate::core::Core;
 use crate::equations::{Equations, Memory, Scratch};
 use crate::error::FlightError;
 use crate::setup::{AirModel, FlightSetup};
@@ -91,11 +90,11 @@ impl FreeFlight {
                 Some(Unsteady::Peters { .. }) => ("air.blade.unsteady", "peters"),
                 None => ("air.model", setup.air.key_value()),
             };
-            return Err(FlightError::Setup {
+            return Err(FlightError::setup(
                 key,
-                value: value.into(),
-                problem: "a map of one wingbeat (averaged models, control derivatives, feedback that is laid out) needs air that depends on the present motion alone: blade_element without air.blade.unsteady, or none".into(),
-            });
+                value,
+                "a map of one wingbeat (averaged models, control derivatives, feedback that is laid out) needs air that depends on the present motion alone: blade_element without air.blade.unsteady, or none",
+            ));
         }
         Ok(Self::in_air(setup, form, air, step))
     }
@@ -103,7 +102,7 @@ impl FreeFlight {
     fn in_air(setup: &FlightSetup, form: MomentumForm, air: Arc<dyn Air>, step: f64) -> Self {
         let equations = Equations {
             mechanism: Mechanism::of(form.system()),
-            core: Core::Free(Box::new(form.clone())),
+            core: Box::new(form.clone()),
             air,
             pressure: Arc::default(), // no records are made of it
             elastic: Arc::default(),
@@ -194,13 +193,7 @@ impl FreeFlight {
         accelerations: &[BodyAcceleration],
         s: &mut AirScratch,
     ) -> Result<Vec<Wrench>, FlightError> {
-        let at = Instant {
-            time: t,
-            step: self.equations.step,
-            motions,
-            accelerations: &[],
-            shapes: &[],
-        };
+        let at = Instant::rigid(t, self.equations.step, motions);
         let (mut loads, mut added) = (vec![Wrench::default(); motions.len()], vec![]);
         self.air().place(&at, s)?;
         self.air().loads(&at, None, s, &mut loads)?;
@@ -216,13 +209,13 @@ fn untabulated(setup: &FlightSetup, law: &WingLaw<'_>) -> Result<MomentumForm, F
     let system = system_with(setup, law)?;
     match system.loops().first() {
         None => Ok(MomentumForm::new(system)),
-        Some(joint) => Err(FlightError::Setup {
-            key: "joint",
-            value: String::new(),
-            problem: format!(
+        Some(joint) => Err(FlightError::setup(
+            "joint",
+            "",
+            format!(
                 "`{}` closes a loop, which is solved for motions that are known beforehand only: leave it out",
                 joint.name
             ),
-        }),
+        )),
     }
 }

@@ -30,6 +30,19 @@ pub struct Instant<'a> {
     pub shapes: &'a [Option<Shape>],
 }
 
+impl<'a> Instant<'a> {
+    /// Bodies that move like `motions` at `time` \[s\], in steps of `step` \[s\]; no wing bends.
+    pub fn rigid(time: f64, step: f64, motions: &'a [BodyMotion]) -> Self {
+        Self {
+            time,
+            step,
+            motions,
+            accelerations: &[],
+            shapes: &[],
+        }
+    }
+}
+
 /// A wing as loads bend it: the nodes of its mesh relative to the frame of the wing, wing components.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Shape {
@@ -205,11 +218,8 @@ pub trait Air: fmt::Debug + Send + Sync {
         _scratch: &mut AirScratch,
         _out: &mut Vec<DVec3>,
     ) -> Result<(), FlightError> {
-        Err(FlightError::Setup {
-            key: "air.model",
-            value: "this model".into(),
-            problem: NO_BENDING.into(),
-        })
+        let model = "this model";
+        Err(FlightError::setup("air.model", model, NO_BENDING))
     }
 
     /// How the loads on a wing that bends answer to the motion of its nodes, at the instant last asked for,
@@ -276,11 +286,7 @@ pub trait Air: fmt::Debug + Send + Sync {
 
 /// A memory that belongs to another case.
 pub(crate) fn misfit(problem: &str) -> FlightError {
-    FlightError::Setup {
-        key: "state",
-        value: "air".into(),
-        problem: problem.into(),
-    }
+    FlightError::misfit("air", problem)
 }
 
 /// What a partner gets before the flight.

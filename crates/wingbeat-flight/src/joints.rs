@@ -112,6 +112,6 @@ impl RotationLaw for PrescribedMotion {
 impl TravelLaw for PrescribedMotion {
     fn at(&self, t: f64) -> [DVec3; 3] {
         let root = PrescribedMotion::at(self, t);
-        [root.position, root.velocity, root.acceleration]
+        [root.motion.p, root.motion.v, root.acceleration.linear]
     }
 }

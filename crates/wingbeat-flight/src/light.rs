@@ -72,13 +72,7 @@ fn is_light_at(
     let mut motions = vec![BodyMotion::REST; system.bodies().len()];
     let (root, mut ws) = (setup.root_at_start(), Workspace::new(system));
     tethered_motions(system, t, &root, &mut ws, &mut motions);
-    let at = Instant {
-        time: t,
-        step: setup.time.step,
-        motions: &motions,
-        accelerations: &[],
-        shapes: &[],
-    };
+    let at = Instant::rigid(t, setup.time.step, &motions);
     let (mut s, mut loads) = (air.scratch(), vec![Wrench::default(); motions.len()]);
     air.place(&at, &mut s)?;
     let memory = air.initial(&s);

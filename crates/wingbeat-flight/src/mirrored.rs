@@ -1,8 +1,7 @@
 //! A flight of which one half of the air is computed keeps to the mirror, or ends.
 
-use wingbeat_dynamics::MirrorSymmetry;
+use wingbeat_dynamics::{Formulation, MirrorSymmetry};
 
-use crate::core::Core;
 use crate::error::FlightError;
 
 /// What may part a motion from its mirror image within a step, over the natural sizes of the state \[1\]:
@@ -19,19 +18,19 @@ pub struct Mirrored {
 
 impl Mirrored {
     /// For the states of `core` in steps of `step` \[s\].
-    pub fn new(symmetry: MirrorSymmetry, core: &Core, step: f64) -> Self {
+    pub fn new(symmetry: MirrorSymmetry, core: &dyn Formulation, step: f64) -> Self {
         let sizes = core.scales().iter().map(|s| s / step).collect();
         Self { symmetry, sizes }
     }
 
-    /// Leaves of the rates `dy` of the state `y` of `core` at time `t` \[s\] those of a motion that is its own
-    /// mirror image. `before` is scratch.
+    /// Projects the rates `dy` of the state `y` of `core` at time `t` \[s\] onto mirror-symmetric motions. `before`
+    /// is scratch.
     ///
     /// # Errors
     /// [`FlightError::Asymmetric`]: what is taken away is more than rounding.
     pub fn keep(
         &self,
-        core: &Core,
+        core: &dyn Formulation,
         (t, y): (f64, &[f64]),
         dy: &mut [f64],
         before: &mut Vec<f64>,

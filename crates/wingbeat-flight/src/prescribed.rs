@@ -1,6 +1,7 @@
 //! Motions prescribed as Fourier series in time, from rest on or at once.
 
-use wingbeat_math::{DMat3, DVec3, DriftingFourier, MovingRotation};
+use wingbeat_dynamics::{BodyAcceleration, BodyMotion, RootMotion};
+use wingbeat_math::{DVec3, DriftingFourier, MovingRotation};
 use wingbeat_model::Start;
 
 /// A prescribed motion of the root body.
@@ -12,23 +13,6 @@ pub struct PrescribedMotion {
     pub angles: [DriftingFourier; 3],
     /// How all of it starts.
     pub start: Start,
-}
-
-/// Pose, velocities and accelerations of a prescribed root at one instant.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct PrescribedRoot {
-    /// Origin, N components [m].
-    pub position: DVec3,
-    /// Velocity of the origin, N components [m/s].
-    pub velocity: DVec3,
-    /// Acceleration of the origin, N components [m/s2].
-    pub acceleration: DVec3,
-    /// Rotation R_NB.
-    pub rotation: DMat3,
-    /// Angular velocity, root components [rad/s].
-    pub angular_velocity: DVec3,
-    /// Angular acceleration, root components [rad/s2].
-    pub angular_acceleration: DVec3,
 }
 
 impl PrescribedMotion {
@@ -87,17 +71,21 @@ impl PrescribedMotion {
     }
 
     /// The root at time `t` [s].
-    pub fn at(&self, t: f64) -> PrescribedRoot {
+    pub fn at(&self, t: f64) -> RootMotion {
         let x: [[f64; 3]; 3] = std::array::from_fn(|i| self.value(&self.position[i], t));
         let derivative = |k: usize| DVec3::new(x[0][k], x[1][k], x[2][k]);
         let r = self.turning(t);
-        PrescribedRoot {
-            position: derivative(0),
-            velocity: derivative(1),
-            acceleration: derivative(2),
-            rotation: r.c,
-            angular_velocity: r.w,
-            angular_acceleration: r.w_dot,
+        RootMotion {
+            motion: BodyMotion {
+                p: derivative(0),
+                r: r.c,
+                v: derivative(1),
+                w: r.w,
+            },
+            acceleration: BodyAcceleration {
+                linear: derivative(2),
+                angular: r.w_dot,
+            },
         }
     }
 }

@@ -18,7 +18,7 @@ pub struct Record {
     pub time: f64,
     /// Wing angles per wing: phi, theta, psi [rad].
     pub wing_angles: Vec<DVec3>,
-    /// Per wing: the command of feedback at the end of the passage under way; empty without feedback.
+    /// Per wing: the command of feedback at the end of the transition under way; empty without feedback.
     pub commands: Vec<Adjustment>,
     /// Looks of feedback so far, and of them those at which the command stood at a limit.
     pub looks: [usize; 2],

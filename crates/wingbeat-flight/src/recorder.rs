@@ -68,9 +68,7 @@ impl Ledger {
             ..Self::default()
         }
     }
-}
 
-impl Ledger {
     /// A jump of the motion that nothing in the flight makes, as when a root is released with another velocity:
     /// the balances go on as if it had been there from the start. The books were opened `before` and `after`
     /// it.

@@ -7,8 +7,8 @@ mod start;
 use std::fmt;
 use std::sync::Arc;
 
-use wingbeat_dynamics::Joint;
-use wingbeat_math::DVec3;
+use wingbeat_dynamics::{BodyMotion, Joint};
+use wingbeat_math::{DVec3, EulerSequence};
 use wingbeat_model::Animal;
 
 pub use self::air::{AirModel, AirOptions, BladeOptions};
@@ -20,7 +20,7 @@ pub use self::start::{MotionMode, StartState};
 pub use crate::applied::{AppliedLoad, LoadFrame, PointSpring};
 use crate::controller::Controller;
 use crate::error::FlightError;
-pub use crate::prescribed::{PrescribedMotion, PrescribedRoot};
+pub use crate::prescribed::PrescribedMotion;
 pub use wingbeat_math::DriftingFourier;
 
 /// Everything that defines one flight. Constant once built; the state is elsewhere.
@@ -91,6 +91,36 @@ impl FlightSetup {
             || self.joints.iter().any(|j| j.model.kind.directions() > 0)
             || self.animal.is_elastic()
     }
+
+    /// Motion of the root at time zero.
+    pub fn root_at_start(&self) -> BodyMotion {
+        match &self.mode {
+            MotionMode::Tethered(motion) => motion.at(0.0).motion,
+            MotionMode::Free(start) if start.held_steps > 0 => start.hold().at(0.0).motion,
+            MotionMode::Free(start) if start.held_motion.is_some() => start.released(0.0),
+            MotionMode::Free(start) => BodyMotion {
+                p: start.position,
+                r: start.rotation(),
+                v: start.velocity,
+                w: start.angular_velocity,
+            },
+        }
+    }
+
+    /// Pitch, yaw and roll of the root where its free flight begins, be it released then or not; tethered all
+    /// along, the means over its motion \[rad\].
+    pub fn angles_at_release(&self) -> DVec3 {
+        match &self.mode {
+            MotionMode::Tethered(motion) => {
+                DVec3::from_array(motion.angles.each_ref().map(|a| a.constant))
+            }
+            MotionMode::Free(start) if start.held_motion.is_some() => {
+                let root = start.released(start.held_steps as f64 * self.time.step);
+                EulerSequence::BODY_231.angles(root.r)
+            }
+            MotionMode::Free(start) => start.angles,
+        }
+    }
 }
 
 /// Feedback of a flight.
@@ -100,7 +130,7 @@ pub struct Feedback {
     pub controller: Arc<dyn ControlModel>,
     /// Time steps from one look to the next, at least [`crate::control::MIN_INTERVAL`].
     pub interval: usize,
-    /// Looks from sensing to the beginning of the passage to the command.
+    /// Looks from sensing to the beginning of the transition to the command.
     pub latency: usize,
     /// Time constant of the actuators, a first-order lag: what acts goes over to the command by the share
     /// `1 - exp(-interval / lag)` from one look to the next; 0: wholly [s].

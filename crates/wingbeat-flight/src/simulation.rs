@@ -25,7 +25,7 @@ use self::fits::check_fits;
 use self::start::Start;
 use self::wings::WingAngles;
 use crate::bodies::own_motion;
-use crate::control::{Loop, feedback};
+use crate::control::{FeedbackLoop, feedback};
 use crate::elastic::ElasticState;
 use crate::equations::{Equations, Memory, Scratch};
 use crate::error::FlightError;
@@ -50,7 +50,7 @@ pub struct Simulation {
     record: Record,
     wings: WingAngles,
     release: Option<BodyMotion>,
-    feedback: Option<Loop>,
+    feedback: Option<FeedbackLoop>,
 }
 
 impl Simulation {
@@ -87,7 +87,7 @@ impl Simulation {
     ) -> Result<Self, FlightError> {
         setup.validate()?;
         let feedback = feedback(&setup)?;
-        let wings = feedback.as_ref().map(Loop::wings);
+        let wings = feedback.as_ref().map(FeedbackLoop::wings);
         let stages = stages(&setup, &|k, wing| match wings {
             Some(wings) => wings[k].clone(),
             None => own_motion(k, wing),
@@ -106,10 +106,10 @@ impl Simulation {
             past: Multistep::default(),
             start_report: StepReport::default(),
             air: None,
-            wings: bent.map_or_else(|| first.elastic.initial(), afresh),
+            wings: bent.map_or_else(|| first.elastic.initial(), without_dissipated_energy),
             carried: first.carried.initial(),
             ledger: Ledger::default(),
-            control: feedback.as_ref().map(Loop::state),
+            control: feedback.as_ref().map(FeedbackLoop::state),
         };
         let mut flight = Self {
             solver: Solver::new(first, setup.integrator, &setup.corrector),
@@ -278,7 +278,7 @@ impl Simulation {
             let mut motions = self.scratch.motions.clone();
             core.motions(0.0, &y0, &mut core.workspace(), &mut motions)?;
             let shapes: Vec<_> = elastic.shape_masses(&self.scratch.elastic).collect();
-            y0 = core.initial_from(0.0, &motions, &shapes)?;
+            y0 = core.initial_shaped(0.0, &motions, &shapes)?;
         }
         y0.resize(y0.len() + QUADRATURES, 0.0);
         self.state.air = (self.stages[0].equations).initial_air(&y0, &mut self.scratch)?;
@@ -381,7 +381,7 @@ impl Simulation {
 }
 
 /// Elastic wings at the start of a flight, whose books begin there.
-fn afresh(wings: &[ElasticState]) -> Vec<ElasticState> {
+fn without_dissipated_energy(wings: &[ElasticState]) -> Vec<ElasticState> {
     let mut wings = wings.to_vec();
     (wings.iter_mut()).for_each(|w| w.structure.dissipated = 0.0);
     wings

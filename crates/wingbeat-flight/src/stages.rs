@@ -10,7 +10,6 @@ use wingbeat_dynamics::{
 use crate::air::{Air, wing_pairs};
 use crate::bodies::{self, WingLaw};
 use crate::carried::CarriedAir;
-use crate::core::Core;
 use crate::dynamic_pressure::DynamicPressure;
 use crate::elastic::ElasticWings;
 use crate::equations::Equations;
@@ -21,6 +20,7 @@ use crate::setup::{
     AirModel, BaumgarteChoice, FlightSetup, FormulationChoice, IntegratorChoice, MotionMode,
     PrescribedMotion, StabilizationChoice,
 };
+use crate::tethered::TetheredForm;
 
 /// Passes of a step that are plain where nothing speaks for more.
 const PLAIN_PASSES: usize = 12;
@@ -60,9 +60,11 @@ pub fn stages(setup: &FlightSetup, law: &WingLaw<'_>) -> Result<Vec<Stage>, Flig
     let mirror = (moves_by_air && setup.air.is_mirrored()).then(|| mirror(setup, &system));
     let moves_joints = system.speeds() > 0 && !setup.air.keeps_wake();
     let accelerated_from = accelerated_from(setup, is_carried || moves_joints);
-    let stage = |from_step: usize, core: Core| {
+    let stage = |from_step: usize, core: Box<dyn Formulation>| {
         let step = setup.time.step;
-        let mirror = mirror.clone().map(|m| Mirrored::new(m, &core, step));
+        let mirror = mirror
+            .clone()
+            .map(|m| Mirrored::new(m, core.as_ref(), step));
         Stage {
             from_step,
             equations: Equations {
@@ -83,7 +85,7 @@ pub fn stages(setup: &FlightSetup, law: &WingLaw<'_>) -> Result<Vec<Stage>, Flig
     Ok(match &setup.mode {
         MotionMode::Tethered(motion) => vec![stage(0, tethered(setup, system, motion))],
         MotionMode::Free(start) => {
-            let free = Core::Free(formulation(setup, system.clone())?);
+            let free = formulation(setup, system.clone())?;
             if start.held_steps == 0 {
                 vec![stage(0, free)]
             } else {
@@ -162,29 +164,32 @@ fn carried(
 fn check_integrator(setup: &FlightSetup, elastic: &ElasticWings) -> Result<(), FlightError> {
     let is_hamming = setup.integrator == IntegratorChoice::Hamming;
     match is_hamming && elastic.is_delicate() && !elastic.is_empty() {
-        true => Err(FlightError::Setup {
-            key: "dynamics.integrator",
-            value: "hamming".into(),
-            problem: "elastic wings on free joints, or on a body that weighs little beside the air, vibrate together with what carries them, and by hamming that grows from step to step: take bdf, or leave out [wing.NAME.structure]".into(),
-        }),
+        true => Err(FlightError::setup(
+            "dynamics.integrator",
+            "hamming",
+            "elastic wings on free joints, or on a body that weighs little beside the air, vibrate together with what carries them, and by hamming that grows from step to step: take bdf, or leave out [wing.NAME.structure]",
+        )),
         false => Ok(()),
     }
 }
 
 /// A root that moves like `motion`: inverse dynamics where all joints are prescribed, the
 /// quaternion form on a support where some are free.
-fn tethered(setup: &FlightSetup, system: System, motion: &PrescribedMotion) -> Core {
+fn tethered(
+    setup: &FlightSetup,
+    system: System,
+    motion: &PrescribedMotion,
+) -> Box<dyn Formulation> {
     let motion = motion.clone();
     if system.speeds() == 0 && system.loops().is_empty() {
-        return Core::Tethered { system, motion };
+        return Box::new(TetheredForm { system, motion });
     }
     let stabilization = match setup.formulation {
         FormulationChoice::Quaternion(choice) => stabilization(choice, setup.time.step),
         _ => Stabilization::Baumgarte(Baumgarte::for_step(setup.time.step)),
     };
     let motion = Arc::new(motion);
-    let form = QuaternionForm::new(system, stabilization).supported(motion.clone(), motion);
-    Core::Free(Box::new(form))
+    Box::new(QuaternionForm::new(system, stabilization).supported(motion.clone(), motion))
 }
 
 fn baumgarte(choice: BaumgarteChoice, step: f64) -> Baumgarte {

@@ -66,14 +66,14 @@ impl FlightSetup {
     pub(crate) fn refuse_elastic(&self, what: &str) -> Result<(), FlightError> {
         match self.animal.wings.iter().find(|w| w.structure.is_some()) {
             None => Ok(()),
-            Some(wing) => Err(FlightError::Setup {
-                key: "wing.structure",
-                value: String::new(),
-                problem: format!(
+            Some(wing) => Err(FlightError::setup(
+                "wing.structure",
+                "",
+                format!(
                     "{what} knows no wings that loads bend, as `{}` is: leave out [wing.NAME.structure] for it",
                     wing.name
                 ),
-            }),
+            )),
         }
     }
 
@@ -189,9 +189,5 @@ fn check(
     if ok {
         return Ok(());
     }
-    Err(FlightError::Setup {
-        key,
-        value: value.to_string(),
-        problem: problem.into(),
-    })
+    Err(FlightError::setup(key, value.to_string(), problem))
 }

@@ -73,13 +73,7 @@ fn loads(setup: &FlightSetup, t: f64, motions: &[BodyMotion], acc: DVec3) -> Vec
         panic!("blade elements");
     };
     let air = BladeAir::new(&setup.animal, options).expect("strips");
-    let at = Instant {
-        time: t,
-        step: 1e-4,
-        motions,
-        accelerations: &[],
-        shapes: &[],
-    };
+    let at = Instant::rigid(t, 1e-4, motions);
     let mut out = vec![Wrench::default(); motions.len()];
     air.loads(&at, None, &mut air.scratch(), &mut out)
         .expect("loads");

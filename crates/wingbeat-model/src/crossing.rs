@@ -27,19 +27,29 @@ pub struct Crossing {
     pub part: f64,
 }
 
+/// All pairs of `wings`, each once.
+pub fn pairs(wings: impl Iterator<Item = usize> + Clone) -> impl Iterator<Item = [usize; 2]> {
+    let all = wings.clone();
+    let with = move |(k, a)| all.clone().skip(k + 1).map(move |b| [a, b]);
+    wings.enumerate().flat_map(with)
+}
+
+/// Whether a pair of wings is among those `joined`, in either order.
+pub fn are_joined(joined: &[[usize; 2]], pair: [usize; 2]) -> bool {
+    joined.iter().any(|j| pair.iter().all(|w| j.contains(w)))
+}
+
 /// Which of `wings` of the animal pass through each other once their motion has started: at 100 instants of a
 /// beat, in ten beats where frequencies differ, shapes at rest, on at most 8 x 16 panels. Pairs that are
 /// `joined` at their roots have the edge there midway, as in the lattice, unless their roots part by more than
 /// [`root_gap`].
 pub fn crossings(animal: &Animal, wings: &[usize], joined: &[[usize; 2]]) -> Vec<Crossing> {
-    let pairs = |(k, &a)| wings[k + 1..].iter().map(move |&b| [a, b]);
-    let pairs = wings.iter().enumerate().flat_map(pairs);
     let crossing = |wings: [usize; 2]| {
-        let is_joined = joined.iter().any(|j| wings.iter().all(|w| j.contains(w)));
+        let is_joined = are_joined(joined, wings);
         let part = part_of_time(wings.map(|w| &animal.wings[w]), is_joined);
         (part > 0.0).then_some(Crossing { wings, part })
     };
-    pairs.filter_map(crossing).collect()
+    pairs(wings.iter().copied()).filter_map(crossing).collect()
 }
 
 /// How near nodes of two wings come to each other in their prescribed motion at least \[m\], at the instants of
@@ -140,19 +150,17 @@ impl FlownCrossings {
     /// For all pairs of wings of the animal; those `joined` as in [`crossings`].
     pub fn new(animal: &Animal, joined: &[[usize; 2]]) -> Self {
         let wings = &animal.wings;
-        let pairs = (0..wings.len()).flat_map(|a| (a + 1..wings.len()).map(move |b| [a, b]));
         let pair = |of: [usize; 2]| {
-            let is_joined = joined.iter().any(|j| of.iter().all(|w| j.contains(w)));
             let meshes = of.map(|w| &wings[w].mesh);
             Pair {
                 wings: of,
-                gap: is_joined.then(|| root_gap(meshes)),
+                gap: are_joined(joined, of).then(|| root_gap(meshes)),
                 met: 0,
             }
         };
         Self {
             sheets: wings.iter().map(Sheet::new).collect(),
-            pairs: pairs.map(pair).collect(),
+            pairs: pairs(0..wings.len()).map(pair).collect(),
             instants: 0,
         }
     }

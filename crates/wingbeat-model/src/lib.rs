@@ -46,7 +46,9 @@ pub use animal::{Animal, BodyPart, Segment, Wing};
 pub use build::{BodyMass, fit_body_length};
 pub use check::{ElasticReport, WingReport};
 pub use crossing::depth::crossing_depth;
-pub use crossing::{Crossing, FlownCrossings, crossings, nearest_nodes, root_gap};
+pub use crossing::{
+    Crossing, FlownCrossings, are_joined, crossings, nearest_nodes, pairs, root_gap,
+};
 pub use deformation::{Deformation, DeformingMesh};
 pub use error::ModelError;
 pub use import::Imported;

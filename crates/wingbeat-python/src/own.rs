@@ -20,8 +20,8 @@ use wingbeat::dynamics::{BodyMotion, Wrench};
 use wingbeat::flight::AirMemory;
 use wingbeat::flight::control::{check_heeded, for_all};
 use wingbeat::flight::{
-    Air, AirModel, AirScratch, Announcement, ControlModel, Controller, ExternalAir,
-    ExternalSession, Feedback, FeltAir, FlightError, FlightSetup, Instant,
+    Air, AirModel, AirProbe, AirScratch, Announcement, ControlModel, Controller, ExternalAir,
+    ExternalSession, Feedback, FlightError, FlightSetup, Instant,
 };
 use wingbeat::math::DVec3;
 use wingbeat::model::Wing;
@@ -88,7 +88,7 @@ pub struct Sensed {
 
 /// The air at a look.
 enum AtLook {
-    Lattice(FeltAir),
+    Lattice(AirProbe),
     /// It is no vortex lattice.
     Other,
     /// The look is over.
@@ -96,7 +96,7 @@ enum AtLook {
 }
 
 impl Sensed {
-    fn new(seen: wingbeat::flight::Sensed, air: Option<FeltAir>) -> Self {
+    fn new(seen: wingbeat::flight::Sensed, air: Option<AirProbe>) -> Self {
         let air = Mutex::new(air.map_or(AtLook::Other, AtLook::Lattice));
         Self { seen, air }
     }
@@ -107,7 +107,7 @@ impl Sensed {
     }
 
     /// The lattice at the look.
-    fn lattice(&self, py: Python<'_>) -> PyResult<FeltAir> {
+    fn lattice(&self, py: Python<'_>) -> PyResult<AirProbe> {
         match &*self.air.lock().unwrap_or_else(PoisonError::into_inner) {
             AtLook::Lattice(air) => Ok(air.clone()),
             AtLook::Other => Err(no_lattice(py)),
@@ -258,7 +258,7 @@ impl ControlModel for PythonController {
 struct Steered {
     function: Function,
     /// At the look that follows.
-    air: Option<FeltAir>,
+    air: Option<AirProbe>,
     wings: Vec<Wing>,
 }
 
@@ -267,7 +267,7 @@ impl Controller for Steered {
         true
     }
 
-    fn feel(&mut self, air: Option<FeltAir>) {
+    fn feel(&mut self, air: Option<AirProbe>) {
         self.air = air;
     }
 

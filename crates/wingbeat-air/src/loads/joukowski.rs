@@ -7,8 +7,8 @@
 
 use crate::geometry::{Edge, NodeMotion, Strip, column, section};
 use crate::lattice::Lattice;
-use crate::loads::front::add_front;
 use crate::loads::lag::add_lag;
+use crate::loads::leading_strip::add_front;
 use crate::loads::rate::couple_of_rate;
 use crate::loads::values::AirLoads;
 use crate::loads::vortex_lift::yielding;

@@ -1,9 +1,9 @@
 //! From circulations to forces, in the order of the theory.
 
 mod closed;
-mod front;
 mod joukowski;
 mod lag;
+mod leading_strip;
 mod nodal;
 mod pressure;
 mod rate;

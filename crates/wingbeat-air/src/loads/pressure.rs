@@ -1,8 +1,8 @@
 //! Unsteady Bernoulli: from circulation to pressure jump and force.
 
 use crate::lattice::Lattice;
-use crate::loads::front::add_front;
 use crate::loads::lag::add_lag;
+use crate::loads::leading_strip::add_front;
 use crate::loads::rate::{couple_of_rate, rate_weights};
 use crate::loads::values::AirLoads;
 use crate::state::AirState;

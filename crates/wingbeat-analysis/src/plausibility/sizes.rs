@@ -44,9 +44,8 @@ fn carried(setup: &FlightSetup, wing: &Wing) -> f64 {
     let tip = tip.max_by(|a, b| a.length().total_cmp(&b.length()));
     let tip = wing.hinge_b + tip.map_or(DVec3::ZERO, |x| wing.motion.at(0.0).c * x);
     let past = |k: usize| {
-        let root = motion.at(k as f64 * time.step);
-        let turned = root.rotation * root.angular_velocity.cross(tip);
-        (root.velocity + turned - air).length()
+        let root = motion.at(k as f64 * time.step).motion;
+        (root.v + root.r * root.w.cross(tip) - air).length()
     };
     (0..=time.steps).map(past).fold(0.0, f64::max)
 }

@@ -1,6 +1,6 @@
 //! How much of its wakes a lattice keeps, and how far wings go in a step.
 
-use wingbeat_flight::{AirModel, FlightSetup};
+use wingbeat_flight::FlightSetup;
 
 use super::limit::rounded;
 use super::numbers::{Estimate, WingEstimate};
@@ -39,10 +39,7 @@ pub struct KeptWake {
 /// What is kept of wakes that are cut before the flight ends; none where all is kept, or where rows that are too many
 /// become particles.
 pub fn kept_wake(setup: &FlightSetup) -> Option<KeptWake> {
-    let AirModel::VortexLattice(air) = &setup.air else {
-        return None;
-    };
-    let lattice = &air.lattice;
+    let lattice = &setup.air.lattice()?.lattice;
     if setup.animal.wings.is_empty() || !lattice.shedding.any() {
         return None;
     }

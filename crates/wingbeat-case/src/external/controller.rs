@@ -8,7 +8,9 @@ use std::sync::Arc;
 use serde::{Deserialize, Serialize};
 use wingbeat_analysis::control::{Limits, Route, Sensors};
 use wingbeat_flight::control::check_heeded;
-use wingbeat_flight::{Aim, ControlModel, Controller, FlightError, FlightSetup, Sensed};
+use wingbeat_flight::{
+    Aim, ControlModel, Controller, FlightError, FlightSetup, RESUME_AS_SAVED, Sensed,
+};
 use wingbeat_math::DVec3;
 use wingbeat_model::motion::Adjustment;
 use wingbeat_model::{Side, Wing};
@@ -52,12 +54,10 @@ pub struct ProcessController {
 
 impl ControlModel for ProcessController {
     fn open(&self, setup: &FlightSetup) -> Result<Box<dyn Controller>, FlightError> {
-        let partner =
-            Partner::start(&self.program, SPOKEN).map_err(|problem| FlightError::Setup {
-                key: "control.external.command",
-                value: self.program.command.join(" "),
-                problem,
-            })?;
+        let partner = Partner::start(&self.program, SPOKEN).map_err(|problem| {
+            let command = self.program.command.join(" ");
+            FlightError::setup("control.external.command", command, problem)
+        })?;
         let wings = &setup.animal.wings;
         Ok(Box::new(Conversation {
             partner,
@@ -348,8 +348,7 @@ impl Controller for Conversation {
     fn restore(&mut self, memory: &[f64]) -> Result<(), String> {
         let split = memory.split_at_checked(NUMBERS * self.command.len());
         let Some((command, [x, y, z, begun, memory @ ..])) = split else {
-            let problem = "it has no commands; resume with the case that was saved with it";
-            return Err(problem.to_owned());
+            return Err(format!("it has no commands; {RESUME_AS_SAVED}"));
         };
         self.origin = (*begun != 0.0).then(|| DVec3::new(*x, *y, *z));
         self.is_limited = *begun == 2.0;

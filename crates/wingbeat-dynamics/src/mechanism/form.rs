@@ -179,8 +179,8 @@ impl AbsoluteForm {
         Ok(())
     }
 
-    /// Leaves of the rates `dy` of the state `y` those of a motion that is its own image in `mirror`: of the
-    /// root, and of the pairs; other bodies are left as they are.
+    /// Projects the rates `dy` of the state `y` onto motions that are symmetric in `mirror`: those of the root and
+    /// of the pairs; other bodies are left as they are.
     pub(crate) fn symmetrise(&self, mirror: &MirrorSymmetry, y: &[f64], dy: &mut [f64]) {
         let vector = |of: &[f64], k: usize| DVec3::from_slice(&of[k..]);
         let (root, _) = dy.split_at_mut(STATE_NUMBERS);

@@ -179,13 +179,13 @@ impl BentScratch {
 pub(super) fn refuse_measured_surfaces(animal: &Animal) -> Result<(), FlightError> {
     match animal.wings.iter().find(|w| w.has_measured_surface()) {
         None => Ok(()),
-        Some(wing) => Err(FlightError::Setup {
-            key: "air.model",
-            value: "blade_element".into(),
-            problem: format!(
+        Some(wing) => Err(FlightError::setup(
+            "air.model",
+            "blade_element",
+            format!(
                 "wing `{}` has a measured surface, which strips cannot follow: give twist and bending instead, or take the vortex lattice",
                 wing.name
             ),
-        }),
+        )),
     }
 }

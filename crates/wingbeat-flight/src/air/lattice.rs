@@ -40,10 +40,12 @@ impl LatticeAir {
             return Ok(Self { lattice, map });
         }
         let root = setup.root_at_start();
-        let refused = |problem: &str| FlightError::Setup {
-            key: "air.mirror",
-            value: "true".into(),
-            problem: format!("{problem}; compute both sides (false)"),
+        let refused = |problem: &str| {
+            FlightError::setup(
+                "air.mirror",
+                "true",
+                format!("{problem}; compute both sides (false)"),
+            )
         };
         let is_free = matches!(setup.mode, MotionMode::Free(_));
         if is_free && root.r.y_axis.dot(setup.gravity).abs() > ROUNDING * setup.gravity.length() {

@@ -317,11 +317,11 @@ pub fn check_joined(animal: &Animal, pair: [usize; 2]) -> Result<(), FlightError
     let same = a.len() == b.len() && a.iter().zip(&b).all(|(a, b)| (a - b).abs() <= 1e-9 * chord);
     if !same {
         let names = pair.map(|w| animal.wings[w].name.clone());
-        return Err(FlightError::Setup {
-            key: "joined",
-            value: names.join(", "),
-            problem: "the roots have different chords, or different panels along the chord".into(),
-        });
+        return Err(FlightError::setup(
+            "joined",
+            names.join(", "),
+            "the roots have different chords, or different panels along the chord",
+        ));
     }
     let at = |w: &Wing| BodyMotion {
         p: w.hinge_b,
@@ -330,13 +330,7 @@ pub fn check_joined(animal: &Animal, pair: [usize; 2]) -> Result<(), FlightError
     };
     let wings = animal.wings.iter().map(at);
     let motions: Vec<BodyMotion> = std::iter::once(BodyMotion::REST).chain(wings).collect();
-    let at = Instant {
-        time: 0.0,
-        step: 0.0,
-        motions: &motions,
-        accelerations: &[],
-        shapes: &[],
-    };
+    let at = Instant::rigid(0.0, 0.0, &motions);
     SurfaceMap::new(animal, false, (&[pair], &[])).node_motion(&at, &mut NodeMotion::default())
 }
 

@@ -25,14 +25,14 @@ impl TableAir {
                 table,
                 added: table.added_mass_of_body().map(|a| AddedMass::new(0, a)),
             }),
-            Some(wing) => Err(FlightError::Setup {
-                key: "air.model",
-                value: "derivatives".into(),
-                problem: format!(
+            Some(wing) => Err(FlightError::setup(
+                "air.model",
+                "derivatives",
+                format!(
                     "wing `{}` is deformed, of which a table of derivatives knows nothing: leave the deformation out, or take blade elements or the vortex lattice",
                     wing.name
                 ),
-            }),
+            )),
         }
     }
 }

@@ -7,11 +7,12 @@ use wingbeat_dynamics::{
 use wingbeat_math::{DVec3, MassProperties};
 use wingbeat_structure::resultant;
 
-use super::coupling::{ElasticScratch, Moment};
+use super::coupling::ElasticScratch;
 use super::image::{reflected, reflected_mass};
 use super::step::WingScratch;
 use super::wing::ElasticState;
 use super::wings::{ElasticWings, turned};
+use crate::interface::Instant;
 use crate::record::ElasticRecord;
 
 impl ElasticWings {
@@ -67,7 +68,7 @@ impl ElasticWings {
     /// `out`; what they exert under the accelerations that the wings are known to have is taken out of `loads`.
     pub fn add_mass(
         &self,
-        at: &Moment<'_>,
+        at: &Instant<'_>,
         s: &ElasticScratch,
         loads: &mut [Wrench],
         out: &mut Vec<AddedMass>,
@@ -175,9 +176,7 @@ impl ElasticWings {
         b.centre = first / mass;
         b.angular_momentum = angular - b.centre.cross(b.momentum);
     }
-}
 
-impl ElasticWings {
     /// Of each wing the scratch of the one whose shape it has, its own or its mirror image.
     fn originals<'a>(&'a self, s: &'a ElasticScratch) -> impl Iterator<Item = &'a WingScratch> {
         (0..self.wings.len()).map(|k| &s.wings[self.original(k)])

@@ -1,6 +1,6 @@
 //! One step of the elastic wings with the air, at given motions and accelerations of the bodies.
 
-use wingbeat_dynamics::{BodyAcceleration, BodyMotion, Wrench};
+use wingbeat_dynamics::{BodyAcceleration, Wrench};
 use wingbeat_math::{Secants, larger};
 use wingbeat_structure::{GeneralizedAlpha, NODE};
 
@@ -59,19 +59,6 @@ impl ElasticScratch {
     }
 }
 
-/// What shape and loads are to agree at.
-pub struct Moment<'a> {
-    /// Time \[s\].
-    pub time: f64,
-    /// Time step \[s\].
-    pub step: f64,
-    /// Motions of all bodies.
-    pub motions: &'a [BodyMotion],
-    /// Accelerations of all bodies; of wings in the first pass of a step that of the step before where they are
-    /// not known.
-    pub accelerations: &'a [BodyAcceleration],
-}
-
 impl ElasticWings {
     /// Room for steps from `states`.
     pub fn scratch(&self, states: &[ElasticState]) -> ElasticScratch {
@@ -92,7 +79,7 @@ impl ElasticWings {
     /// What the air reports; shapes and loads that do not come to agree.
     pub fn couple(
         &self,
-        at: &Moment<'_>,
+        at: &Instant<'_>,
         around: (&dyn Air, Option<&AirMemory>),
         s: &mut ElasticScratch,
         (air_scratch, out): (&mut AirScratch, &mut [Wrench]),
@@ -104,11 +91,8 @@ impl ElasticWings {
             self.place(s);
             let mut shapes = std::mem::take(&mut s.shapes);
             let instant = Instant {
-                time: at.time,
-                step: at.step,
-                motions: at.motions,
-                accelerations: at.accelerations,
                 shapes: &shapes,
+                ..*at
             };
             let passed = self.pass(&instant, around, s, (air_scratch, out));
             std::mem::swap(&mut s.shapes, &mut shapes);
@@ -208,7 +192,7 @@ impl ElasticWings {
         self.reflect(s);
     }
 
-    fn set_frames(&self, at: &Moment<'_>, s: &mut ElasticScratch) {
+    fn set_frames(&self, at: &Instant<'_>, s: &mut ElasticScratch) {
         for (w, ws) in self.wings.iter().zip(&mut s.wings) {
             let (m, a) = (&at.motions[w.wing + 1], &at.accelerations[w.wing + 1]);
             ws.frame = frame_motion(m, a, self.gravity);

@@ -17,6 +17,6 @@ mod tangent;
 mod wing;
 mod wings;
 
-pub use coupling::{ElasticScratch, MAX_PASSES, Moment};
+pub use coupling::{ElasticScratch, MAX_PASSES};
 pub use wing::{ElasticState, ElasticWing};
 pub use wings::ElasticWings;

@@ -23,8 +23,8 @@ pub struct ElasticWings {
     pub(super) on_joints: bool,
     /// Whether wings or joints are driven.
     is_driven: bool,
-    /// Whether they do, or the flyer is light as a whole: small moments of inertia turn small forces into
-    /// accelerations.
+    /// Whether wings hang on free joints, or the flyer is light as a whole: small moments of inertia turn small
+    /// forces into accelerations.
     is_delicate: bool,
 }
 

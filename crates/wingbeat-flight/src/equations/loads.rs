@@ -3,8 +3,8 @@
 use wingbeat_dynamics::Wrench;
 use wingbeat_math::DVec3;
 
-use super::{Equations, Memory, Scratch, instant};
-use crate::elastic::Moment;
+use super::{Equations, Memory, Scratch};
+use crate::air::Instant;
 use crate::error::FlightError;
 use crate::quadratures::Quadratures;
 
@@ -43,7 +43,7 @@ impl Equations {
         if self.elastic.is_empty() {
             self.place_nodes(t, y, s)?;
             self.applied_loads(t, s);
-            let at = instant(t, self.step, &s.motions, &[]);
+            let at = Instant::rigid(t, self.step, &s.motions);
             (self.air).loads(&at, memory.air, &mut s.air_scratch, &mut s.air)?;
             let air = (self.air.as_ref(), memory.air);
             let scratch = (&s.air_scratch, &mut s.carried_air);
@@ -63,11 +63,9 @@ impl Equations {
 
     /// Loads of the added masses of the air and of elastic wings, each to its own.
     pub(super) fn add_masses(&self, t: f64, y: &[f64], s: &mut Scratch) -> Result<(), FlightError> {
-        let at = Moment {
-            time: t,
-            step: self.step,
-            motions: &s.motions,
+        let at = Instant {
             accelerations: &s.solution.bodies,
+            ..Instant::rigid(t, self.step, &s.motions)
         };
         s.carried.clone_from(&s.added);
         let (loads, carried) = (&mut s.elastic_loads, &mut s.carried);
@@ -108,15 +106,14 @@ impl Equations {
         self.core
             .motions(t, &y[..n], &mut s.dynamics, &mut s.motions)?;
         self.applied_loads(t, s);
-        if self.core.prescribes_all() {
+        // Without a state all accelerations follow from time alone.
+        if n == 0 {
             let (ws, out) = (&mut s.dynamics, &mut s.solution);
             self.core.solve(t, &y[..n], &s.total, ws, out)?;
         }
-        let at = Moment {
-            time: t,
-            step: self.step,
-            motions: &s.motions,
+        let at = Instant {
             accelerations: &s.solution.bodies,
+            ..Instant::rigid(t, self.step, &s.motions)
         };
         let air = (self.air.as_ref(), memory.air);
         let loads = (&mut s.air_scratch, &mut s.air[..]);
@@ -188,7 +185,10 @@ impl Equations {
         if s.deformation.is_empty() {
             return;
         }
-        let at = instant(t, self.step, &s.motions, s.elastic.shapes());
+        let at = Instant {
+            shapes: s.elastic.shapes(),
+            ..Instant::rigid(t, self.step, &s.motions)
+        };
         let accelerations = &s.solution.bodies;
         (self.air).deformation_power(&at, accelerations, &s.air_scratch, &mut s.deformation);
     }

@@ -27,6 +27,14 @@ pub enum AirModel {
 }
 
 impl AirModel {
+    /// The vortex lattice; none of another model.
+    pub fn lattice(&self) -> Option<&AirOptions> {
+        match self {
+            Self::VortexLattice(options) => Some(options),
+            _ => None,
+        }
+    }
+
     /// What it is called.
     pub fn name(&self) -> &'static str {
         match self {

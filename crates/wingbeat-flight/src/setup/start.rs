@@ -1,5 +1,6 @@
 //! How the root body moves, and how it starts.
 
+use wingbeat_dynamics::BodyMotion;
 use wingbeat_math::{DMat3, DVec3, DriftingFourier, EulerSequence};
 use wingbeat_model::Start;
 
@@ -58,5 +59,11 @@ impl StartState {
             angles: std::array::from_fn(|i| about(angles[i], 0.0, more.map(|m| &m.angles[i]))),
             start: more.map_or(Start::Impulsive, |m| m.start),
         }
+    }
+    /// Motion of the root that is released at `time` \[s\].
+    pub fn released(&self, time: f64) -> BodyMotion {
+        let mut root = self.hold().at(time).motion;
+        root.w += self.angular_velocity;
+        root
     }
 }

@@ -6,10 +6,10 @@ use wingbeat_air::Points;
 use wingbeat_math::ode::StepReport;
 
 use super::Simulation;
+use crate::air_probe::AirProbe;
 use crate::control::Sensed;
 use crate::equations::{Equations, Scratch};
 use crate::error::FlightError;
-use crate::felt::FeltAir;
 use crate::memory::AirMemory;
 use crate::recorder::Sources;
 
@@ -90,12 +90,12 @@ fn felt(
     equations: &Equations,
     memory: Option<&AirMemory>,
     s: &Scratch,
-) -> Result<Option<FeltAir>, FlightError> {
+) -> Result<Option<AirProbe>, FlightError> {
     if memory.and_then(AirMemory::wakes).is_none() {
         return Ok(None);
     }
     let (air, mut memory) = (Arc::clone(&equations.air), memory.cloned());
     air.accept(&mut memory, &s.air_scratch)?;
     let velocity = move |points: &Points| air.velocity(memory.as_ref(), points);
-    Ok(Some(FeltAir::new(velocity)))
+    Ok(Some(AirProbe::new(velocity)))
 }

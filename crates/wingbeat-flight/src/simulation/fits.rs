@@ -4,7 +4,7 @@ use wingbeat_structure::State;
 
 use super::state::FlightState;
 use crate::elastic::ElasticState;
-use crate::error::FlightError;
+use crate::error::{FlightError, RESUME_AS_SAVED};
 use crate::memory::wakes_of;
 use crate::recorder::Ledger;
 use crate::stages::Stage;
@@ -23,7 +23,7 @@ pub(super) fn check_fits(
 ) -> Result<(), FlightError> {
     let Some(stage) = stages.get(state.stage) else {
         let value = format!("stage {}", state.stage);
-        return misfit(value, "the flight has no such stage");
+        return Err(FlightError::misfit(value, "the flight has no such stage"));
     };
     check_steps(state)?;
     let dim = stage.equations.dim();
@@ -31,37 +31,33 @@ pub(super) fn check_fits(
     let vectors = past.y.iter().chain(&past.f);
     let mut vectors = vectors.chain([&past.predicted_minus_corrected]);
     if vectors.any(|v| v.len() != dim) {
-        return misfit(
+        return Err(FlightError::misfit(
             format!("{} components", past.newest().len()),
-            &format!("the case has {dim}; resume with the case that was saved with it"),
-        );
+            format!("the case has {dim}; {RESUME_AS_SAVED}"),
+        ));
     }
     let scales = stage.equations.scales();
     let own_dim = scales.iter().filter(|s| s.is_finite()).count();
     if past.shown.iter().flatten().any(|v| v.len() != own_dim) {
-        return misfit(
-            "what passes have shown".into(),
-            &format!(
-                "the case has {own_dim} components; resume with the case that was saved with it"
-            ),
-        );
+        return Err(FlightError::misfit(
+            "what passes have shown",
+            format!("the case has {own_dim} components; {RESUME_AS_SAVED}"),
+        ));
     }
     let ledger = &state.ledger;
     let lengths = |of: &Ledger| [of.coordinates.len(), of.rates.len(), of.joints.len()];
     let lengths = [ledger, own].map(lengths);
     if lengths[0] != lengths[1] {
-        return misfit(
-            format!("{:?} coordinates", lengths[0]),
-            "the case has others",
-        );
+        let value = format!("{:?} coordinates", lengths[0]);
+        return Err(FlightError::misfit(value, "the case has others"));
     }
     check_wings(stage, &state.wings)?;
     check_control(state, has_feedback)?;
     if state.carried.len() != stage.equations.carried.initial().len() {
-        return misfit(
-            format!("{} wings on free joints", state.carried.len()),
-            "the case has others; resume with the case that was saved with it",
-        );
+        return Err(others(format!(
+            "{} wings that carry air along",
+            state.carried.len()
+        )));
     }
     stage.equations.air.check(state.air.as_ref())?;
     check_events(state)
@@ -70,22 +66,23 @@ pub(super) fn check_fits(
 /// Elastic wings have the nodes that the case gives them, and six numbers of each kind at every one.
 pub(super) fn check_wings(stage: &Stage, wings: &[ElasticState]) -> Result<(), FlightError> {
     let own = stage.equations.elastic.initial();
-    let as_saved = "the case has others; resume with the case that was saved with it";
     if own.len() != wings.len() {
-        return misfit(format!("{} elastic wings", wings.len()), as_saved);
+        return Err(others(format!("{} elastic wings", wings.len())));
     }
     for (k, (own, saved)) in own.iter().zip(wings).enumerate() {
         let [own, saved] = [own, saved].map(|wing| lengths(&wing.structure));
         if own != saved {
-            return misfit(
-                format!(
-                    "{saved:?} places, attitudes, velocities, accelerations of elastic wing {k}"
-                ),
-                as_saved,
-            );
+            return Err(others(format!(
+                "{saved:?} places, attitudes, velocities, accelerations of elastic wing {k}"
+            )));
         }
     }
     Ok(())
+}
+
+/// A state with another number of something than the case has.
+fn others(value: String) -> FlightError {
+    FlightError::misfit(value, format!("the case has others; {RESUME_AS_SAVED}"))
 }
 
 /// Numbers of places, attitudes, velocities and both accelerations of a wing.
@@ -98,27 +95,25 @@ fn lengths(state: &State) -> [usize; 5] {
 
 /// What feedback remembers is saved where the case has feedback, and nowhere else.
 fn check_control(state: &FlightState, has_feedback: bool) -> Result<(), FlightError> {
-    let value = match (has_feedback, &state.control) {
-        (true, None) => "no memory of feedback",
-        (false, Some(_)) => "a memory of feedback",
+    let (value, own) = match (has_feedback, &state.control) {
+        (true, None) => ("no memory of feedback", "[control]"),
+        (false, Some(_)) => ("a memory of feedback", "no [control]"),
         _ => return Ok(()),
     };
-    let problem = match has_feedback {
-        true => "the case has [control]; resume with the case that was saved with it",
-        false => "the case has no [control]; resume with the case that was saved with it",
-    };
-    misfit(value.into(), problem)
+    let problem = format!("the case has {own}; {RESUME_AS_SAVED}");
+    Err(FlightError::misfit(value, problem))
 }
 
 fn check_steps(state: &FlightState) -> Result<(), FlightError> {
     if state.step as u64 > MOST {
-        return misfit(format!("step {}", state.step), "no flight comes so far");
+        let value = format!("step {}", state.step);
+        return Err(FlightError::misfit(value, "no flight comes so far"));
     }
     match state.started_at > state.step {
-        true => misfit(
+        true => Err(FlightError::misfit(
             format!("stage begun at step {}", state.started_at),
             "it is not reached yet",
-        ),
+        )),
         false => Ok(()),
     }
 }
@@ -143,15 +138,8 @@ fn check_events(state: &FlightState) -> Result<(), FlightError> {
         && ledger.events[1] <= limited
         && ledger.leading_rings <= leading;
     if counts.iter().any(|n| *n > MOST) || !is_counted {
-        return misfit(format!("{counts:?}"), "nothing can be counted so");
+        let value = format!("{counts:?}");
+        return Err(FlightError::misfit(value, "nothing can be counted so"));
     }
     Ok(())
-}
-
-fn misfit(value: String, problem: &str) -> Result<(), FlightError> {
-    Err(FlightError::Setup {
-        key: "state",
-        value,
-        problem: problem.into(),
-    })
 }

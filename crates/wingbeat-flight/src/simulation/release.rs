@@ -28,7 +28,7 @@ impl Simulation {
             carry(&mut motions, &root);
             let elastic = &self.stages[next].equations.elastic;
             let shapes: Vec<_> = elastic.shape_masses(&self.scratch.elastic).collect();
-            let mut y0 = core.initial_from(self.time(self.state.step), &motions, &shapes)?;
+            let mut y0 = core.initial_shaped(self.time(self.state.step), &motions, &shapes)?;
             y0.extend(quadratures);
             self.state.stage = next;
             let before = jumps.then(|| Ledger::open(&self.scratch));

@@ -28,7 +28,7 @@ pub struct FlightState {
     /// The elastic wings after the newest step; empty where there are none.
     #[serde(default)]
     pub wings: Vec<ElasticState>,
-    /// The wings that carry air along on free joints; empty where there are none.
+    /// The wings that carry air along (on free joints, or of a light flyer); empty where there are none.
     pub carried: Vec<CarriedState>,
     /// What balances are counted from.
     pub ledger: Ledger,

@@ -3,7 +3,7 @@
 use wingbeat_dynamics::{Cycle, System};
 use wingbeat_math::DVec3;
 
-use crate::control::Loop;
+use crate::control::FeedbackLoop;
 use crate::record::Record;
 use crate::setup::FlightSetup;
 use crate::stages::cycle;
@@ -27,7 +27,13 @@ impl WingAngles {
     }
 
     /// Puts the angles phi, theta, psi at step number `step` and the commands of feedback into the record.
-    pub fn write(&self, setup: &FlightSetup, feedback: Option<&Loop>, step: usize, r: &mut Record) {
+    pub fn write(
+        &self,
+        setup: &FlightSetup,
+        feedback: Option<&FeedbackLoop>,
+        step: usize,
+        r: &mut Record,
+    ) {
         r.wing_angles.clear();
         r.commands.clear();
         let t = step as f64 * setup.time.step;

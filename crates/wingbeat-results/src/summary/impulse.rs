@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 use wingbeat_air::ImpulseAccount;
-use wingbeat_flight::{AirModel, AirOptions, FlightSetup, Record};
+use wingbeat_flight::{AirOptions, FlightSetup, Record};
 use wingbeat_math::{DVec3, larger};
 
 use super::beats::down;
@@ -57,7 +57,7 @@ pub(super) struct Parting {
 impl Parting {
     /// Takes the record of the next step.
     pub(super) fn take(&mut self, record: &Record, setup: &FlightSetup) {
-        let AirModel::VortexLattice(air) = &setup.air else {
+        let Some(air) = setup.air.lattice() else {
             return;
         };
         let before = self.before.replace(record.inviscid_impulse);
@@ -91,9 +91,7 @@ impl ImpulseBudget {
         [from, to]: [&Record; 2],
         parting: &Parting,
     ) -> Option<Self> {
-        let AirModel::VortexLattice(air) = &setup.air else {
-            return None;
-        };
+        let air = setup.air.lattice()?;
         let lattice = &air.lattice;
         let closes = lattice.particles.is_none() && lattice.wind.is_uniform();
         if !closes || !to.impulse_residual.is_finite() {

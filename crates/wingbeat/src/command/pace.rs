@@ -6,7 +6,7 @@ use std::time::Instant;
 use wingbeat::air::Points;
 use wingbeat::analysis::cost::{CostModel, WakeGrowth};
 use wingbeat::case::OutputSettings;
-use wingbeat::flight::{AirModel, AirOptions, FlightSetup, Record, Simulation};
+use wingbeat::flight::{FlightSetup, Record, Simulation};
 use wingbeat::results::rows::Rows;
 
 /// Points of a trial sum over the wake.
@@ -91,24 +91,16 @@ impl Pace {
     }
 }
 
-/// The lattice of a flight, if that is its air.
-fn lattice(setup: &FlightSetup) -> Option<&AirOptions> {
-    match &setup.air {
-        AirModel::VortexLattice(air) => Some(air),
-        _ => None,
-    }
-}
-
 /// Whether wakes are summed at a cost that grows slower than with their square.
 fn blobs(setup: &FlightSetup) -> bool {
-    lattice(setup).is_some_and(|air| {
+    setup.air.lattice().is_some_and(|air| {
         air.lattice.wake_blob_length.is_some() || air.lattice.particles.is_some()
     })
 }
 
 /// Steps after which the oldest row of a wake is dropped.
 fn kept_steps(setup: &FlightSetup) -> Option<usize> {
-    let air = &lattice(setup)?.lattice;
+    let air = &setup.air.lattice()?.lattice;
     let by_age = air
         .max_age
         .map(|age| (age / setup.time.step).ceil() as usize);

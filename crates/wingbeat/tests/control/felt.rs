@@ -3,7 +3,7 @@
 use std::sync::{Arc, Mutex};
 
 use wingbeat::air::Points;
-use wingbeat::flight::{Controller, Feedback, FeltAir, Sensed, Simulation};
+use wingbeat::flight::{AirProbe, Controller, Feedback, Sensed, Simulation};
 use wingbeat::math::DVec3;
 use wingbeat::model::motion::Adjustment;
 
@@ -25,7 +25,7 @@ impl Controller for Feeling {
         true
     }
 
-    fn feel(&mut self, air: Option<FeltAir>) {
+    fn feel(&mut self, air: Option<AirProbe>) {
         let velocity = air.and_then(|air| air.velocity(&point()));
         self.0.lock().unwrap().push(velocity.map(|v| v.get(0)));
     }

@@ -5,7 +5,7 @@ use wingbeat_air::{AirSettings, CoreModel, LoadMethod};
 use wingbeat_analysis::way_in_a_step;
 use wingbeat_flight::FlightSetup;
 use wingbeat_math::RotationLaw;
-use wingbeat_model::{Wing, nearest_nodes};
+use wingbeat_model::{Wing, are_joined, nearest_nodes, pairs};
 
 use super::lattice::differences;
 use super::wakes::{cut_wake, held_off};
@@ -152,8 +152,7 @@ fn causes(setup: &FlightSetup, lattice: &AirSettings, summary: &Summary) -> Stri
 fn near_wings(setup: &FlightSetup) -> Option<String> {
     let wings = &setup.animal.wings;
     let joined = setup.joined_pairs();
-    let pairs = (0..wings.len()).flat_map(|a| (a + 1..wings.len()).map(move |b| [a, b]));
-    let apart = pairs.filter(|pair| !joined.iter().any(|j| pair.iter().all(|w| j.contains(w))));
+    let apart = pairs(0..wings.len()).filter(|pair| !are_joined(&joined, *pair));
     // The nearest nodes of wings that share their root line are those of the root.
     let apart = apart.filter(|pair| !share_root(pair.map(|w| &wings[w])));
     let found = apart.map(|pair| (pair, nearest_nodes(&setup.animal, pair)));

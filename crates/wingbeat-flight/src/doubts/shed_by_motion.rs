@@ -19,12 +19,14 @@
 
 use std::f64::consts::PI;
 
-use crate::setup::{AirModel, FlightSetup, MotionMode};
+use super::air_past::strips;
+use super::said::names;
+use crate::setup::{FlightSetup, MotionMode};
 use wingbeat_air::{AirSettings, LeadingEdge};
 use wingbeat_math::DVec3;
 use wingbeat_model::Wing;
 
-/// Of a sweep angle, relative.
+/// Part of a sweep angle that is rounding \[1\].
 const ROUNDING: f64 = 1e-9;
 
 /// Instants of a beat that are looked at.
@@ -51,15 +53,13 @@ impl FlightSetup {
     /// Says which wings that do not beat shed vorticity of one sign from their leading edges in steps that are long
     /// beside their chords, and which step would do.
     pub fn long_steps_one_way(&self) -> Option<String> {
-        let AirModel::VortexLattice(air) = &self.air else {
-            return None;
-        };
+        let air = self.air.lattice()?;
         if !air.lattice.shedding.leading || !air.lattice.leading.sheds() {
             return None;
         }
         let goes_on = |(w, wing): &(usize, &Wing)| {
-            let has_joint = self.joints.iter().any(|j| j.child == w + 1);
-            wing.motion.frequency == 0.0 && !has_joint && self.one_sided_part(*w) > ONE_SIDED
+            let beats = wing.motion.frequency != 0.0;
+            !beats && !self.has_own_joint(*w) && self.one_sided_part(*w) > ONE_SIDED
         };
         let wings = self.animal.wings.iter().enumerate().filter(goes_on);
         let found: Vec<(&str, f64)> = wings
@@ -67,10 +67,9 @@ impl FlightSetup {
             .filter(|(_, way)| *way > LONG_STEP)
             .collect();
         let most = found.iter().map(|(_, way)| *way).reduce(f64::max)?;
-        let names: Vec<String> = found.iter().map(|(name, _)| format!("`{name}`")).collect();
         Some(format!(
             "wings ({}) go on one way with vorticity from their leading edges, and the fastest strip goes {most:.2} mean chords in a step: the lift hangs on the step, by half of it at 1.0 chords and an aspect ratio of 16; take time.step_s = {:.2e} or less (0.5 chords)",
-            names.join(", "),
+            names(found.iter().map(|(name, _)| *name), ", "),
             self.time.step * 0.5 / most
         ))
     }
@@ -93,14 +92,11 @@ impl FlightSetup {
     /// are left out; of wings joined at their roots, or whose circulation goes on through a body, no root
     /// holds.
     pub fn one_sided_leading_edges(&self) -> Option<String> {
-        let AirModel::VortexLattice(air) = &self.air else {
-            return None;
-        };
+        let air = self.air.lattice()?;
         let shedding = air.lattice.shedding;
         if !shedding.leading || !air.lattice.leading.sheds() {
             return None;
         }
-        let has_joint = |w: usize| self.joints.iter().any(|j| j.child == w + 1);
         let carried = self.carried_pairs(air);
         let through = carried.iter().map(|p| &p.wings);
         let pairs: Vec<&[usize; 2]> = air.joined.iter().chain(through).collect();
@@ -108,12 +104,11 @@ impl FlightSetup {
         let is_late = matches!(air.lattice.leading, LeadingEdge::Suction { .. });
         let holds = |w: usize| !shedding.root && !is_joined(w);
         let wings = 0..self.animal.wings.len();
-        let known = wings.filter(|&w| !has_joint(w) && (is_late || holds(w)));
+        let known = wings.filter(|&w| !self.has_own_joint(w) && (is_late || holds(w)));
         let parts = known.map(|w| (w, self.one_sided_part(w)));
         let found: Vec<_> = parts.filter(|(_, part)| *part > ONE_SIDED).collect();
         let most = found.iter().map(|(_, part)| *part).reduce(f64::max)?;
-        let name = |(w, _): &(usize, f64)| format!("`{}`", self.animal.wings[*w].name);
-        let names: Vec<String> = found.iter().map(name).collect();
+        let name = |(w, _): &(usize, f64)| &self.animal.wings[*w].name[..];
         let beats = self.animal.wings[found[0].0].motion.frequency > 0.0;
         let [what, when] = match beats {
             true => ["strokes are unlike back and forth", "in every beat"],
@@ -131,7 +126,7 @@ impl FlightSetup {
         };
         Some(format!(
             "{what}: of the vorticity that leading edges shed (wings {}), up to {:.0} % is left over of one sign {when}, and {why}: {remedy}",
-            names.join(", "),
+            names(found.iter().map(name), ", "),
             100.0 * most
         ))
     }
@@ -140,25 +135,19 @@ impl FlightSetup {
     /// stays attached, while their tips shed: wakes that go along the tip, with the cores of wakes, in place of
     /// the sharp edge there (docs/wings.md, "Side edges"). Wings with joints of their own are left out.
     pub fn tips_of_attached_wings(&self) -> Option<String> {
-        let AirModel::VortexLattice(air) = &self.air else {
-            return None;
-        };
+        let air = self.air.lattice()?;
         if !air.lattice.shedding.tip {
             return None;
         }
         let held = held(&air.lattice)?;
-        let has_joint = |w: usize| self.joints.iter().any(|j| j.child == w + 1);
         let wings = self.animal.wings.iter().enumerate();
-        let attached = wings.filter(|(w, wing)| !has_joint(*w) && self.holds(wing, held));
-        let names: Vec<String> = attached
-            .map(|(_, wing)| format!("`{}`", wing.name))
-            .collect();
+        let attached = wings.filter(|(w, wing)| !self.has_own_joint(*w) && self.holds(wing, held));
+        let names = names(attached.map(|(_, wing)| &wing.name[..]), ", ");
         (!names.is_empty()).then(|| {
             format!(
-                "wings ({}) meet the air with no more than {held} of suction ({:.0} deg of incidence), where flow stays attached, and \
+                "wings ({names}) meet the air with no more than {held} of suction ({:.0} deg of incidence), where flow stays attached, and \
                  their tips shed nevertheless: the lift comes out high, by a quarter at an aspect ratio of 2, a tenth at 4, a twentieth \
                  at 8; take air.shed = [\"trailing\"] (docs/wings.md, \"Side edges\")",
-                names.join(", "),
                 held.asin().to_degrees()
             )
         })
@@ -167,9 +156,7 @@ impl FlightSetup {
     /// Says which wings with vortex lift have leading edges so swept that their vortex is carried along the
     /// edge, which the law does not know (docs/separated-flow.md, "Vortex lift without free vorticity").
     pub fn vortex_lift_of_swept_edges(&self) -> Option<String> {
-        let AirModel::VortexLattice(air) = &self.air else {
-            return None;
-        };
+        let air = self.air.lattice()?;
         if !air.lattice.shedding.leading
             || !matches!(air.lattice.leading, LeadingEdge::VortexLift(_))
         {
@@ -185,13 +172,12 @@ impl FlightSetup {
             .filter(|w| sweep(w) >= SWEPT * (1.0 - ROUNDING))
             .collect();
         let most = swept.iter().map(|w| sweep(w)).reduce(f64::max)?;
-        let names: Vec<String> = swept.iter().map(|w| format!("`{}`", w.name)).collect();
         Some(format!(
             "leading edges are swept by up to {:.0} deg (wings {}), and vortex lift does not know that the vortex of a swept edge is carried \
              along it (a delta of an aspect ratio of 1 has a third of its lift); take air.loads = \"polhamus\" without shedding from leading \
              edges, or leading edges that shed",
             most.to_degrees(),
-            names.join(", "),
+            names(swept.iter().map(|w| &w.name[..]), ", "),
         ))
     }
 
@@ -218,7 +204,7 @@ impl FlightSetup {
     /// air than lattices. The body goes on with the velocity and the attitude with which it starts.
     pub fn one_sided_part(&self, w: usize) -> f64 {
         let wing = &self.animal.wings[w];
-        let AirModel::VortexLattice(air) = &self.air else {
+        let Some(air) = self.air.lattice() else {
             return 0.0;
         };
         let motion = wing.motion.impulsive();
@@ -238,9 +224,7 @@ impl FlightSetup {
             0.0
         }
     }
-}
 
-impl FlightSetup {
     /// What a wing of this beat [Hz] goes through again and again, or all of the flight [s].
     fn round(&self, beat: f64) -> f64 {
         let whole = self.time.steps as f64 * self.time.step;
@@ -278,17 +262,14 @@ struct Section {
 
 /// The strips of a wing, `past` the air past its places [m/s].
 fn sections(wing: &Wing, past: impl Fn(DVec3) -> DVec3) -> impl Iterator<Item = Section> {
-    let mesh = &wing.mesh;
-    let at = |i: usize, j: usize| mesh.nodes[mesh.node(i, j)];
-    (0..mesh.cols).map(move |j| {
-        let [front, rear] = [0, mesh.rows].map(|i| at(i, j).midpoint(at(i, j + 1)));
+    strips(wing).map(move |[front, rear, across]| {
         let aft = (rear - front).normalize_or_zero();
         let quarter = past(front.lerp(rear, 0.25));
         let speed = quarter.dot(aft).hypot(quarter.z);
         Section {
             speed,
             suction: past(front.midpoint(rear)).z / speed.max(f64::MIN_POSITIVE),
-            width: (at(0, j + 1) - at(0, j)).reject_from(aft).length(),
+            width: across.reject_from(aft).length(),
         }
     })
 }

@@ -1,9 +1,12 @@
 //! Prescribed motions that no animal has, and of which no vortex lattice says what the air does.
 
-use wingbeat_model::{BodyPart, Crossing, FlownCrossings, crossing_depth, crossings, inside};
+use wingbeat_model::{
+    BodyPart, Crossing, FlownCrossings, are_joined, crossing_depth, crossings, inside,
+};
 
-use crate::air::{check_joined, wing_pairs};
-use crate::setup::{AirModel, FlightSetup};
+use super::said::names;
+use crate::air::check_joined;
+use crate::setup::FlightSetup;
 
 /// Depth ([`crossing_depth`]) over the mean chord up to which wings that pass through each other graze \[1\].
 const GRAZE: f64 = 0.03;
@@ -23,7 +26,7 @@ impl FlightSetup {
     pub fn crossing_wings(&self) -> Vec<CrossingWings> {
         let joined = self.joined_pairs();
         let say = |c: Crossing| {
-            let is_joined = (joined.iter()).any(|j| c.wings.iter().all(|w| j.contains(w)));
+            let is_joined = are_joined(&joined, c.wings);
             let chords = c.wings.map(|w| self.animal.wings[w].report().mean_chord);
             let depth = crossing_depth(&self.animal, c.wings, is_joined) / chords[0].min(chords[1]);
             CrossingWings {
@@ -42,8 +45,8 @@ impl FlightSetup {
     /// What to do about wings that pass through each other.
     fn apart(&self, found: &Crossing, is_joined: bool) -> String {
         let remedy = "move their hinges apart (hinge_m), sweep them (theta) or change their phase";
-        let may_be_joined = matches!(self.air, AirModel::VortexLattice(_))
-            && check_joined(&self.animal, found.wings).is_ok();
+        let may_be_joined =
+            self.air.lattice().is_some() && check_joined(&self.animal, found.wings).is_ok();
         match (is_joined, may_be_joined) {
             (true, _) => "feather less at the joined roots (twist the wing instead), change their phase, or do not join them".to_owned(),
             (false, true) => format!("join them at their roots (joined = true of the wing), {remedy}"),
@@ -85,24 +88,24 @@ impl FlightSetup {
     /// both as surfaces ([`inside`]), and what to do about it; wings with joints of their own are left out, and
     /// so are parts of segments.
     pub fn wings_inside_parts(&self) -> Vec<String> {
-        if !matches!(&self.air, AirModel::VortexLattice(air) if air.body_surfaces) {
+        if !self.air.lattice().is_some_and(|air| air.body_surfaces) {
             return vec![];
         }
         let found = inside(&self.animal, &self.prescribed_wings());
         let of_part = |(k, part): (usize, &BodyPart)| {
             let here = || found.iter().filter(move |i| i.part == k);
             let most = here().map(|i| i.time).reduce(f64::max)?;
-            let names: Vec<String> = here()
-                .map(|i| format!("`{}`", self.animal.wings[i.wing].name))
+            let inside: Vec<&str> = here()
+                .map(|i| &self.animal.wings[i.wing].name[..])
                 .collect();
-            let (wings, are) = match names.len() {
+            let (wings, are) = match inside.len() {
                 1 => ("wing", "is"),
                 _ => ("wings", "are"),
             };
             Some(format!(
                 "{wings} {} {are} inside the body part `{}` in {:.0} % of the beat: move the hinges out of it (hinge_m), make it \
                  smaller (body.part.{}), or leave bodies out of the air (air.body = false)",
-                names.join(" and "),
+                names(inside, " and "),
                 part.name,
                 (100.0 * most).max(1.0),
                 part.name,
@@ -110,24 +113,5 @@ impl FlightSetup {
         };
         let parts = self.animal.parts.iter().enumerate();
         parts.filter_map(of_part).collect()
-    }
-
-    /// Wings without joints of their own.
-    pub(crate) fn prescribed_wings(&self) -> Vec<usize> {
-        let has_joint = |w: usize| self.joints.iter().any(|j| j.child == w + 1);
-        let all = 0..self.animal.wings.len();
-        all.filter(|&w| !has_joint(w)).collect()
-    }
-
-    /// Pairs of wings that are joined at their roots; where no air joins them, those that could be.
-    pub fn joined_pairs(&self) -> Vec<[usize; 2]> {
-        match &self.air {
-            AirModel::VortexLattice(air) => air.joined.clone(),
-            _ => {
-                let mut pairs = wing_pairs(&self.animal);
-                pairs.retain(|&pair| check_joined(&self.animal, pair).is_ok());
-                pairs
-            }
-        }
     }
 }

@@ -12,6 +12,8 @@ use std::ops::AddAssign;
 use wingbeat_math::DVec3;
 use wingbeat_model::Wing;
 
+use super::air_past::strips;
+use super::said::{grouped, names};
 use crate::setup::FlightSetup;
 
 /// Instants of a beat that are looked at.
@@ -134,25 +136,15 @@ impl FlightSetup {
     /// Says which wings move with the trailing edge ahead in one of their strokes, and what angles do so, or
     /// feather and yet stroke broadside. Wings that do not beat, or have joints of their own, are left out.
     pub fn trailing_edges_ahead(&self) -> Vec<String> {
-        let has_joint = |w: usize| self.joints.iter().any(|j| j.child == w + 1);
-        let mut found: Vec<(Doubt, Vec<&str>)> = vec![];
-        for (w, wing) in self.animal.wings.iter().enumerate() {
-            if has_joint(w) || wing.motion.frequency <= 0.0 {
-                continue;
-            }
-            let Some(doubt) = self.beat(wing).doubt() else {
-                continue;
-            };
-            match found.iter_mut().find(|f| f.0 == doubt) {
-                Some((_, wings)) => wings.push(&wing.name),
-                None => found.push((doubt, vec![&wing.name])),
-            }
-        }
-        let named = |(doubt, wings): (Doubt, Vec<&str>)| {
-            let wings = wings.join("`, `");
-            format!("{} (wings `{wings}`): {}", doubt.what, doubt.remedy)
+        let wings = self.animal.wings.iter().enumerate();
+        let beating =
+            wings.filter(|(w, wing)| !self.has_own_joint(*w) && wing.motion.frequency > 0.0);
+        let doubts = beating.filter_map(|(_, w)| Some((self.beat(w).doubt()?, &w.name[..])));
+        let say = |(doubt, wings): (Doubt, Vec<&str>)| {
+            let wings = names(wings, ", ");
+            format!("{} (wings {wings}): {}", doubt.what, doubt.remedy)
         };
-        found.into_iter().map(named).collect()
+        grouped(doubts).into_iter().map(say).collect()
     }
 
     /// Down- and upstroke of a wing in its prescribed motion; the body goes on as it starts. The speed of a
@@ -186,14 +178,4 @@ impl FlightSetup {
             feathers: 0.5 * (feathering[1] - feathering[0]),
         }
     }
-}
-
-/// Middle of the leading and of the trailing edge of every strip, and its way along the leading edge.
-fn strips(wing: &Wing) -> impl Iterator<Item = [DVec3; 3]> {
-    let mesh = &wing.mesh;
-    let at = |i: usize, j: usize| mesh.nodes[mesh.node(i, j)];
-    (0..mesh.cols).map(move |j| {
-        let [front, rear] = [0, mesh.rows].map(|i| at(i, j).midpoint(at(i, j + 1)));
-        [front, rear, at(0, j + 1) - at(0, j)]
-    })
 }

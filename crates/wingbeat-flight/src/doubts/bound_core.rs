@@ -5,7 +5,8 @@
 //! 0.08, 0.16, 0.24, 0.32 and 0.64 panel lengths. Vorticity is dense at the leading edge: with cosine spacing the same
 //! goes with the mean length of the two foremost panels, 0.7 and 1.5 % with 0.14 and 0.30 of it.
 
-use crate::setup::{AirModel, FlightSetup};
+use super::said::names;
+use crate::setup::FlightSetup;
 use wingbeat_model::Wing;
 
 /// Core over the length of the foremost panels from which lift is 1 % high \[1\].
@@ -15,9 +16,7 @@ impl FlightSetup {
     /// Radius of the cores of the wings' own filaments over the mean length of the foremost panels, of the wing that has
     /// most \[1\]; none without wings in a lattice, or of cores without a radius.
     pub fn bound_core_width(&self) -> Option<f64> {
-        let AirModel::VortexLattice(air) = &self.air else {
-            return None;
-        };
+        let air = self.air.lattice()?;
         let radius = air.lattice.bound_core.radius()?;
         let widths = self.animal.wings.iter().map(|w| radius / foremost(w));
         widths.reduce(f64::max)
@@ -26,19 +25,16 @@ impl FlightSetup {
     /// Says which wings have filaments whose cores are so wide beside the panels along the chord that lift is 1 % high
     /// or more; none where none have.
     pub fn wide_bound_core(&self) -> Option<String> {
-        let AirModel::VortexLattice(air) = &self.air else {
-            return None;
-        };
+        let air = self.air.lattice()?;
         let radius = air.lattice.bound_core.radius()?;
         let parts = self.animal.wings.iter().map(|w| (w, radius / foremost(w)));
         let wide: Vec<_> = parts.filter(|(_, part)| *part > WIDE).collect();
         let most = wide.iter().map(|(_, part)| *part).reduce(f64::max)?;
-        let names: Vec<String> = wide.iter().map(|(w, _)| format!("`{}`", w.name)).collect();
         Some(format!(
             "vortex cores of the wing (air.bound_core, {radius:.1e} m) are {most:.2} lengths of the foremost panels ({}), and from {WIDE} on \
              lift is 1 % high and more, the more so the more panels there are along the chord: give air.bound_core a tenth of \
              that length or less, or take fewer panels (mesh.chordwise)",
-            names.join(", ")
+            names(wide.iter().map(|(w, _)| &w.name[..]), ", ")
         ))
     }
 }

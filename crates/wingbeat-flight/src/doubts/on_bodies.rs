@@ -1,14 +1,9 @@
 //! Wings whose roots lie on bodies: which of them the lattice carries through, and what it does not say of the others.
 
-use wingbeat_model::{
-    BodyPart, PairOnPart, inside, pairs_on_parts, roots_beside_parts, roots_on_parts,
-};
+use wingbeat_model::{BodyPart, PairOnPart, inside, roots_beside_parts, roots_on_parts};
 
-use crate::air::wing_pairs;
-use crate::setup::{AirModel, AirOptions, FlightSetup};
-
-/// Distance of two roots over their chord below which there is no room for a body's panels between them.
-const CLOSE: f64 = 0.25;
+use super::said::names;
+use crate::setup::{AirOptions, FlightSetup};
 
 /// Length along the chord of panels of a body beside a root, in chords of the root, above which the lattice has
 /// too few to say how the lift parts between wing and body.
@@ -24,9 +19,8 @@ impl FlightSetup {
     /// ([`Self::carried_pairs`]), so that the lift is low, or what lies in its way (docs/wings.md, "Wings on a
     /// body"). Wings inside parts are left out.
     pub fn roots_on_bodies(&self) -> Vec<String> {
-        let air = match &self.air {
-            AirModel::VortexLattice(air) if air.body_surfaces => air,
-            _ => return vec![],
+        let Some(air) = self.air.lattice().filter(|air| air.body_surfaces) else {
+            return vec![];
         };
         let mut wings: Vec<usize> = (0..self.animal.wings.len()).collect();
         let within = inside(&self.animal, &wings);
@@ -46,10 +40,8 @@ impl FlightSetup {
         };
         let of_part = |(k, part): (usize, &BodyPart)| {
             let here = found.iter().filter(|r| r.part == k);
-            let names: Vec<String> = here
-                .map(|r| format!("`{}`", self.animal.wings[r.wing].name))
-                .collect();
-            let (roots, lie) = match names.len() {
+            let wings: Vec<&str> = here.map(|r| &self.animal.wings[r.wing].name[..]).collect();
+            let (roots, lie) = match wings.len() {
                 0 => return None,
                 1 => ("root of wing", "lies"),
                 _ => ("roots of wings", "lie"),
@@ -57,7 +49,7 @@ impl FlightSetup {
             Some(format!(
                 "the {roots} {} {lie} on the body part `{}`, and the circulation ends there: in a stream the lift comes out a quarter to a \
                  third low, and the drag is not to be trusted; {remedy} (docs/wings.md, \"Wings on a body\")",
-                names.join(" and "),
+                names(wings, " and "),
                 part.name,
             ))
         };
@@ -76,16 +68,14 @@ impl FlightSetup {
         let beside = roots_beside_parts(&self.animal, wings);
         let of_part = |(k, part): (usize, &BodyPart)| {
             let here = beside.iter().filter(|r| r.part == k);
-            let names: Vec<String> = here
-                .map(|r| format!("`{}`", self.animal.wings[r.wing].name))
-                .collect();
+            let names = names(here.map(|r| &self.animal.wings[r.wing].name[..]), ", ");
             (!names.is_empty()).then(|| {
                 format!(
                     "roots off the body part `{}` by a tenth to a quarter of their chord (wing {}): air passes between them, and the lift is up to \
                      two fifths less than on the body; move them onto the part (hinge_m), or farther off if there is such a gap (docs/wings.md, \
                      \"Wings on a body\")",
                     part.name,
-                    names.join(", ")
+                    names
                 )
             })
         };
@@ -136,25 +126,5 @@ impl FlightSetup {
         let ways = (ages.into_iter().chain([lattice.max_age])).map(|age| age.map(|t| speed * t));
         let mut ways = ways.chain([lattice.max_distance]).flatten();
         ways.any(|way| way < pair.part_length)
-    }
-
-    /// Pairs of wings, each the mirror image of the other, whose circulation the lattice carries through the
-    /// part of the body on which both roots lie ([`pairs_on_parts`]): where bodies are surfaces of `air` and
-    /// roots shed nothing; not those that are joined or inside parts or too close to each other, nor those with
-    /// joints of their own.
-    pub fn carried_pairs(&self, air: &AirOptions) -> Vec<PairOnPart> {
-        if !air.body_surfaces || air.lattice.shedding.root {
-            return vec![];
-        }
-        let mut pairs = wing_pairs(&self.animal);
-        let prescribed = self.prescribed_wings();
-        let is_joined = |w: &usize| air.joined.iter().flatten().any(|j| j == w);
-        pairs.retain(|pair| (pair.iter()).all(|w| prescribed.contains(w) && !is_joined(w)));
-        let mut found = pairs_on_parts(&self.animal, &pairs);
-        let wings: Vec<usize> = found.iter().flat_map(|p| p.wings).collect();
-        let within = inside(&self.animal, &wings);
-        found.retain(|p| within.iter().all(|i| !p.wings.contains(&i.wing)));
-        found.retain(|p| p.apart_chords >= CLOSE);
-        found
     }
 }

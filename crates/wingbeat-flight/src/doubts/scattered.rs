@@ -4,6 +4,7 @@ use wingbeat_math::median;
 use wingbeat_model::motion::{PeriodicSpline, Scatter};
 use wingbeat_model::{AngleLaw, Wing};
 
+use super::said::{grouped, names};
 use crate::setup::FlightSetup;
 
 /// Steps for each sample of a table below which a flight does not follow a spline through samples that scatter:
@@ -20,7 +21,7 @@ impl FlightSetup {
                     Some(jump) => say_jump(angle, &jump),
                     None => self.say_scatter(angle, &scatter),
                 };
-                (&wing.name[..], text)
+                (text, &wing.name[..])
             })
         });
         of_wings(all)
@@ -30,7 +31,7 @@ impl FlightSetup {
     pub fn gaps_in_angles(&self) -> Vec<String> {
         let all = self.animal.wings.iter().flat_map(|wing| {
             let gaps = tables(wing).filter_map(|(angle, table)| say_gap(angle, table));
-            gaps.map(|text| (&wing.name[..], text))
+            gaps.map(|text| (text, &wing.name[..]))
         });
         of_wings(all)
     }
@@ -55,22 +56,12 @@ impl FlightSetup {
 }
 
 /// What is said of wings, each text once with the names of those that it is said of.
-fn of_wings<'a>(all: impl Iterator<Item = (&'a str, String)>) -> Vec<String> {
-    let mut found: Vec<(String, Vec<&str>)> = vec![];
-    for (wing, text) in all {
-        match found.iter_mut().find(|f| f.0 == text) {
-            Some((_, wings)) => wings.push(wing),
-            None => found.push((text, vec![wing])),
-        }
-    }
-    let named = |(text, wings): (String, Vec<&str>)| {
-        let (what, names) = match &wings[..] {
-            [one] => ("wing", format!("`{one}`")),
-            more => ("wings", format!("`{}`", more.join("`, `"))),
-        };
-        format!("{what} {names}: {text}")
+fn of_wings<'a>(all: impl Iterator<Item = (String, &'a str)>) -> Vec<String> {
+    let say = |(text, wings): (String, Vec<&str>)| {
+        let what = if wings.len() == 1 { "wing" } else { "wings" };
+        format!("{what} {}: {text}", names(wings, ", "))
     };
-    found.into_iter().map(named).collect()
+    grouped(all).into_iter().map(say).collect()
 }
 
 /// The gap between the samples of a table, if there is one.

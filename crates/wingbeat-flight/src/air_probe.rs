@@ -10,9 +10,9 @@ type Velocities = dyn Fn(&Points) -> Option<Points> + Send + Sync;
 /// The vortex lattice and its wakes at a look, as they are at the end of the step in which it falls. It can be
 /// kept: the flight goes on without it.
 #[derive(Clone)]
-pub struct FeltAir(Arc<Velocities>);
+pub struct AirProbe(Arc<Velocities>);
 
-impl FeltAir {
+impl AirProbe {
     /// Air of these velocities.
     pub fn new(velocity: impl Fn(&Points) -> Option<Points> + Send + Sync + 'static) -> Self {
         Self(Arc::new(velocity))

@@ -1,9 +1,9 @@
 //! Wings whose roots meet and are not joined: the lattice has a gap there, through which air passes.
 
-use wingbeat_model::{Spacing, roots_meet};
+use wingbeat_model::{Spacing, are_joined, pairs, roots_meet};
 
 use crate::air::check_joined;
-use crate::setup::{AirModel, FlightSetup};
+use crate::setup::FlightSetup;
 
 /// How near roots are that meet, and those that lie on each other, whose filaments cancel, over their chords \[1\].
 const NEAR: f64 = 0.1;
@@ -14,23 +14,17 @@ impl FlightSetup {
     /// gap between their outermost filaments, and what to do about it; wings with joints of their own, whose motion is
     /// not known beforehand, are left out.
     pub fn unjoined_roots(&self) -> Vec<String> {
-        let air = match &self.air {
-            AirModel::VortexLattice(air) if !air.lattice.shedding.root => air,
+        let air = match self.air.lattice() {
+            Some(air) if !air.lattice.shedding.root => air,
             _ => return vec![],
         };
-        let wings = self.prescribed_wings();
-        let pairs = (wings.iter().enumerate())
-            .flat_map(|(k, &a)| wings[k + 1..].iter().map(move |&b| [a, b]));
-        let is_joined = |pair: [usize; 2]| {
-            let mut joined = air.joined.iter();
-            joined.any(|j| pair.iter().all(|w| j.contains(w)))
-        };
+        let pairs = pairs(self.prescribed_wings().into_iter());
+        let apart = pairs.filter(|pair| !are_joined(&air.joined, *pair));
         let wings = &self.animal.wings;
         let reach = |w: usize| wings[w].mesh.columns == Spacing::Cosine || air.lattice.inset == 0.0;
         let closes =
             |pair: [usize; 2]| pair.into_iter().all(reach) && roots_meet(&self.animal, pair, SAME);
-        let found = pairs.filter(|&pair| !is_joined(pair) && roots_meet(&self.animal, pair, NEAR));
-        let found = found.filter(|&pair| !closes(pair));
+        let found = apart.filter(|&pair| roots_meet(&self.animal, pair, NEAR) && !closes(pair));
         found.map(|pair| self.say_unjoined(pair)).collect()
     }
 

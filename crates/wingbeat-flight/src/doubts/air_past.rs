@@ -1,0 +1,50 @@
+//! Velocity of the undisturbed air past a wing in its prescribed motion, and the strips that meet it.
+
+use wingbeat_dynamics::BodyMotion;
+use wingbeat_math::{DVec3, RotationLaw};
+use wingbeat_model::{Wing, WingMotion};
+
+use crate::setup::{FlightSetup, MotionMode};
+
+impl FlightSetup {
+    /// Velocity of the undisturbed air past a place of the wing at time `t` [s], in wing components [m/s].
+    pub(crate) fn air_past(
+        &self,
+        wing: &Wing,
+        motion: &WingMotion,
+        t: f64,
+    ) -> impl Fn(DVec3) -> DVec3 + use<> {
+        let root = self.root_at(t);
+        let turning = motion.at(t);
+        let stream = self.air.stream().unwrap_or_default();
+        let stream = root.r.transpose() * (stream - root.v);
+        let hinge = wing.hinge_b;
+        move |x| {
+            let of_body = root.w.cross(hinge + turning.c * x);
+            turning.c.transpose() * (stream - of_body) - turning.w.cross(x)
+        }
+    }
+
+    /// Motion of the root of a flight that goes on as it starts.
+    fn root_at(&self, t: f64) -> BodyMotion {
+        match &self.mode {
+            MotionMode::Free(start) => BodyMotion {
+                p: start.position,
+                r: start.rotation(),
+                v: start.velocity,
+                w: DVec3::ZERO,
+            },
+            MotionMode::Tethered(motion) => motion.impulsive().at(t).motion,
+        }
+    }
+}
+
+/// Middle of the leading and of the trailing edge of every strip, and its way along the leading edge.
+pub fn strips(wing: &Wing) -> impl Iterator<Item = [DVec3; 3]> {
+    let mesh = &wing.mesh;
+    let at = |i: usize, j: usize| mesh.nodes[mesh.node(i, j)];
+    (0..mesh.cols).map(move |j| {
+        let [front, rear] = [0, mesh.rows].map(|i| at(i, j).midpoint(at(i, j + 1)));
+        [front, rear, at(0, j + 1) - at(0, j)]
+    })
+}

@@ -1,0 +1,31 @@
+//! Doubts about a setup, said before it is flown: [`FlightSetup`](crate::FlightSetup) is asked for each, and answers
+//! by what is doubted, and what to do about it. They change nothing of a flight.
+//!
+//! | what is doubted | module |
+//! |---|---|
+//! | wings that pass through each other, or through parts of the body | `impossible` |
+//! | roots that meet and are not joined | `unjoined` |
+//! | roots on parts of the body, or a little off them | `on_bodies` |
+//! | tethers that start otherwise than the wings | `starts_apart` |
+//! | angles that scatter, jump or have gaps | `scattered` |
+//! | trailing edges ahead, wings that stroke broadside | `edge_ahead` |
+//! | vorticity of one sign from leading edges, tips of attached wings | `shed_by_motion` |
+//! | cores of wings that are wide beside the panels | `bound_core` |
+//! | gusts that a flight never meets | `late_gusts` |
+//!
+//! `air_past`: the undisturbed air past a wing in its prescribed motion, by which the motion is judged. `said`: names
+//! of wings, and those of which the same is said.
+
+mod air_past;
+mod bound_core;
+mod edge_ahead;
+mod impossible;
+mod late_gusts;
+mod on_bodies;
+mod said;
+mod scattered;
+mod shed_by_motion;
+mod starts_apart;
+mod unjoined;
+
+pub use impossible::CrossingWings;
