@@ -15,7 +15,7 @@ use std::sync::Arc;
 
 use wingbeat_dynamics::{BodyMotion, Composite, Configuration, Formulation, Joint, JointOffsets};
 use wingbeat_flight::{
-    AirModel, FlightSetup, FreeFlight, FreeFlightScratch, MotionMode, Transition, is_driven,
+    AirModel, FlightSetup, FreeFlight, FreeFlightScratch, MotionBlend, MotionMode, is_driven,
 };
 use wingbeat_math::ode::Rk4;
 use wingbeat_math::{DMat3, DQuat, DVec3, RotationLaw, rotation_vector};
@@ -87,7 +87,7 @@ impl Beat {
     ) -> Result<Self, AnalysisError> {
         Self::with_law(setup, steps, |k, wing| {
             let motion = |a: &Adjustment| wing.motion.adjusted(wing.side, a);
-            Arc::new(Transition {
+            Arc::new(MotionBlend {
                 from: motion(&from[k]),
                 to: motion(&to[k]),
                 start,

@@ -13,7 +13,7 @@ use wingbeat_analysis::episode::{
 };
 use wingbeat_analysis::{Beat, Perturbation, Trim};
 use wingbeat_dynamics::Formulation;
-use wingbeat_flight::{AirModel, Transition};
+use wingbeat_flight::{AirModel, MotionBlend};
 use wingbeat_math::{DVec3, RotationLaw};
 use wingbeat_model::motion::Adjustment;
 use wingbeat_model::{Start as Beginning, WingMotion};
@@ -94,7 +94,7 @@ fn agrees_steered_strokes_with_the_passage_of_a_flight() {
             start: Beginning::Impulsive,
             ..wing.motion.clone()
         };
-        let blend = Transition {
+        let blend = MotionBlend {
             from: steady.adjusted(wing.side, &command(1.0)),
             to: steady.adjusted(wing.side, &command(-0.5)),
             start: 0.3 * period,

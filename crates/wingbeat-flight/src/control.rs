@@ -2,7 +2,7 @@
 //! wings' motion.
 //!
 //! From one look to the next the angles of every wing go over smoothly from the command before to
-//! the new one ([`Transition`]), so that wing inertia does its part and nothing jumps. A command acts
+//! the new one ([`MotionBlend`]), so that wing inertia does its part and nothing jumps. A command acts
 //! some looks after it was formed (the latency).
 
 use std::collections::VecDeque;
@@ -34,7 +34,7 @@ pub fn share(time: f64) -> f64 {
 
 /// A wing whose angles and stroke plane go over from one motion to another by [`smoothstep7`].
 #[derive(Clone, Debug)]
-pub struct Transition {
+pub struct MotionBlend {
     /// The motion before.
     pub from: WingMotion,
     /// The motion after.
@@ -45,7 +45,7 @@ pub struct Transition {
     pub duration: f64,
 }
 
-impl Transition {
+impl MotionBlend {
     /// Pitch of the stroke plane and angles phi, theta, psi at time `t` [s], each value, rate,
     /// acceleration [rad].
     pub fn angles(&self, t: f64) -> [[f64; 3]; 4] {
@@ -69,7 +69,7 @@ impl Transition {
     }
 }
 
-impl RotationLaw for Transition {
+impl RotationLaw for MotionBlend {
     fn at(&self, t: f64) -> MovingRotation {
         let [plane, phi, theta, psi] = self.angles(t);
         wing_rotation(plane, [phi, theta, psi])
@@ -81,13 +81,13 @@ impl RotationLaw for Transition {
 pub struct CommandedMotion {
     motion: WingMotion,
     side: Side,
-    transition: RwLock<Transition>,
+    blend: RwLock<MotionBlend>,
 }
 
 impl CommandedMotion {
     /// The wing's own motion until the first command.
     pub fn new(wing: &Wing) -> Self {
-        let own = Transition {
+        let own = MotionBlend {
             from: wing.motion.clone(),
             to: wing.motion.clone(),
             start: 0.0,
@@ -96,36 +96,32 @@ impl CommandedMotion {
         Self {
             motion: wing.motion.clone(),
             side: wing.side,
-            transition: RwLock::new(own),
+            blend: RwLock::new(own),
         }
     }
 
     /// From `start` [s] on the wing goes over from one command to another, within `duration` [s].
     fn pass(&self, from: &Adjustment, to: &Adjustment, start: f64, duration: f64) {
         let motion = |by: &Adjustment| self.motion.adjusted(self.side, by);
-        let next = Transition {
+        let next = MotionBlend {
             from: motion(from),
             to: motion(to),
             start,
             duration,
         };
-        *self.transition.write().expect("no writer panicked") = next;
+        *self.blend.write().expect("no writer panicked") = next;
     }
 
     /// Angles phi, theta, psi at time `t` [s] [rad].
     pub fn angles(&self, t: f64) -> DVec3 {
-        let [_, phi, theta, psi] = self
-            .transition
-            .read()
-            .expect("no writer panicked")
-            .angles(t);
+        let [_, phi, theta, psi] = self.blend.read().expect("no writer panicked").angles(t);
         DVec3::new(phi[0], theta[0], psi[0])
     }
 }
 
 impl RotationLaw for CommandedMotion {
     fn at(&self, t: f64) -> MovingRotation {
-        self.transition.read().expect("no writer panicked").at(t)
+        self.blend.read().expect("no writer panicked").at(t)
     }
 }
 
@@ -136,9 +132,9 @@ pub struct ControlState {
     pub looks: usize,
     /// Those at which the command stood at a limit.
     pub limited_looks: usize,
-    /// Start of the present transition [s].
+    /// Start of the present blend [s].
     pub since: f64,
-    /// Command before the present transition, wing by wing.
+    /// Command before the present blend, wing by wing.
     pub from: Vec<Adjustment>,
     /// Command at its end.
     pub to: Vec<Adjustment>,
@@ -263,7 +259,7 @@ impl FeedbackLoop {
         self.state.limited_looks
     }
 
-    /// Commands in force at the end of the present transition, wing by wing.
+    /// Commands in force at the end of the present blend, wing by wing.
     pub fn commands(&self) -> &[Adjustment] {
         &self.state.to
     }
@@ -294,7 +290,7 @@ impl FeedbackLoop {
         self.controller.feel(air);
     }
 
-    /// Asks the controller at time `t` [s]; the transition to the command that is due begins.
+    /// Asks the controller at time `t` [s]; the blend to the command that is due begins.
     ///
     /// # Errors
     /// A controller that has no command; commands that are not finite, ask for another frequency, or are not one per

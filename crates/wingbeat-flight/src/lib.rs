@@ -61,7 +61,7 @@ pub use bodies::{
     JointCoordinate, WingLaw, check_assembly, doubtful_masses, joint_coordinates, loop_names,
     natural_units, system, system_of, system_with,
 };
-pub use control::Transition;
+pub use control::MotionBlend;
 pub use controller::{Aim, Controller, Sensed};
 pub use doubts::CrossingWings;
 pub use error::{FlightError, RESUME_AS_SAVED};
