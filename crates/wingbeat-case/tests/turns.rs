@@ -194,22 +194,22 @@ fn exact_tether_starts_from_rest() {
         ..motion.clone()
     };
     let first = motion.at(0.0);
-    assert_eq!([first.velocity, first.angular_velocity], [DVec3::ZERO; 2]);
+    assert_eq!([first.motion.v, first.motion.w], [DVec3::ZERO; 2]);
     let (late, whole) = (motion.at(0.1), at_once.at(0.075));
-    assert!(late.position.distance(whole.position) < 1e-15);
-    assert!(late.velocity.distance(whole.velocity) < 1e-15);
-    let turned = late.rotation.transpose() * whole.rotation;
+    assert!(late.motion.p.distance(whole.motion.p) < 1e-15);
+    assert!(late.motion.v.distance(whole.motion.v) < 1e-15);
+    let turned = late.motion.r.transpose() * whole.motion.r;
     assert!((turned - DMat3::IDENTITY).col(0).length() < 1e-15);
     let h = 1e-5;
     for t in [0.01, 0.027, 0.049] {
         let [before, now, after] = [t - h, t, t + h].map(|t| motion.at(t));
-        let by_place = (after.position - before.position) / (2.0 * h);
-        let by_velocity = (after.velocity - before.velocity) / (2.0 * h);
+        let by_place = (after.motion.p - before.motion.p) / (2.0 * h);
+        let by_velocity = (after.motion.v - before.motion.v) / (2.0 * h);
         // Differences of second order: a sixth of the third derivative times h^2.
-        assert!(by_place.distance(now.velocity) < 1e-6, "{t}");
-        assert!(by_velocity.distance(now.acceleration) < 1e-3, "{t}");
-        let by_turn = (after.angular_velocity - before.angular_velocity) / (2.0 * h);
-        assert!(by_turn.distance(now.angular_acceleration) < 1e-3, "{t}");
+        assert!(by_place.distance(now.motion.v) < 1e-6, "{t}");
+        assert!(by_velocity.distance(now.acceleration.linear) < 1e-3, "{t}");
+        let by_turn = (after.motion.w - before.motion.w) / (2.0 * h);
+        assert!(by_turn.distance(now.acceleration.angular) < 1e-3, "{t}");
     }
     let motion = motion.clone();
     let whole = go_on(&mut Simulation::new(setup.clone()).unwrap()).unwrap();
