@@ -21,8 +21,8 @@ const OFF_MIDDLE: f64 = 0.25;
 impl FlightSetup {
     /// Says which wings have their roots on which parts of the body where the lattice has both as surfaces
     /// ([`roots_on_parts`]), and either it does not carry their circulation through the part
-    /// ([`Self::carried_pairs`]), so that the lift is low, or what lies in its way (docs/wings-on-bodies.md, "Wings on a
-    /// body"). Wings inside parts are left out.
+    /// ([`Self::carried_pairs`]), so that the lift is low, or what lies in its way
+    /// (docs/wings-on-bodies.md, "Wings on a body"). Wings inside parts are left out.
     pub fn roots_on_bodies(&self) -> Vec<String> {
         let air = match &self.air {
             AirModel::VortexLattice(air) if air.body_surfaces => air,
