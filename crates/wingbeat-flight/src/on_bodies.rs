@@ -120,7 +120,9 @@ impl FlightSetup {
         } else {
             return None;
         };
-        Some(format!("{doubt} (docs/wings-on-bodies.md, \"Wings on a body\")"))
+        Some(format!(
+            "{doubt} (docs/wings-on-bodies.md, \"Wings on a body\")"
+        ))
     }
 
     /// Whether the wake of a pair that moves like the root at the start may end as rings within the length of the part.
