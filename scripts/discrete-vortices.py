@@ -2,7 +2,7 @@
 """A second method for leading-edge vorticity: discrete vortices in plane flow beside a flat plate, after Ramesh, Gopalarathnam,
 Granlund, Ol & Edwards 2014, J. Fluid Mech. 751:500. Nothing of wingbeat is used; needs numpy.
 
-    python3 scripts/discrete-vortices.py [dt] [quarter]    Baik's plate, W1 and W3 (docs/separated-flow.md)
+    python3 scripts/discrete-vortices.py [dt] [quarter]    Baik's plate, W1 and W3 (docs/separated-flow-evidence.md)
     python3 scripts/discrete-vortices.py ramp [dt] [quarter]    plate that pitches to 45 deg within a chord of travel about its leading edge
     python3 scripts/discrete-vortices.py wagner [dt] [quarter]    lift after a sudden start against R. T. Jones's form of Wagner's function
     python3 scripts/discrete-vortices.py hover [dt] [quarter]    plate that hovers at 45 deg, 2.8 chords to and fro

@@ -120,11 +120,7 @@ impl Report {
 
     /// Rows that pass, fail, have no verdict.
     pub fn counts(&self) -> [usize; 3] {
-        let add = |a: [usize; 3], e: &Entry| {
-            let b = e.counts();
-            std::array::from_fn(|k| a[k] + b[k])
-        };
-        self.entries.iter().fold([0; 3], add)
+        self.entries.iter().fold([0; 3], added)
     }
 
     /// The page, in Markdown; `version` is that of the program.
@@ -141,9 +137,11 @@ impl Report {
              The error is the computed value less the reference. The uncertainty is our own, from refinement of mesh \
              and step, or from the spread over wingbeats where it says so. A report compares \
              without judging: experiments are not fitted, all insects fly with one setting. The \
-             same rows are in `verification.csv` and `verification.json`, those with the courses that figures show.\n"
+             same rows are in `verification.csv` and `verification.json`, those with the courses that figures show. \
+             One case is computed again by `wingbeat verify --only NAME --out DIR`; `wingbeat verify --list` names all.\n"
         );
         self.page_left_out(&mut text);
+        self.page_contents(&mut text);
         self.page_failures(&mut text);
         for (part, title) in PARTS {
             let entries = self.entries.iter().filter(|e| e.part == part);
@@ -153,6 +151,22 @@ impl Report {
             }
         }
         text
+    }
+
+    /// The cases of every part, each a link to its section, with the rows that pass, fail, have no verdict.
+    fn page_contents(&self, text: &mut String) {
+        text.push_str(
+            "\n## Contents\n\n| part | cases | pass | fail | reported |\n|---|---|---|---|---|\n",
+        );
+        for (part, title) in PARTS {
+            let of_part = || self.entries.iter().filter(move |e| e.part == part);
+            let links: Vec<String> = of_part().map(|e| format!("[{0}](#{0})", e.case)).collect();
+            let [pass, fail, unjudged] = of_part().fold([0; 3], added);
+            if !links.is_empty() {
+                let links = links.join(", ");
+                let _ = writeln!(text, "| {title} | {links} | {pass} | {fail} | {unjudged} |");
+            }
+        }
     }
 
     /// Cases of the set that were not run, so that a short report does not look whole.
@@ -240,6 +254,12 @@ impl Report {
     }
 }
 
+/// Counts of rows with those of one more case.
+fn added(counts: [usize; 3], entry: &Entry) -> [usize; 3] {
+    let more = entry.counts();
+    std::array::from_fn(|k| counts[k] + more[k])
+}
+
 fn section(entry: &Entry) -> String {
     let mut text = format!("\n### {}\n\n{}\n\n", entry.case, entry.about);
     for k in 0..entry.figures().len() {
@@ -322,6 +342,17 @@ fn exact(x: Option<f64>) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn regress_committed_page_is_that_of_the_committed_rows() {
+        let rows = Report::from_json(include_str!("../../../docs/verification.json")).unwrap();
+        let page = include_str!("../../../docs/verification.md");
+        assert!(
+            rows.page(env!("CARGO_PKG_VERSION")) == page,
+            "docs/verification.md is old"
+        );
+        assert!(page.contains("| [biot-savart-filament](#biot-savart-filament), [vortex-ring]"));
+    }
 
     #[test]
     fn exact_committed_report_is_read_and_written_to_the_last_digit() {

@@ -75,7 +75,6 @@ const LATER: &[&str] = &[
     "crates/wingbeat-vortex/",
     "crates/wingbeat-air/src/wake/",
     "crates/wingbeat-air/src/loads/",
-    "docs/separated-flow.md",
 ];
 
 fn root() -> PathBuf {

@@ -58,7 +58,7 @@ pub(crate) fn rings(
 }
 
 /// Side edges that do not shed: rings stay inside. So do those of roots on bodies, which are no free edges
-/// (docs/wings.md, "Wings on a body").
+/// (docs/wings-on-bodies.md, "Wings on a body").
 fn inset(
     topology: &Topology,
     (surfaces, to_the_tips): (&[Surface], &[bool]),

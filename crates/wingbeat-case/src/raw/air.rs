@@ -41,8 +41,8 @@ pub struct AirCase {
     /// Whether head, thorax and abdomen are part of the lattice.
     ///
     /// Change it to false where the body hardly moves the air at the wings: the flight is faster. Wings must be
-    /// outside of its parts; the circulation of wings whose roots lie on one goes on through it (docs/wings.md,
-    /// "Wings on a body").
+    /// outside of its parts; the circulation of wings whose roots lie on one goes on through it
+    /// (docs/wings-on-bodies.md, "Wings on a body").
     #[default = true]
     #[schemars(extend("with" = LATTICE))]
     pub body: bool,
@@ -69,7 +69,8 @@ pub struct AirCase {
     /// algebraic, from 0.07 mean chords on.
     ///
     /// Change it by a factor of two both ways to see what hangs on it; for the drag of attached wings in a
-    /// stream to 0.01 chords, with `wake_overlap_slope` = 0.03 (docs/wings.md, "Induced drag of attached wings").
+    /// stream to 0.01 chords, with `wake_overlap_slope` = 0.03 (docs/lattice-settings.md,
+    /// "Induced drag of attached wings").
     #[default(LambOseenCase::chords(0.07))]
     #[schemars(extend("with" = LATTICE))]
     pub wake_core: CoreCase,
@@ -85,7 +86,8 @@ pub struct AirCase {
     /// Radius of a core of the wake over the way along the sheet from its edge, at most, for the sake of
     /// `wake_overlap`. Default: 0.25. Only with algebraic cores and a `wake_overlap` above 0.
     ///
-    /// Change it to 0.03 for the drag of attached wings in a stream (docs/wings.md, "Induced drag of attached wings").
+    /// Change it to 0.03 for the drag of attached wings in a stream (docs/lattice-settings.md,
+    /// "Induced drag of attached wings").
     #[schemars(extend("exclusiveMinimum" = 0, "with" = [LATTICE, SHEDDING]))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub wake_overlap_slope: Option<f64>,
@@ -117,8 +119,8 @@ pub struct AirCase {
     #[schemars(extend("with" = LATTICE))]
     #[serde(skip_serializing_if = "Open::is_open")]
     pub circulation_rate: Open<CirculationRate>,
-    /// How wake nodes are moved; with algebraic cores, with what annuls their share of force besides the velocity
-    /// of the air (docs/separated-flow.md). Default: by `scheme`.
+    /// How wake nodes are moved; with algebraic cores, with a correction besides the velocity of the air that
+    /// cancels their share of force (docs/separated-flow-method.md). Default: by `scheme`.
     ///
     /// Change it to study the order of the method in the step.
     #[schemars(extend("with" = [LATTICE, SHEDDING]))]

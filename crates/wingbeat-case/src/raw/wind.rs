@@ -28,7 +28,8 @@ pub struct GustCase {
     #[schemars(extend("exclusiveMinimum" = 0))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub duration_s: Option<f64>,
-    /// Rows of time since the start in s and share of the amplitude, straight lines between.
+    /// Rows of time since the start in s and share of the amplitude, straight lines between. Before the first row
+    /// there is no gust; after the last its value stays.
     ///
     /// Change it for measured gusts.
     #[schemars(length(min = 2), extend("or" = "duration_s"))]

@@ -16,8 +16,8 @@ const OFF_MIDDLE: f64 = 0.25;
 impl FlightSetup {
     /// Says which wings have their roots on which parts of the body where the lattice has both as surfaces
     /// ([`roots_on_parts`]), and either it does not carry their circulation through the part
-    /// ([`Self::carried_pairs`]), so that the lift is low, or what lies in its way (docs/wings.md, "Wings on a
-    /// body"). Wings inside parts are left out.
+    /// ([`Self::carried_pairs`]), so that the lift is low, or what lies in its way
+    /// (docs/wings-on-bodies.md, "Wings on a body"). Wings inside parts are left out.
     pub fn roots_on_bodies(&self) -> Vec<String> {
         let Some(air) = self.air.lattice().filter(|air| air.body_surfaces) else {
             return vec![];
@@ -48,7 +48,7 @@ impl FlightSetup {
             };
             Some(format!(
                 "the {roots} {} {lie} on the body part `{}`, and the circulation ends there: in a stream the lift comes out a quarter to a \
-                 third low, and the drag is not to be trusted; {remedy} (docs/wings.md, \"Wings on a body\")",
+                 third low, and the drag is not to be trusted; {remedy} (docs/wings-on-bodies.md, \"Wings on a body\")",
                 names(wings, " and "),
                 part.name,
             ))
@@ -72,7 +72,7 @@ impl FlightSetup {
             (!names.is_empty()).then(|| {
                 format!(
                     "roots off the body part `{}` by a tenth to a quarter of their chord (wing {}): air passes between them, and the lift is up to \
-                     two fifths less than on the body; move them onto the part (hinge_m), or farther off if there is such a gap (docs/wings.md, \
+                     two fifths less than on the body; move them onto the part (hinge_m), or farther off if there is such a gap (docs/wings-on-bodies.md, \
                      \"Wings on a body\")",
                     part.name,
                     names
@@ -110,7 +110,9 @@ impl FlightSetup {
         } else {
             return None;
         };
-        Some(format!("{doubt} (docs/wings.md, \"Wings on a body\")"))
+        Some(format!(
+            "{doubt} (docs/wings-on-bodies.md, \"Wings on a body\")"
+        ))
     }
 
     /// Whether the wake of a pair that moves like the root at the start may end as rings within the length of the part.

@@ -5,7 +5,7 @@
 //! past the section and with the suction beyond what the edge holds. Strokes that are alike back and forth shed
 //! as much of either sign; those of forward flight, or in a stream, do not. What is left over joins the
 //! circulation of wing and wake in every beat. Where the root holds, lattice and wakes are not closed there,
-//! and it changes the lift (docs/separated-flow.md, "Roots of four wings").
+//! and it changes the lift (docs/separated-flow.md, "Wings whose strokes are unlike").
 //!
 //! | symbol | name in code | meaning | unit |
 //! |---|---|---|---|
@@ -133,7 +133,7 @@ impl FlightSetup {
 
     /// Says which wings meet the air at such small angles throughout their prescribed motion that the flow
     /// stays attached, while their tips shed: wakes that go along the tip, with the cores of wakes, in place of
-    /// the sharp edge there (docs/wings.md, "Side edges"). Wings with joints of their own are left out.
+    /// the sharp edge there (docs/lattice-settings.md, "Edges that shed"). Wings with joints of their own are left out.
     pub fn tips_of_attached_wings(&self) -> Option<String> {
         let air = self.air.lattice()?;
         if !air.lattice.shedding.tip {
@@ -147,14 +147,14 @@ impl FlightSetup {
             format!(
                 "wings ({names}) meet the air with no more than {held} of suction ({:.0} deg of incidence), where flow stays attached, and \
                  their tips shed nevertheless: the lift comes out high, by a quarter at an aspect ratio of 2, a tenth at 4, a twentieth \
-                 at 8; take air.shed = [\"trailing\"] (docs/wings.md, \"Side edges\")",
+                 at 8; take air.shed = [\"trailing\"] (docs/lattice-settings.md, \"Edges that shed\")",
                 held.asin().to_degrees()
             )
         })
     }
 
     /// Says which wings with vortex lift have leading edges so swept that their vortex is carried along the
-    /// edge, which the law does not know (docs/separated-flow.md, "Vortex lift without free vorticity").
+    /// edge, which the law does not know (docs/separated-flow-method.md, "Vortex lift without free vorticity").
     pub fn vortex_lift_of_swept_edges(&self) -> Option<String> {
         let air = self.air.lattice()?;
         if !air.lattice.shedding.leading

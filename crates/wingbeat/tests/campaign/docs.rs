@@ -56,3 +56,40 @@ fn behaves_every_command_of_the_page_runs() {
     let rule = fs::read_to_string(dir.join("Snakefile")).unwrap();
     assert!(rule.contains("--shard {wildcards.k}/2"), "{rule}");
 }
+
+/// Flights of the pages on the air are cases that `check` takes, and the campaign that varies them has its points.
+#[test]
+fn behaves_flights_of_the_pages_on_the_air_are_accepted() {
+    let docs = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs");
+    let read = |page: &str| fs::read_to_string(docs.join(page)).unwrap();
+    let scratch = Scratch::new("air-docs");
+    let program = Path::new(env!("CARGO_BIN_EXE_wingbeat")).parent().unwrap();
+    let path = format!("{}:{}", program.display(), std::env::var("PATH").unwrap());
+    let accepted = |line: &str| {
+        let out = Command::new("sh")
+            .args(["-c", line])
+            .current_dir(&scratch.0)
+            .env("PATH", &path)
+            .output()
+            .unwrap();
+        let said = String::from_utf8_lossy(&out.stderr);
+        assert!(out.status.success(), "{line}\n{said}");
+        String::from_utf8_lossy(&out.stdout).into_owned()
+    };
+    let mut count = 0;
+    for page in ["separated-flow.md", "lattice-settings.md"] {
+        let page = read(page);
+        for line in blocks(&page, "sh")
+            .iter()
+            .flat_map(|b| b.split("wingbeat run ").skip(1))
+        {
+            accepted(&format!("wingbeat check {line}"));
+            count += 1;
+        }
+    }
+    assert_eq!(count, 4, "commands");
+    let page = read("choosing-the-air.md");
+    fs::write(scratch.0.join("vary.toml"), blocks(&page, "toml")[0]).unwrap();
+    let planned = accepted("wingbeat campaign plan vary.toml");
+    assert_eq!(planned.lines().count(), 1 + 7, "{planned}");
+}

@@ -58,7 +58,7 @@ fn left_out(setup: &FlightSetup, lattice: &AirSettings, list: &mut Warnings) {
     }
     let suction = suction(lattice);
     if has_vortex_lift(lattice) && setup.animal.wings.len() > 2 {
-        list.limit("Vortex lift was tried on two pairs of wings and failed: 0.65 to 2.4 times the lift of the references (docs/separated-flow.md). Take air.loads = pressure without shedding from leading edges, or leading-edge vorticity.");
+        list.limit("Vortex lift was tried on two pairs of wings and failed: 0.65 to 2.4 times the lift of the references (docs/separated-flow-evidence.md). Take air.loads = pressure without shedding from leading edges, or leading-edge vorticity.");
     }
     list.note(match &lattice.section_drag {
         None => format!("The air is inviscid: without friction, drag and power come out low, the more so the smaller the Reynolds number. {suction}"),
@@ -119,7 +119,7 @@ fn inputs(setup: &FlightSetup, air: &AirOptions, summary: &Summary, list: &mut W
     }
     let is_attached = !lattice.shedding.tip && !lattice.shedding.leading;
     if has_wakes && is_attached && !has_sharp_wake(setup, lattice) {
-        list.note("Induced drag behind attached wings hangs on the cores of the wake and on the columns of the mesh: wide cores take up to an eighth of it away, evenly spaced columns add up to a tenth, and lift is 2 % high at most. For drag and power in a stream take one table [air.wake_core.algebraic] with radius_chords = 0.01, air.bound_core likewise, air.wake_overlap_slope = 0.03 and mesh.spanwise_spacing = \"cosine\", and join roots that meet (docs/wings.md, \"Induced drag of attached wings\").");
+        list.note("Induced drag behind attached wings hangs on the cores of the wake and on the columns of the mesh: wide cores take up to an eighth of it away, evenly spaced columns add up to a tenth, and lift is 2 % high at most. For drag and power in a stream take one table [air.wake_core.algebraic] with radius_chords = 0.01, air.bound_core likewise, air.wake_overlap_slope = 0.03 and mesh.spanwise_spacing = \"cosine\", and join roots that meet (docs/lattice-settings.md, \"Induced drag of attached wings\").");
     }
     let yaws = !air.mirror && matches!(setup.mode, MotionMode::Free(_));
     let explicit = matches!(lattice.leading, LeadingEdge::Suction { .. });
