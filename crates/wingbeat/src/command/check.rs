@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 use serde_json::{Value, json};
 use wingbeat::analysis::estimate;
-use wingbeat::case::{FittedTable, IoError, LoadedCase};
+use wingbeat::case::{FittedTable, IoError, LoadedCase, MixedAngles};
 use wingbeat::flight::{AirModel, FlightSetup, MotionMode, Simulation};
 use wingbeat::model::ElasticReport;
 use wingbeat::results::fixed::fixed;
@@ -60,6 +60,7 @@ fn look(args: &CheckArgs, report: &mut Report) -> Result<(), IoError> {
     entry!(report, "lattice", "{panels} panels");
     report.value("panels", panels);
     programs(report, &case);
+    tell_mixed(report, &case.mixed_angles());
     expectation::tell(report, &estimate);
     // A flight that fails on trial fails of a wrong unit more often than of its steps.
     let cost = cost.inspect_err(|_| warn())?;
@@ -69,6 +70,31 @@ fn look(args: &CheckArgs, report: &mut Report) -> Result<(), IoError> {
     warn();
     report.value("warnings", estimate.doubts);
     Ok(())
+}
+
+/// From where the angles of a wing come that do not all come from one place.
+fn tell_mixed(report: &mut Report, wings: &[MixedAngles]) {
+    for wing in wings {
+        let [key, set] = &wing.set;
+        entry!(
+            report,
+            "angles",
+            "`{}`: {} from {key} = \"{set}\", {} given",
+            wing.wing,
+            wing.from_set.join(" and "),
+            wing.given.join(" and "),
+        );
+    }
+    let value = |w: &MixedAngles| {
+        json!({
+            "wing": w.wing,
+            "given": w.given,
+            "from_set": w.from_set,
+            "key": w.set[0],
+            "set": w.set[1],
+        })
+    };
+    report.value("mixed_angles", wings.iter().map(value).collect::<Vec<_>>());
 }
 
 /// What is left between samples of angles and the series fitted to them.
