@@ -78,10 +78,7 @@ fn agrees_the_recording_of_the_page_on_measured_angles_with_the_set_that_it_is_o
         "{check}"
     );
     let shown = said(dir, &["show", "tethered"]);
-    assert!(
-        shown.contains("1.257") && shown.contains("24.5"),
-        "{shown}"
-    );
+    assert!(shown.contains("1.257") && shown.contains("24.5"), "{shown}");
 }
 
 /// Tables of stroke and feathering beside a set that is left in the case: the deviation stays that of the set, and
@@ -98,11 +95,7 @@ fn behaves_check_says_which_angles_come_from_a_set() {
     let tables = blocks(&page, "toml")[0];
     let (phi, rest) = tables.split_once("[wing.right.motion.theta").unwrap();
     let (_, psi) = rest.split_once("[wing.right.motion.psi").unwrap();
-    fs::write(
-        &file,
-        format!("{preset}\n{phi}[wing.right.motion.psi{psi}"),
-    )
-    .unwrap();
+    fs::write(&file, format!("{preset}\n{phi}[wing.right.motion.psi{psi}")).unwrap();
     let mixed = "`right`: theta from motion.data = \"fry-hover\", phi and psi given";
     let check = said(dir, &["check", "my-fly.toml"]);
     assert!(

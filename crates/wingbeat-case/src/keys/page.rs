@@ -133,7 +133,11 @@ fn row(table: Shape, name: &str) -> Option<String> {
         default(table, key, name),
         allowed(key),
         format!("{what}{}", effect(key)),
-        if when == MEASURED { String::new() } else { when },
+        if when == MEASURED {
+            String::new()
+        } else {
+            when
+        },
     ];
     Some(format!(
         "| {} |",

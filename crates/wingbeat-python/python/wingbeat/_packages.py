@@ -15,5 +15,5 @@ def needs(package: str, extra: str, key: str) -> None:
     try:
         import_module(package)
     except ImportError as e:
-        remedy = f"install the extra `{extra}` of the package: pip install './crates/wingbeat-python[{extra}]' (docs/python.md)"
+        remedy = f"install the extra `{extra}` of the package (docs/python.md)"
         raise PackageError(f"{key} needs {package.split('.')[0]}: {e}", key=key, remedy=remedy) from e

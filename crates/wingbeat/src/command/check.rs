@@ -189,7 +189,11 @@ fn body(report: &mut Report, setup: &FlightSetup) {
     report.value("body_mass_kg", body.mass);
     let centre = body.centre().to_array();
     let shown = centre.map(|x| fixed(1e3 * x, 3)).join(", ");
-    entry!(report, "body", "mass centre of the body at [{shown}] mm");
+    entry!(
+        report,
+        "body",
+        "mass centre of the body at [{shown}] mm from the body origin"
+    );
     report.value("body_mass_centre_m", json!(centre));
 }
 
@@ -199,11 +203,11 @@ fn wings(report: &mut Report, setup: &FlightSetup) {
         entry!(
             report,
             "wing",
-            "`{}`: length {:.3} mm, area {:.3} mm2, mean chord {:.3} mm, r2_hat {:.3}, mass {:.3e} kg",
+            "`{}`: length {}, area {}, mean chord {}, r2_hat {:.3}, mass {:.3e} kg",
             w.name,
-            w.length * 1e3,
-            w.area * 1e6,
-            w.mean_chord * 1e3,
+            length(w.length),
+            area(w.area),
+            length(w.mean_chord),
             w.r2_hat,
             w.mass
         );
@@ -215,6 +219,22 @@ fn wings(report: &mut Report, setup: &FlightSetup) {
     }
     let values: Vec<Value> = elastic.iter().map(value).collect();
     report.value("elastic_wings", values);
+}
+
+/// A length \[m\] in mm, from a metre on in m.
+fn length(size: f64) -> String {
+    match size < 1.0 {
+        true => format!("{:.3} mm", 1e3 * size),
+        false => format!("{size:.3} m"),
+    }
+}
+
+/// An area \[m2\] in mm2, from a hundred square centimetres on in m2.
+fn area(size: f64) -> String {
+    match size < 1e-2 {
+        true => format!("{:.3} mm2", 1e6 * size),
+        false => format!("{size:.4} m2"),
+    }
 }
 
 fn said(w: &ElasticReport) -> String {
