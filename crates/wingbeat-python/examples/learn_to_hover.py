@@ -1,7 +1,7 @@
 """Learns to hover from rewards alone: a linear policy found by the evolution strategy CMA-ES [Hansen & Ostermeier 2001] of the
 library cma, and the linear-quadratic regulator beside it, which is made from the equations.
 
-    pip install wingbeat[gym,plot] cma
+    pip install './crates/wingbeat-python[gym,plot]' cma
     python learn_to_hover.py [GENERATIONS]
 
 An action is ``tanh(W o)`` of twelve observed numbers (place, velocity, angular velocity, tilt), each over its spread in flights

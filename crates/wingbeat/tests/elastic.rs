@@ -218,7 +218,7 @@ fn order_energy_of_a_beat_with_air_closes_at_second_order() {
     };
     let (coarse, fine) = (residual(80), residual(160));
     let ratio = coarse / fine;
-    // 2.0e-5 and 4.9e-6; 0.8e-6 with 400 steps a beat (docs/flexible-wings.md).
+    // 2.0e-5 and 4.9e-6; 0.8e-6 with 400 steps a beat (docs/flexible-wings-evidence.md).
     assert!((3.5..4.6).contains(&ratio), "{coarse:e} {fine:e}");
     assert!(fine.abs() < 7e-6, "{fine:e}");
 }

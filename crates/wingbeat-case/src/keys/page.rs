@@ -23,8 +23,12 @@ is unknown, out of its range, given twice in two units, or without effect beside
 refused with its line in the file. Where `--set air.model=...` chooses another model of the air, the
 settings of the case's own model stand by unused.
 
-Where several paths stand above a table, it may stand at each of them. NAME is a name of your choice.
+Where several paths stand above a table, it may stand at each of them. NAME is a name of your choice. Where the
+last column is empty, give what was measured.
 ";
+
+/// When to change a key that is a measurement: the column is left empty.
+const MEASURED: &str = "to what was measured.";
 
 /// A type of the case language and where it stands.
 struct Section {
@@ -129,7 +133,11 @@ fn row(table: Shape, name: &str) -> Option<String> {
         default(table, key, name),
         allowed(key),
         format!("{what}{}", effect(key)),
-        when,
+        if when == MEASURED {
+            String::new()
+        } else {
+            when
+        },
     ];
     Some(format!(
         "| {} |",

@@ -8,12 +8,12 @@ from wingbeat.errors import PackageError
 
 
 def needs(package: str, extra: str, key: str) -> None:
-    """Imports what ``key`` needs and ``pip install wingbeat[extra]`` brings.
+    """Imports what ``key`` needs and the extra ``extra`` of the package brings.
 
     Raises :class:`wingbeat.PackageError` if it cannot be imported.
     """
     try:
         import_module(package)
     except ImportError as e:
-        remedy = f"pip install wingbeat[{extra}]"
+        remedy = f"install the extra `{extra}` of the package (docs/python.md)"
         raise PackageError(f"{key} needs {package.split('.')[0]}: {e}", key=key, remedy=remedy) from e

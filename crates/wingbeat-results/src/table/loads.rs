@@ -7,7 +7,7 @@ use crate::quantity::{Frame, Quantity, Unit, scalar};
 pub(super) const CONNECTIONS: &[Quantity] = &[scalar(
     "multiplier_{s}",
     Unit::Newton,
-    "Lagrange multiplier of connection {s}, seed eq. 11",
+    "Lagrange multiplier of connection {s}, Roccia et al. (2011), eq. 11",
     |r, s, _| Real(&mut r.multipliers[s]),
 )
 .symbol("lambda")];
@@ -15,7 +15,7 @@ pub(super) const CONNECTIONS: &[Quantity] = &[scalar(
 pub(super) const ORIENTATIONS: &[Quantity] = &[scalar(
     "multiplier_{s}",
     Unit::NewtonMetre,
-    "Lagrange multiplier of orientation {s}, seed eq. 11",
+    "Lagrange multiplier of orientation {s}, Roccia et al. (2011), eq. 11",
     |r, s, _| Real(&mut r.multipliers[s]),
 )
 .symbol("lambda")];

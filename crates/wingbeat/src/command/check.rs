@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 use serde_json::{Value, json};
 use wingbeat::analysis::estimate;
-use wingbeat::case::{FittedTable, IoError, LoadedCase};
+use wingbeat::case::{FittedTable, IoError, LoadedCase, MixedAngles};
 use wingbeat::flight::{AirModel, FlightSetup, MotionMode, Simulation};
 use wingbeat::model::ElasticReport;
 use wingbeat::results::fixed::fixed;
@@ -60,6 +60,7 @@ fn look(args: &CheckArgs, report: &mut Report) -> Result<(), IoError> {
     entry!(report, "lattice", "{panels} panels");
     report.value("panels", panels);
     programs(report, &case);
+    tell_mixed(report, &case.mixed_angles());
     expectation::tell(report, &estimate);
     // A flight that fails on trial fails of a wrong unit more often than of its steps.
     let cost = cost.inspect_err(|_| warn())?;
@@ -69,6 +70,31 @@ fn look(args: &CheckArgs, report: &mut Report) -> Result<(), IoError> {
     warn();
     report.value("warnings", estimate.doubts);
     Ok(())
+}
+
+/// From where the angles of a wing come that do not all come from one place.
+fn tell_mixed(report: &mut Report, wings: &[MixedAngles]) {
+    for wing in wings {
+        let [key, set] = &wing.set;
+        entry!(
+            report,
+            "angles",
+            "`{}`: {} from {key} = \"{set}\", {} given",
+            wing.wing,
+            wing.from_set.join(" and "),
+            wing.given.join(" and "),
+        );
+    }
+    let value = |w: &MixedAngles| {
+        json!({
+            "wing": w.wing,
+            "given": w.given,
+            "from_set": w.from_set,
+            "key": w.set[0],
+            "set": w.set[1],
+        })
+    };
+    report.value("mixed_angles", wings.iter().map(value).collect::<Vec<_>>());
 }
 
 /// What is left between samples of angles and the series fitted to them.
@@ -163,7 +189,11 @@ fn body(report: &mut Report, setup: &FlightSetup) {
     report.value("body_mass_kg", body.mass);
     let centre = body.centre().to_array();
     let shown = centre.map(|x| fixed(1e3 * x, 3)).join(", ");
-    entry!(report, "body", "mass centre of the body at [{shown}] mm");
+    entry!(
+        report,
+        "body",
+        "mass centre of the body at [{shown}] mm from the body origin"
+    );
     report.value("body_mass_centre_m", json!(centre));
 }
 
@@ -173,11 +203,11 @@ fn wings(report: &mut Report, setup: &FlightSetup) {
         entry!(
             report,
             "wing",
-            "`{}`: length {:.3} mm, area {:.3} mm2, mean chord {:.3} mm, r2_hat {:.3}, mass {:.3e} kg",
+            "`{}`: length {}, area {}, mean chord {}, r2_hat {:.3}, mass {:.3e} kg",
             w.name,
-            w.length * 1e3,
-            w.area * 1e6,
-            w.mean_chord * 1e3,
+            length(w.length),
+            area(w.area),
+            length(w.mean_chord),
             w.r2_hat,
             w.mass
         );
@@ -189,6 +219,22 @@ fn wings(report: &mut Report, setup: &FlightSetup) {
     }
     let values: Vec<Value> = elastic.iter().map(value).collect();
     report.value("elastic_wings", values);
+}
+
+/// A length \[m\] in mm, from a metre on in m.
+fn length(size: f64) -> String {
+    match size < 1.0 {
+        true => format!("{:.3} mm", 1e3 * size),
+        false => format!("{size:.3} m"),
+    }
+}
+
+/// An area \[m2\] in mm2, from a hundred square centimetres on in m2.
+fn area(size: f64) -> String {
+    match size < 1e-2 {
+        true => format!("{:.3} mm2", 1e6 * size),
+        false => format!("{size:.4} m2"),
+    }
 }
 
 fn said(w: &ElasticReport) -> String {

@@ -62,6 +62,7 @@ pub(crate) enum Command {
     /// Trim, then give derivatives, modes averaged over the beat, and Floquet's modes.
     Stability(analyse::stability::StabilityArgs),
     /// Trim, then give the control derivatives of every wing.
+    #[command(mut_arg("case", |case| case.help(analyse::trimming::BLADE_CASE)))]
     Derivatives(analyse::trimming::Trimming),
     /// Trim, then give the mechanical power of flapping.
     Power(analyse::power::PowerArgs),
@@ -71,6 +72,7 @@ pub(crate) enum Command {
     /// the deformed steady state.
     Flutter(analyse::flutter::FlutterArgs),
     /// Trim, disturb, and fly under feedback.
+    #[command(mut_arg("case", |case| case.help(analyse::trimming::BLADE_CASE)))]
     Stabilise(analyse::stabilise::StabiliseArgs),
     /// The velocity of the air at points, on a line or on a plane, from a run.
     ///

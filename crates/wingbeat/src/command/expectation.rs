@@ -120,7 +120,7 @@ fn lift(report: &mut Report, e: &Estimate) {
         entry!(
             report,
             "lift",
-            "{lift:.2} weights on average as it starts, by blade elements"
+            "{lift:.2} weights: mean of a beat, estimated by blade elements with the body as it starts"
         );
     }
     if let Some(why) = &e.lift_left_out {

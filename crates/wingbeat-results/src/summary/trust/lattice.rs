@@ -211,6 +211,14 @@ fn mean_chord(setup: &FlightSetup) -> f64 {
     reports.first().map_or(1.0, |r| r.mean_chord)
 }
 
+/// So many lengths of a filament, in words.
+fn of_length(times: f64) -> String {
+    match times == 1.0 {
+        true => "the filament's length".to_owned(),
+        false => format!("{times} times the filament's length"),
+    }
+}
+
 /// What is said of the vortex core of the wakes.
 fn core_is_an_input(setup: &FlightSetup, lattice: &AirSettings) -> String {
     let chord = mean_chord(setup);
@@ -218,17 +226,18 @@ fn core_is_an_input(setup: &FlightSetup, lattice: &AirSettings) -> String {
     let overlap = match lattice.wake_overlap {
         0.0 => String::new(),
         part if lattice.is_symmetric() => format!(
-            ", at least {part} times a filament's length or {} of the way from its edge",
+            ", widened to {} but to no more than {} of its distance along the sheet from the edge",
+            of_length(part),
             lattice.overlap_slope
         ),
-        part => format!(", at least {part} times a filament's length"),
+        part => format!(", widened to {}", of_length(part)),
     };
     let blobs = match lattice.wake_blob_length {
         None => String::new(),
         Some(length) => format!("; filaments longer than {length:.1e} m are blobs"),
     };
     format!(
-        "The vortex core ({kind}, {size:.1e} m = {:.3} mean chords{overlap}{blobs}) is an input, not a result: vary it and see what changes.",
+        "The vortex core ({kind}; radius in the wake {size:.1e} m = {:.3} mean chords{overlap}{blobs}) is an input, not a result: vary it and see what changes.",
         size / chord
     )
 }

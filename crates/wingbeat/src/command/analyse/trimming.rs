@@ -28,14 +28,17 @@ const DEFAULT_HELD: usize = 2;
 /// Largest residual of a trim of body and elastic wings unless told otherwise.
 const ORBIT: f64 = 1e-6;
 
+/// What the analyses of averaged models take.
+pub(crate) const BLADE_CASE: &str =
+    "Case file or preset in blade elements; - is the standard input";
+
 /// Heading of these options in the help.
 const HEADING: &str = "Trim";
 
 /// What is trimmed and how.
 #[derive(Args)]
 pub(crate) struct Trimming {
-    /// Case file or preset in blade elements; trim, stability and power take the vortex lattice, too; - is the
-    /// standard input.
+    /// Case file or preset, in blade elements or in the vortex lattice; - is the standard input.
     #[arg(default_value = "fruit-fly-blade", value_parser = CaseName, hide_possible_values = true)]
     case: PathBuf,
     /// Set a key of the case, e.g. time.beats=3; KEY= takes it away (may be repeated).

@@ -1,0 +1,130 @@
+//! Pages of docs: their files are what they say, their commands run, and the numbers beside them are theirs.
+
+mod support;
+
+use std::fs;
+use std::path::Path;
+use std::process::Command;
+
+use support::{Scratch, said};
+
+fn page(name: &str) -> String {
+    let docs = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs");
+    fs::read_to_string(docs.join(name)).unwrap()
+}
+
+/// The blocks of a page in a language.
+fn blocks<'a>(page: &'a str, language: &str) -> Vec<&'a str> {
+    let start = format!("```{language}\n");
+    let rest = page.split(&start[..]).skip(1);
+    rest.map(|b| b.split("```").next().unwrap()).collect()
+}
+
+/// Runs a line of a page in a shell.
+fn run(dir: &Path, line: &str) {
+    let program = Path::new(env!("CARGO_BIN_EXE_wingbeat")).parent().unwrap();
+    let path = format!("{}:{}", program.display(), std::env::var("PATH").unwrap());
+    let mut shell = Command::new("sh");
+    let out = shell.args(["-c", line]).current_dir(dir).env("PATH", &path);
+    let out = out.output().unwrap();
+    let problem = String::from_utf8_lossy(&out.stderr);
+    assert!(out.status.success(), "{line}\n{problem}");
+}
+
+#[test]
+fn behaves_the_case_that_is_read_line_by_line_flies_as_its_page_says() {
+    let page = page("case-file.md");
+    let scratch = Scratch::new("case-file");
+    let dir = &scratch.0;
+    fs::write(dir.join("moth.toml"), blocks(&page, "toml")[0]).unwrap();
+    let lines = blocks(&page, "sh");
+    lines
+        .iter()
+        .flat_map(|b| b.lines())
+        .for_each(|l| run(dir, l));
+    assert!(said(dir, &["check", "moth.toml"]).contains("0.99 weights"));
+    let shown = said(dir, &["show", "results/paper-moth"]);
+    assert!(
+        shown.starts_with("green") && shown.contains("0.994"),
+        "{shown}"
+    );
+    assert!(shown.contains("80.5"), "{shown}");
+}
+
+/// The strokes of Fry, Sayaman & Dickinson, rounded to a degree, fly as those of the set do: 1.249 weights.
+#[test]
+fn agrees_the_recording_of_the_page_on_measured_angles_with_the_set_that_it_is_of() {
+    let page = page("measured-angles.md");
+    let scratch = Scratch::new("measured-angles");
+    let dir = &scratch.0;
+    fs::write(dir.join("tracked.csv"), blocks(&page, "csv")[0]).unwrap();
+    let commands = blocks(&page, "sh");
+    let mut lines = commands.iter().flat_map(|b| b.lines());
+    run(dir, lines.next().unwrap());
+    let file = dir.join("my-fly.toml");
+    let preset = fs::read_to_string(&file).unwrap();
+    let kept = preset
+        .lines()
+        .filter(|l| !l.starts_with("data = \"fry-hover\""));
+    let without: String = kept.map(|l| format!("{l}\n")).collect();
+    assert!(without.len() < preset.len());
+    let angles = blocks(&page, "toml")[0];
+    fs::write(&file, format!("{without}\n{angles}")).unwrap();
+    lines.for_each(|l| run(dir, l));
+    let check = said(dir, &["check", "my-fly.toml"]);
+    assert!(check.contains("1.26 weights") && check.contains("stroke 143.8"));
+    assert!(
+        check.contains("0.235") && !check.contains("angles"),
+        "{check}"
+    );
+    let shown = said(dir, &["show", "tethered"]);
+    assert!(shown.contains("1.257") && shown.contains("24.5"), "{shown}");
+}
+
+/// Tables of stroke and feathering beside a set that is left in the case: the deviation stays that of the set, and
+/// `check` says so.
+#[test]
+fn behaves_check_says_which_angles_come_from_a_set() {
+    let page = page("measured-angles.md");
+    let scratch = Scratch::new("mixed-angles");
+    let dir = &scratch.0;
+    fs::write(dir.join("tracked.csv"), blocks(&page, "csv")[0]).unwrap();
+    said(dir, &["new", "fruit-fly-blade", "my-fly.toml"]);
+    let file = dir.join("my-fly.toml");
+    let preset = fs::read_to_string(&file).unwrap();
+    let tables = blocks(&page, "toml")[0];
+    let (phi, rest) = tables.split_once("[wing.right.motion.theta").unwrap();
+    let (_, psi) = rest.split_once("[wing.right.motion.psi").unwrap();
+    fs::write(&file, format!("{preset}\n{phi}[wing.right.motion.psi{psi}")).unwrap();
+    let mixed = "`right`: theta from motion.data = \"fry-hover\", phi and psi given";
+    let check = said(dir, &["check", "my-fly.toml"]);
+    assert!(
+        check.contains(mixed) && check.contains("1.26 weights"),
+        "{check}"
+    );
+    let json = said(dir, &["check", "my-fly.toml", "--json"]);
+    let json: serde_json::Value = serde_json::from_str(&json).unwrap();
+    assert_eq!(json["mixed_angles"][0]["from_set"][0], "theta");
+    let alone = said(dir, &["check", "my-fly.toml", "--set", "motion.data="]);
+    assert!(
+        !alone.contains("fry-hover") && alone.contains("1.03 weights"),
+        "{alone}"
+    );
+    assert!(!said(dir, &["check", "fruit-fly-blade"]).contains("angles"));
+}
+
+/// The first elastic wing of the page, without its flight.
+#[test]
+fn behaves_the_first_elastic_wing_of_the_page_is_what_it_says() {
+    let page = page("flexible-wings.md");
+    let scratch = Scratch::new("first-elastic");
+    let dir = &scratch.0;
+    said(dir, &["new", "flapping-rectangles", "my-wing.toml"]);
+    let file = dir.join("my-wing.toml");
+    let rigid = fs::read_to_string(&file).unwrap();
+    fs::write(&file, format!("{rigid}\n{}", blocks(&page, "toml")[0])).unwrap();
+    let check = said(dir, &["check", "my-wing.toml"]);
+    assert!(check.contains("20.1 Hz, 5.03 times"), "{check}");
+    let modes = said(dir, &["modes", "my-wing.toml"]);
+    assert!(modes.contains("20.1206"), "{modes}");
+}
