@@ -1,11 +1,17 @@
-//! Why a flight ended: errors that growth on a free joint makes are said to be its.
+//! Why a flight ended: errors that growth on a free joint makes are said to be its, and what surfaces meet that a
+//! diverging motion throws about is said to be that.
+
+use std::f64::consts::TAU;
 
 use wingbeat_dynamics::DynamicsError;
 
 use super::Simulation;
 use crate::error::FlightError;
 use crate::joint_steps::growing_joint;
-use crate::setup::IntegratorChoice;
+use crate::setup::{FormulationChoice, IntegratorChoice};
+
+/// Lengths of a flyer by which no body moves in a step [1].
+const LENGTHS: f64 = 100.0;
 
 impl Simulation {
     /// The error `ended` of a step, or what made it: a free joint whose motion the integrator does not carry.
@@ -38,6 +44,7 @@ impl Simulation {
             setup.integrator,
             IntegratorChoice::Hamming | IntegratorChoice::Adams
         );
+        let is_of_place = matches!(*ended, FlightError::Asymmetric { .. } | FlightError::Air(_));
         match is_explicit.then(|| self.alternating_joint()).flatten() {
             Some(joint) => FlightError::JointGrows {
                 time,
@@ -47,8 +54,35 @@ impl Simulation {
                 remedy: "dynamics.integrator = \"bdf\", or more steps (time.steps_per_beat, or a smaller time.step_s)".into(),
                 ended,
             },
+            None if is_of_place => self.diverged(time).unwrap_or(*ended),
             None => *ended,
         }
+    }
+
+    /// The error of a motion that diverges within a step, by the motions that were evaluated last: a body that turns
+    /// by more than a whole turn in it, or moves by more than a hundred lengths of the flyer.
+    fn diverged(&self, time: f64) -> Option<FlightError> {
+        let (system, step) = (self.equations().core.system(), self.setup.time.step);
+        let farthest = LENGTHS * system.units().length;
+        let mut bodies = system.bodies().iter().zip(&self.scratch.motions);
+        let (body, motion) = bodies.find(|(_, m)| {
+            let [turned, moved] = [m.w, m.v].map(|x| x.length() * step);
+            turned > TAU || moved > farthest
+        })?;
+        Some(FlightError::Diverged {
+            time,
+            body: body.name.clone(),
+            turned: (motion.w.length() * step).to_degrees(),
+            moved: motion.v.length() * step,
+            remedy: match self.setup.formulation {
+                FormulationChoice::Euler(_) => {
+                    "more steps (time.steps_per_beat, or a smaller time.step_s), or dynamics.formulation = \"momentum\""
+                }
+                _ => {
+                    "more steps (time.steps_per_beat, or a smaller time.step_s), or corrector.relaxation below 1"
+                }
+            },
+        })
     }
 
     /// The first joint whose rate went to and fro in the last steps, farther each time.
