@@ -2,7 +2,7 @@
 //! place of what a run writes.
 
 use std::fs;
-use std::io::{Error, ErrorKind};
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 use tempfile::NamedTempFile;
@@ -81,8 +81,8 @@ impl NewFile {
             _ => {}
         }
         let name = path.file_name().unwrap_or_default().to_string_lossy();
-        let is_ours = |target: &str| target == short(&name) || is_of_run(target);
-        remove_left_behind(folder_of(path), is_ours);
+        let is_known = |target: &str| target == short(&name) || is_of_run(target);
+        remove_left_behind(folder_of(path), is_known);
         Ok(Self {
             path: path.to_owned(),
             existing,
@@ -145,7 +145,7 @@ impl NewFile {
     /// An empty file beside it, gone if it is not placed.
     fn part(&self) -> Result<NamedTempFile, IoError> {
         let part = half_written(&self.path);
-        part.map_err(unnamed).map_err(IoError::write(&self.path))
+        part.map_err(IoError::write(&self.path))
     }
 
     fn place(&self, part: NamedTempFile) -> Result<(), IoError> {
@@ -175,13 +175,6 @@ pub fn write_file(path: &Path, content: &[u8], existing: Existing) -> Result<(),
         true => Ok(()),
         false => NewFile::claim_own(path, existing)?.write(content),
     }
-}
-
-/// An error without the name of the temporary file that it is about.
-fn unnamed(error: Error) -> Error {
-    let text = error.to_string();
-    let reason = text.split(" at path ").next().unwrap_or_default();
-    Error::new(error.kind(), reason)
 }
 
 fn holds(path: &Path, content: &[u8]) -> bool {

@@ -2,7 +2,7 @@
 
 use std::ffi::OsString;
 use std::fs;
-use std::io::{ErrorKind, Write as _};
+use std::io::{Error, ErrorKind, Write as _};
 use std::path::Path;
 
 use tempfile::NamedTempFile;
@@ -34,7 +34,7 @@ pub(crate) fn write_safely(path: &Path, content: &[u8]) -> Result<(), IoError> {
 
 fn whole(path: &Path, content: &[u8], sync: bool) -> Result<(), IoError> {
     let written = half_written(path).and_then(|mut part| {
-        part.write_all(content)?;
+        part.as_file_mut().write_all(content)?;
         if sync {
             part.as_file().sync_data()?;
         }
@@ -51,18 +51,26 @@ pub(crate) fn half_written(path: &Path) -> std::io::Result<NamedTempFile> {
     let mut number = std::process::id().to_string();
     for again in 1.. {
         let name = OsString::from(format!("{}.{number}.part", short(&target)));
-        number = format!("{}-{again}", std::process::id()); // another thread writes the same, or one of this number died
+        // Another thread writes the same, or a process of this number died.
+        number = format!("{}-{again}", std::process::id());
         let mut builder = tempfile::Builder::new();
         builder.prefix(&name).rand_bytes(0);
         #[cfg(unix)]
         builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(PERMISSIONS));
         match builder.tempfile_in(folder_of(path)) {
             Ok(part) if is_kept(&part) => return Ok(part),
-            Err(e) if e.kind() != ErrorKind::AlreadyExists => return Err(e),
+            Err(e) if e.kind() != ErrorKind::AlreadyExists => return Err(unnamed(e)),
             _ => {}
         }
     }
     unreachable!("some number is free")
+}
+
+/// An error without the name of the temporary file that it is about.
+fn unnamed(error: Error) -> Error {
+    let text = error.to_string();
+    let reason = text.split(" at path ").next().unwrap_or_default();
+    Error::new(error.kind(), reason)
 }
 
 /// Locks a file that was just made; false where somebody has taken it for one left behind and removes it.
@@ -77,14 +85,14 @@ fn is_kept(_: &NamedTempFile) -> bool {
     true
 }
 
-/// Removes half-written files of processes that died from a folder, of targets that `ours` knows by name. A file that
+/// Removes half-written files of processes that died from a folder, whose targets are `known` by name. A file that
 /// cannot be removed stays.
-pub(crate) fn remove_left_behind(folder: &Path, ours: impl Fn(&str) -> bool) {
+pub(crate) fn remove_left_behind(folder: &Path, known: impl Fn(&str) -> bool) {
     for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
         let name = entry.file_name();
         let name = name.to_str().unwrap_or_default();
         let target = target_name(name);
-        if name != target && ours(target) && entry.file_type().is_ok_and(|t| t.is_file()) {
+        if name != target && known(target) && entry.file_type().is_ok_and(|t| t.is_file()) {
             remove_if_left(&entry.path());
         }
     }

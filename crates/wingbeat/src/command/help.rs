@@ -54,7 +54,8 @@ pub(crate) fn command() -> Command {
     )))
 }
 
-/// Options that take numbers take negative ones: their own range is what is said of these, not that they are no options.
+/// Options that take numbers take negative ones: their own range is what is said of these, not that they are no
+/// options.
 fn negative_numbers(command: Command) -> Command {
     let numbers = [
         TypeId::of::<usize>(),
