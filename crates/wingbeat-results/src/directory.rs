@@ -260,6 +260,7 @@ impl ResultDir {
 /// Removes what processes that died left of files of a run, its exports and its figures that they were writing.
 pub(crate) fn remove_half_written(run: &Path) {
     remove_left_behind(run, is_of_run);
+    remove_left_behind(&run.join(FRAMES), is_frame);
     for folder in [FIGURES].iter().chain(&STYLED) {
         remove_left_behind(&run.join(folder), is_figure);
     }

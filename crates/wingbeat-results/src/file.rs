@@ -80,9 +80,7 @@ impl NewFile {
             }
             _ => {}
         }
-        let name = path.file_name().unwrap_or_default().to_string_lossy();
-        let is_known = |target: &str| target == short(&name) || is_of_run(target);
-        remove_left_behind(folder_of(path), is_known);
+        remove_left_beside(path);
         Ok(Self {
             path: path.to_owned(),
             existing,
@@ -172,9 +170,19 @@ pub fn write_file(path: &Path, content: &[u8], existing: Existing) -> Result<(),
         data.is_file() && data.len() == content.len() as u64 && holds(path, content)
     });
     match same {
-        true => Ok(()),
+        true => {
+            remove_left_beside(path);
+            Ok(())
+        }
         false => NewFile::claim_own(path, existing)?.write(content),
     }
+}
+
+/// Removes what processes that died left of the file at `path`, and of files of runs in its folder.
+fn remove_left_beside(path: &Path) {
+    let name = path.file_name().unwrap_or_default().to_string_lossy();
+    let is_known = |target: &str| target == short(&name) || is_of_run(target);
+    remove_left_behind(folder_of(path), is_known);
 }
 
 fn holds(path: &Path, content: &[u8]) -> bool {

@@ -70,7 +70,7 @@ pub fn read(dir: &Path) -> Result<Saved, IoError> {
     if !case.is_file() {
         return Err(IoError::Damaged {
             path: dir.to_owned(),
-            problem: "case.toml is missing: the run was killed before it began, or the file was removed; fly the case again with `wingbeat run CASE --out DIR --overwrite`".to_owned(),
+            problem: "case.toml is missing: the run was killed before it began, or the file was removed; put it back, or fly the case again with `wingbeat run CASE --out DIR --overwrite`".to_owned(),
         });
     }
     let case_sha256 = sha256(&fs::read(&case).map_err(IoError::read(&case))?);

@@ -95,7 +95,7 @@ fn refuses_negative_numbers_by_their_option() {
         (&["ensemble", "fruit-fly-blade"], "--members"),
         (&["plot", "r"], "--step"),
         (&["view", "r"], "--size"),
-        (&["campaign", "run", "c.toml"], "--workers"),
+        (&["campaign", "run", "c.toml"], "--jobs"),
     ] {
         let args = [command, &[option, "-1"]].concat();
         let out = Command::new(env!("CARGO_BIN_EXE_wingbeat"))
