@@ -59,21 +59,22 @@ impl Simulation {
         }
     }
 
-    /// The error of a motion that diverges within a step, by the motions that were evaluated last: a body that turns
-    /// by more than a whole turn in it, or moves by more than a hundred lengths of the flyer.
+    /// The error of a free motion that diverges within a step, by what was evaluated last: a root that turns by more
+    /// than a whole turn in it, or moves by more than a hundred lengths of the flyer.
     fn diverged(&self, time: f64) -> Option<FlightError> {
-        let (system, step) = (self.equations().core.system(), self.setup.time.step);
-        let farthest = LENGTHS * system.units().length;
-        let mut bodies = system.bodies().iter().zip(&self.scratch.motions);
-        let (body, motion) = bodies.find(|(_, m)| {
-            let [turned, moved] = [m.w, m.v].map(|x| x.length() * step);
-            turned > TAU || moved > farthest
-        })?;
+        let (core, step) = (&self.equations().core, self.setup.time.step);
+        let (body, motion) = (core.system().bodies().first()?, self.scratch.motions[0]);
+        let [turned, moved] = [motion.w, motion.v].map(|x| x.length() * step);
+        let is_thrown = turned > TAU || moved > LENGTHS * core.system().units().length;
+        // Numbers that are none have causes of their own.
+        if core.is_held() || !is_thrown || !(turned + moved).is_finite() {
+            return None;
+        }
         Some(FlightError::Diverged {
             time,
             body: body.name.clone(),
-            turned: (motion.w.length() * step).to_degrees(),
-            moved: motion.v.length() * step,
+            turned: turned.to_degrees(),
+            moved,
             remedy: match self.setup.formulation {
                 FormulationChoice::Euler(_) => {
                     "more steps (time.steps_per_beat, or a smaller time.step_s), or dynamics.formulation = \"momentum\""
