@@ -9,7 +9,7 @@ use toml::Value;
 use crate::decode;
 use crate::error::{CaseError, Fault, IoError};
 use crate::files;
-use crate::source::CaseSource;
+use crate::source::{CaseSource, START};
 
 /// Values longer than this are not shown beside their key \[bytes\].
 const LONGEST_VALUE: usize = 60;
@@ -38,7 +38,7 @@ impl Document {
     /// Broken TOML; a number that is not finite.
     pub fn new(origin: &str, text: &str, remedy: &str) -> Result<Self, IoError> {
         let source = CaseSource::new(origin, text, &[]).map_err(|mut e| {
-            if e.key.is_empty() {
+            if e.key.is_empty() && e.remedy == START {
                 remedy.clone_into(&mut e.remedy);
             }
             e

@@ -17,6 +17,7 @@ mod build;
 mod data;
 mod decode;
 mod differences;
+mod digits;
 mod document;
 mod error;
 pub mod external;

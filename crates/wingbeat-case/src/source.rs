@@ -7,7 +7,11 @@ use toml::de::{DeTable, DeValue};
 use toml::{Spanned, Table, Value};
 use wingbeat_model::mirror_name;
 
+use crate::digits::{token, with_all_digits};
 use crate::error::{CaseError, Fault};
+
+/// What is advised where a text is no TOML.
+pub(crate) const START: &str = "`wingbeat new fruit-fly-hover` writes a case to start from";
 
 /// Parts of a key at most; `wing.right.deformation.twist[0].course.fourier.cosine_deg[0]` has ten.
 const MAX_PARTS: usize = 32;
@@ -203,10 +207,14 @@ impl CaseSource {
                 e.message().trim().replace('\n', ", ")
             ),
             "",
-            "`wingbeat new fruit-fly-hover` writes a case to start from",
+            START,
         );
         let mut error = self.locate(fault);
         if let Some(span) = e.span() {
+            if let Some(whole) = with_all_digits(token(&self.text, span.start)) {
+                error.problem += ": it has no numbers like .5 or 5.";
+                error.remedy = format!("write {whole}");
+            }
             self.mark(&mut error, span);
         }
         error
@@ -285,24 +293,6 @@ fn not_toml(typed: &str, error: &toml::de::Error) -> String {
     };
     let message = error.message().trim().replace('\n', ", ");
     format!("this is not TOML: {message}, {place}")
-}
-
-/// The value with zeros where numbers lack digits before or after their point; none where that makes no numbers of it.
-fn with_all_digits(typed: &str) -> Option<String> {
-    let is_digit = |c: Option<char>| c.is_some_and(|c| c.is_ascii_digit());
-    let (mut whole, mut last) = (String::new(), None);
-    let mut rest = typed.chars().peekable();
-    while let Some(c) = rest.next() {
-        let [before, after] = [is_digit(last), is_digit(rest.peek().copied())];
-        match (c, before, after) {
-            ('.', false, true) => whole.push_str("0."),
-            ('.', true, false) => whole.push_str(".0"),
-            _ => whole.push(c),
-        }
-        last = Some(c);
-    }
-    let is_value = || format!("value = {whole}").parse::<Table>();
-    (whole != typed && is_value().is_ok_and(|t| t.len() == 1)).then_some(whole)
 }
 
 /// The start of a long text.

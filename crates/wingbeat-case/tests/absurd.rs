@@ -5,6 +5,7 @@ use std::path::Path;
 
 use crate::common::refusal;
 use wingbeat_case::{LoadedCase, presets};
+use wingbeat_flight::Simulation;
 
 /// What is said about the fruit fly with one more override.
 fn refused(set: &str) -> String {
@@ -79,6 +80,92 @@ fn refuses_sizes_beyond_numbers_by_name() {
         let said = refused(&format!("{set}={value}"));
         assert!(said.contains(&format!("{set} = {value}")), "{said}");
         assert!(said.contains("beyond all numbers"), "{said}");
+    }
+}
+
+/// Radii of veins and reference speeds that nothing has are refused at their keys, before stiffnesses and times are.
+#[test]
+fn refuses_veins_and_speeds_that_nothing_has() {
+    let said = |case: &str, set: String| LoadedCase::find(case, &[set]).unwrap_err().to_string();
+    for radius in ["1e300", "1e-300"] {
+        let set = format!("wing.right.structure.vein[0].radius_m=[{radius},{radius}]");
+        let said = said("hawkmoth-veins", set);
+        assert!(said.contains("vein[0].radius_m"), "{said}");
+        assert!(said.contains("from 1e-9 to 1"), "{said}");
+    }
+    let set = "air.derivatives.dimensionless.speed_m_s=1e10".to_owned();
+    let said = said("table1-sun-xiong-2005", set);
+    assert!(
+        said.contains("dimensionless.speed_m_s = 10000000000"),
+        "{said}"
+    );
+    assert!(said.contains("<= 340"), "{said}");
+}
+
+/// What ends the first steps of a case is said of its key.
+fn ended(case: &str, set: &[&str], steps: usize) -> String {
+    let set: Vec<String> = set.iter().map(|s| (*s).to_owned()).collect();
+    let case = LoadedCase::find(case, &set).unwrap();
+    let flown = Simulation::new(case.setup.clone()).and_then(|mut flight| {
+        (0..steps).try_for_each(|_| flight.step().map(drop))?;
+        Ok(flight)
+    });
+    let ended = flown.err().expect("it breaks down");
+    case.refused(&ended).to_string()
+}
+
+/// Numbers of the case beyond all that flies are to blame for states that are no numbers, not the time.
+#[test]
+fn refuses_numbers_that_end_the_flight_by_name() {
+    for (case, set, key) in [
+        (
+            "fruit-fly-blade",
+            "air.blade.body_drag.across=1.7e308",
+            "air.blade.body_drag.across",
+        ),
+        (
+            "fruit-fly-hover",
+            "motion.frequency_hz=1e300",
+            "motion.frequency_hz",
+        ),
+        (
+            "table1-sun-xiong-2005",
+            "body.inertia_about_centre_kg_m2=[0,0,0,0,0,0]",
+            "body.inertia_about_centre_kg_m2",
+        ),
+    ] {
+        let said = ended(case, &[set], 20);
+        assert!(said.starts_with(&format!("error: {key}")), "{said}");
+    }
+}
+
+/// Coarse steps in which the Euler form diverges are to blame for surfaces that are thrown about, not the mirror.
+#[test]
+fn refuses_diverging_steps_before_mirrors_and_panels() {
+    for (steps_per_beat, mirror) in [
+        (10, true),
+        (14, true),
+        (14, false),
+        (16, true),
+        (20, true),
+        (24, false),
+    ] {
+        let said = ended(
+            "fruit-fly-hover",
+            &[
+                "dynamics.formulation=euler",
+                &format!("time.steps_per_beat={steps_per_beat}"),
+                "wing.right.mesh.chordwise=3",
+                "wing.right.mesh.spanwise=4",
+                &format!("air.mirror={mirror}"),
+            ],
+            60,
+        );
+        assert!(said.contains("the motion diverges within a step"), "{said}");
+        assert!(
+            said.contains("dynamics.formulation = \"momentum\""),
+            "{said}"
+        );
     }
 }
 

@@ -117,6 +117,22 @@ pub enum FlightError {
         /// Largest difference within a step over the natural size of what differs \[1\].
         apart: f64,
     },
+    /// Bodies that were thrown about within a step, in which the integrator diverged.
+    #[error(
+        "t = {time:.6e} s: the motion diverges within a step: body `{body}` turns by {turned:.1e} deg and moves by {moved:.1e} m in it; take {remedy}"
+    )]
+    Diverged {
+        /// Time \[s\].
+        time: f64,
+        /// Name of the body.
+        body: String,
+        /// By what it would turn in a step \[deg\].
+        turned: f64,
+        /// By what it would move in a step \[m\].
+        moved: f64,
+        /// What to try.
+        remedy: &'static str,
+    },
     /// A flight ended because what a free joint carries grew from step to step.
     #[error(
         "{}; take {remedy}. The flight ended so: {ended}",

@@ -373,8 +373,11 @@ impl Simulation {
             }
             None => block_start(y0, f0, h, convergence, &scales, &mut start),
         };
-        let (past, report) =
-            started.map_err(|e| failure(e, first + 1, start.time(1), &self.setup))?;
+        let (past, report) = started.map_err(|e| {
+            // Where the motion has come to, for what is said of its end.
+            self.scratch.motions.clone_from(&start.scratch.motions);
+            failure(e, first + 1, start.time(1), &self.setup)
+        })?;
         (state.past, state.start_report) = (past, report);
         Ok(())
     }

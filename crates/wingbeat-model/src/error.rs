@@ -1,5 +1,6 @@
 //! What can be wrong with an animal: one enum, each case names the key, the value and the remedy.
 
+use std::borrow::Cow;
 use std::fmt;
 
 use wingbeat_math::MassError;
@@ -16,7 +17,7 @@ pub enum ModelError {
         /// Its value (SI units).
         value: f64,
         /// The allowed range, in words.
-        allowed: &'static str,
+        allowed: Cow<'static, str>,
     },
     /// A number of panels, stations or samples outside its range.
     #[error("{key} = {value}: must be {allowed}")]
@@ -131,7 +132,7 @@ pub(crate) fn require(
     key: &str,
     value: f64,
     ok: bool,
-    allowed: &'static str,
+    allowed: impl Into<Cow<'static, str>>,
 ) -> Result<f64, ModelError> {
     if value.is_finite() && ok {
         return Ok(value);
@@ -139,7 +140,7 @@ pub(crate) fn require(
     Err(ModelError::Value {
         key: key.to_owned(),
         value,
-        allowed,
+        allowed: allowed.into(),
     })
 }
 

@@ -199,6 +199,9 @@ fn flight(error: &FlightError) -> (&'static str, Parts) {
             let remedy = "compute both halves: air.mirror = false";
             ("FlightError", about("air.mirror", remedy))
         }
+        FlightError::Diverged { remedy, .. } => {
+            ("FlightError", about("time.steps_per_beat", *remedy))
+        }
         FlightError::JointGrows { remedy, .. } => {
             ("FlightError", about("dynamics.integrator", remedy.clone()))
         }

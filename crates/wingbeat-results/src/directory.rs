@@ -10,7 +10,7 @@ use crate::Outcome;
 use crate::history::is_abandoned;
 use crate::vtp::is_frame;
 pub use crate::whole::{remove_directory, remove_file, write_whole};
-use crate::whole::{target_name, was_there};
+use crate::whole::{remove_left_behind, target_name, was_there};
 
 /// Files a run and its exports may have; `--overwrite` removes these, the frames and the figures, and
 /// nothing else. The manifest comes first and goes last: where it is, there is a run.
@@ -140,7 +140,7 @@ impl ResultDir {
             clear(&path.join(styled), is_figure).map_err(make(path))?;
         }
         clear(&path.join(FIGURES), is_figure).map_err(make(path))?;
-        remove_half_written(path)?;
+        remove_half_written(path);
         for entry in ENTRIES {
             was_there(fs::remove_file(path.join(entry))).map_err(make(path))?;
         }
@@ -223,6 +223,11 @@ impl ResultDir {
         }
     }
 
+    /// Removes what processes that died left of files that they were writing here.
+    pub fn remove_half_written(&self) {
+        remove_half_written(&self.path);
+    }
+
     /// Where it is.
     pub fn path(&self) -> &Path {
         &self.path
@@ -252,19 +257,18 @@ impl ResultDir {
     }
 }
 
-/// Removes what processes that died left of files of a run that they were writing.
-///
-/// # Errors
-/// A file that cannot be removed.
-pub(crate) fn remove_half_written(run: &Path) -> Result<(), IoError> {
-    for entry in fs::read_dir(run).into_iter().flatten().flatten() {
-        let name = entry.file_name();
-        let target = name.to_str().map(|name| (name, target_name(name)));
-        if target.is_some_and(|(name, target)| name != target && ENTRIES.contains(&target)) {
-            remove_file(&entry.path())?;
-        }
+/// Removes what processes that died left of files of a run, its exports and its figures that they were writing.
+pub(crate) fn remove_half_written(run: &Path) {
+    remove_left_behind(run, is_of_run);
+    remove_left_behind(&run.join(FRAMES), is_frame);
+    for folder in [FIGURES].iter().chain(&STYLED) {
+        remove_left_behind(&run.join(folder), is_figure);
     }
-    Ok(())
+}
+
+/// Whether this is the name of a file that a run, an export or a figure has.
+pub(crate) fn is_of_run(name: &str) -> bool {
+    ENTRIES.contains(&name) || is_figure(name)
 }
 
 /// Whether this is the place of a file that a run writes or has written.

@@ -2,18 +2,15 @@
 //! place of what a run writes.
 
 use std::fs;
-use std::io::{Error, ErrorKind};
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 use tempfile::NamedTempFile;
 
 use wingbeat_case::IoError;
 
-use crate::directory::belongs_to_run;
-
-/// Permissions of new files before the user's mask.
-#[cfg(unix)]
-const PERMISSIONS: u32 = 0o666;
+use crate::directory::{belongs_to_run, is_of_run};
+use crate::whole::{folder_of, half_written, remove_left_behind, short};
 
 /// What becomes of a file that is there already.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -83,6 +80,7 @@ impl NewFile {
             }
             _ => {}
         }
+        remove_left_beside(path);
         Ok(Self {
             path: path.to_owned(),
             existing,
@@ -144,12 +142,8 @@ impl NewFile {
 
     /// An empty file beside it, gone if it is not placed.
     fn part(&self) -> Result<NamedTempFile, IoError> {
-        let mut builder = tempfile::Builder::new();
-        builder.prefix(".wingbeat-").suffix(".part");
-        #[cfg(unix)]
-        builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(PERMISSIONS));
-        let part = builder.tempfile_in(folder_of(&self.path));
-        part.map_err(unnamed).map_err(IoError::write(&self.path))
+        let part = half_written(&self.path);
+        part.map_err(IoError::write(&self.path))
     }
 
     fn place(&self, part: NamedTempFile) -> Result<(), IoError> {
@@ -176,16 +170,19 @@ pub fn write_file(path: &Path, content: &[u8], existing: Existing) -> Result<(),
         data.is_file() && data.len() == content.len() as u64 && holds(path, content)
     });
     match same {
-        true => Ok(()),
+        true => {
+            remove_left_beside(path);
+            Ok(())
+        }
         false => NewFile::claim_own(path, existing)?.write(content),
     }
 }
 
-/// An error without the name of the temporary file that it is about.
-fn unnamed(error: Error) -> Error {
-    let text = error.to_string();
-    let reason = text.split(" at path ").next().unwrap_or_default();
-    Error::new(error.kind(), reason)
+/// Removes what processes that died left of the file at `path`, and of files of runs in its folder.
+fn remove_left_beside(path: &Path) {
+    let name = path.file_name().unwrap_or_default().to_string_lossy();
+    let is_known = |target: &str| target == short(&name) || is_of_run(target);
+    remove_left_behind(folder_of(path), is_known);
 }
 
 fn holds(path: &Path, content: &[u8]) -> bool {
@@ -198,14 +195,6 @@ fn holds(path: &Path, content: &[u8]) -> bool {
 /// A folder that cannot be made.
 pub fn make_folder(path: &Path) -> Result<(), IoError> {
     fs::create_dir_all(path).map_err(IoError::write(path))
-}
-
-/// The folder a file is in.
-fn folder_of(path: &Path) -> &Path {
-    match path.parent() {
-        Some(folder) if !folder.as_os_str().is_empty() => folder,
-        _ => Path::new("."),
-    }
 }
 
 #[cfg(test)]

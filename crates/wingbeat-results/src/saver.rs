@@ -1,6 +1,7 @@
 //! When checkpoints are due, and going back to one.
 
 use std::fs;
+use std::io::ErrorKind;
 use std::path::Path;
 use std::time::{Duration, Instant};
 
@@ -10,7 +11,7 @@ use wingbeat_flight::FlightState;
 use super::checkpoint::{self, FILE, Header};
 use super::history::hash_start;
 use super::manifest::{Manifest, Outcome, hexadecimal, sha256};
-use super::vtp::{frame_name, is_frame};
+use super::vtp::{check_sum, frame_name, is_frame};
 use super::whole::{remove_file, write_safely};
 use wingbeat_case::{IoError, SaveSettings};
 
@@ -69,7 +70,7 @@ pub fn read(dir: &Path) -> Result<Saved, IoError> {
     if !case.is_file() {
         return Err(IoError::Damaged {
             path: dir.to_owned(),
-            problem: "case.toml is missing: the run was killed before it began, or the file was removed; fly the case again with `wingbeat run CASE --out DIR --overwrite`".to_owned(),
+            problem: "case.toml is missing: the run was killed before it began, or the file was removed; put it back, or fly the case again with `wingbeat run CASE --out DIR --overwrite`".to_owned(),
         });
     }
     let case_sha256 = sha256(&fs::read(&case).map_err(IoError::read(&case))?);
@@ -108,15 +109,26 @@ pub fn read_manifest(dir: &Path) -> Result<Manifest, IoError> {
     if !path.is_file() {
         return Err(IoError::Damaged {
             path: dir.to_owned(),
-            problem: "this is not a result directory of wingbeat (no manifest.json)".to_owned(),
+            problem: match dir.join("case.toml").is_file() && dir.join("history.csv").is_file() {
+                true => format!("its manifest.json is missing; put it back, or {AGAIN}"),
+                false => "this is not a result directory of wingbeat (no manifest.json)".to_owned(),
+            },
         });
     }
-    let text = fs::read_to_string(&path).map_err(IoError::read(&path))?;
-    serde_json::from_str(&text).map_err(|e| IoError::Damaged {
+    let bytes = fs::read(&path).map_err(IoError::read(&path))?;
+    serde_json::from_slice(&bytes).map_err(|e| IoError::Damaged {
+        problem: match dir.join("case.toml").is_file() {
+            true => format!("the manifest cannot be read: {e}; put it back, or {AGAIN}"),
+            false => format!(
+                "the manifest cannot be read: {e}; put it back (there is no case.toml beside it that could be flown again)"
+            ),
+        },
         path,
-        problem: format!("the manifest cannot be read: {e}"),
     })
 }
+
+/// What is left to do where a file of a result is lost.
+const AGAIN: &str = "fly the case.toml of this result again with `wingbeat run`";
 
 fn check_start(path: &Path, header: &Header) -> Result<(), IoError> {
     let wanted = (header.history_bytes, &header.history_sha256[..]);
@@ -134,7 +146,13 @@ fn check_start(path: &Path, header: &Header) -> Result<(), IoError> {
 
 /// Whether a file begins with so many bytes of this hash.
 fn starts_with(path: &Path, (bytes, hash): (u64, &str)) -> Result<bool, IoError> {
-    let file = fs::File::open(path).map_err(IoError::read(path))?;
+    let file = fs::File::open(path).map_err(|e| match e.kind() {
+        ErrorKind::NotFound => IoError::Damaged {
+            path: path.to_owned(),
+            problem: format!("the history is missing; put it back, or {AGAIN}"),
+        },
+        _ => IoError::read(path)(e),
+    })?;
     let sum = hash_start(&file, bytes).map(|hash| hexadecimal(&hash.finalize()));
     Ok(sum.is_ok_and(|sum| sum == hash))
 }
@@ -146,7 +164,16 @@ fn starts_with(path: &Path, (bytes, hash): (u64, &str)) -> Result<bool, IoError>
 pub(crate) fn check(dir: &Path) -> Result<(), IoError> {
     let manifest = read_manifest(dir)?;
     let path = dir.join("case.toml");
-    let case = fs::read(&path).map_err(IoError::read(&path))?;
+    let case = fs::read(&path).map_err(|e| match e.kind() {
+        ErrorKind::NotFound => IoError::Damaged {
+            path: path.clone(),
+            problem: format!(
+                "the case is missing; put it back, or fly again what it was made of (`{}`)",
+                manifest.origin
+            ),
+        },
+        _ => IoError::read(&path)(e),
+    })?;
     if sha256(&case) != manifest.case_sha256 {
         return Err(IoError::Damaged {
             path,
@@ -188,27 +215,41 @@ pub(crate) fn check_history(dir: &Path, manifest: &Manifest) -> Result<(), IoErr
     Ok(())
 }
 
-/// Checks that the frames of these steps are there, whole as far as their names tell.
+/// Checks that the frames of these steps are there and hold what was written, by their checksums.
 ///
 /// # Errors
-/// [`IoError::Damaged`] names the first that is missing.
+/// [`IoError::Damaged`] names the first that is missing, cut or damaged.
 pub(crate) fn check_frames(
     dir: &Path,
-    mut steps: impl Iterator<Item = usize>,
+    steps: impl Iterator<Item = usize>,
     parts: &[&str],
 ) -> Result<(), IoError> {
-    let lost = |step: usize| {
-        let files = parts
-            .iter()
-            .map(|part| dir.join("frames").join(frame_name(part, step)));
-        files.into_iter().find(|file| !file.is_file())
-    };
-    match steps.find_map(lost) {
-        None => Ok(()),
-        Some(path) => Err(IoError::Damaged {
-            path,
-            problem: "this frame was written and is missing; put it back, or fly the case.toml of this result again with `wingbeat run`".to_owned(),
-        }),
+    let folder = dir.join("frames");
+    for (step, part) in steps.flat_map(|step| parts.iter().map(move |part| (step, part))) {
+        let path = folder.join(frame_name(part, step));
+        let problem = match fs::read(&path) {
+            Ok(bytes) => check_sum_of(&bytes).err(),
+            Err(e) if e.kind() == ErrorKind::NotFound => {
+                Some("this frame was written and is missing".to_owned())
+            }
+            Err(e) => return Err(IoError::read(&path)(e)),
+        };
+        if let Some(problem) = problem {
+            return Err(IoError::Damaged {
+                path,
+                problem: format!(
+                    "{problem}; frames of earlier steps are not made again by going on: put the file back, or {AGAIN}"
+                ),
+            });
+        }
+    }
+    Ok(())
+}
+
+fn check_sum_of(frame: &[u8]) -> Result<(), String> {
+    match std::str::from_utf8(frame) {
+        Ok(text) => check_sum(text, "frame"),
+        Err(_) => Err("this frame is damaged (it is no text)".to_owned()),
     }
 }
 

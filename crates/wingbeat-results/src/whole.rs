@@ -1,10 +1,19 @@
 //! Files written whole or not at all, and removed if they are there.
 
+use std::ffi::OsString;
 use std::fs;
-use std::io::{ErrorKind, Write as _};
-use std::path::{Path, PathBuf};
+use std::io::{Error, ErrorKind, Write as _};
+use std::path::Path;
 
+use tempfile::NamedTempFile;
 use wingbeat_case::IoError;
+
+/// Permissions of new files before the user's mask.
+#[cfg(unix)]
+const PERMISSIONS: u32 = 0o666;
+
+/// Bytes of the name of a target that half-written files have: room is left for the number of the process.
+const NAME: usize = 200;
 
 /// Writes beside the target and renames: readers see the old file or the whole new one. Processes that write the same
 /// file do not disturb each other, and what is left of one that died does not stand in the way of others.
@@ -24,18 +33,96 @@ pub(crate) fn write_safely(path: &Path, content: &[u8]) -> Result<(), IoError> {
 }
 
 fn whole(path: &Path, content: &[u8], sync: bool) -> Result<(), IoError> {
-    let mut part = path.as_os_str().to_owned();
-    part.push(format!(".{}.part", std::process::id()));
-    let part = PathBuf::from(part);
-    let written = fs::File::create(&part).and_then(|mut file| {
-        file.write_all(content)?;
-        if sync { file.sync_data() } else { Ok(()) }
+    let written = half_written(path).and_then(|mut part| {
+        part.as_file_mut().write_all(content)?;
+        if sync {
+            part.as_file().sync_data()?;
+        }
+        Ok(part.persist(path)?)
     });
-    let result = written.and_then(|()| fs::rename(&part, path));
-    result.map_err(|e| {
-        let _ = fs::remove_file(&part); // nothing more can be done about a leftover
-        IoError::write(path)(e)
-    })
+    written.map(drop).map_err(IoError::write(path))
+}
+
+/// An empty file beside `path`, gone if it is not moved there: `flight.h5.4711.part` of process 4711. It is locked as
+/// long as it is written, so that others see whether that process lives ([`remove_left_behind`]).
+pub(crate) fn half_written(path: &Path) -> std::io::Result<NamedTempFile> {
+    let target = path.file_name().ok_or(ErrorKind::InvalidFilename)?;
+    let target = target.to_string_lossy();
+    let mut number = std::process::id().to_string();
+    for again in 1.. {
+        let name = OsString::from(format!("{}.{number}.part", short(&target)));
+        // Another thread writes the same, or a process of this number died.
+        number = format!("{}-{again}", std::process::id());
+        let mut builder = tempfile::Builder::new();
+        builder.prefix(&name).rand_bytes(0);
+        #[cfg(unix)]
+        builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(PERMISSIONS));
+        match builder.tempfile_in(folder_of(path)) {
+            Ok(part) if is_kept(&part) => return Ok(part),
+            Err(e) if e.kind() != ErrorKind::AlreadyExists => return Err(unnamed(e)),
+            _ => {}
+        }
+    }
+    unreachable!("some number is free")
+}
+
+/// An error without the name of the temporary file that it is about.
+fn unnamed(error: Error) -> Error {
+    let text = error.to_string();
+    let reason = text.split(" at path ").next().unwrap_or_default();
+    Error::new(error.kind(), reason)
+}
+
+/// Locks a file that was just made; false where somebody has taken it for one left behind and removes it.
+#[cfg(unix)]
+fn is_kept(part: &NamedTempFile) -> bool {
+    !matches!(part.as_file().try_lock(), Err(fs::TryLockError::WouldBlock)) && part.path().exists()
+}
+
+/// Locks keep others from writing by the name here: files have none.
+#[cfg(not(unix))]
+fn is_kept(_: &NamedTempFile) -> bool {
+    true
+}
+
+/// Removes half-written files of processes that died from a folder, whose targets are `known` by name. A file that
+/// cannot be removed stays.
+pub(crate) fn remove_left_behind(folder: &Path, known: impl Fn(&str) -> bool) {
+    for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
+        let name = entry.file_name();
+        let name = name.to_str().unwrap_or_default();
+        let target = target_name(name);
+        if name != target && known(target) && entry.file_type().is_ok_and(|t| t.is_file()) {
+            remove_if_left(&entry.path());
+        }
+    }
+}
+
+/// The lock is held until the file is gone: nobody begins to write it meanwhile.
+#[cfg(unix)]
+fn remove_if_left(path: &Path) {
+    if let Ok(file) = fs::File::open(path)
+        && file.try_lock().is_ok()
+    {
+        let _ = fs::remove_file(path); // it stands in nobody's way
+    }
+}
+
+/// Without locks there is no telling whether its process lives.
+#[cfg(not(unix))]
+fn remove_if_left(_: &Path) {}
+
+/// The beginning of a name, as far as half-written files have it.
+pub(crate) fn short(name: &str) -> &str {
+    &name[..name.floor_char_boundary(NAME)]
+}
+
+/// The folder a file is in.
+pub(crate) fn folder_of(path: &Path) -> &Path {
+    match path.parent() {
+        Some(folder) if !folder.as_os_str().is_empty() => folder,
+        _ => Path::new("."),
+    }
 }
 
 /// The name of the file that a half-written one was to become, `wakes_000012.vtp` of `wakes_000012.vtp.4711.part`; that
@@ -45,7 +132,9 @@ pub(crate) fn target_name(name: &str) -> &str {
         return name;
     };
     match part.rsplit_once('.') {
-        Some((target, process)) if process.bytes().all(|b| b.is_ascii_digit()) => target,
+        Some((target, process)) if process.bytes().all(|b| b.is_ascii_digit() || b == b'-') => {
+            target
+        }
         _ => part, // of versions without the number of the process
     }
 }
@@ -82,6 +171,7 @@ mod tests {
     fn exact_names_of_half_written_files_are_those_of_their_targets() {
         for (name, target) in [
             ("wakes_000012.vtp.4711.part", "wakes_000012.vtp"),
+            ("flight.h5.4711-2.part", "flight.h5"),
             ("wakes_000012.vtp.part", "wakes_000012.vtp"), // of older versions
             ("wakes_000012.vtp", "wakes_000012.vtp"),
             ("manifest.json.1.part", "manifest.json"),
@@ -106,5 +196,42 @@ mod tests {
         assert!(
             remove_directory(folder.path()).unwrap() && !remove_directory(folder.path()).unwrap()
         );
+    }
+
+    /// Threads that write the same file do not disturb each other; what a process left is removed once it is dead, and
+    /// what is being written stays.
+    #[cfg(unix)]
+    #[test]
+    fn behaves_files_left_behind_are_removed_and_those_being_written_are_not() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("flight.h5");
+        let parts = [(); 3].map(|()| half_written(&path).unwrap());
+        let names: Vec<_> = parts
+            .iter()
+            .map(|p| p.path().file_name().unwrap().to_str().unwrap().to_owned())
+            .collect();
+        let pid = std::process::id();
+        let wanted = ["", "-1", "-2"].map(|n| format!("flight.h5.{pid}{n}.part"));
+        assert_eq!(names, wanted);
+        let left = ["flight.h5.4711.part", "flight.h5.4712-1.part"];
+        let others = ["notes.txt.4711.part", "flight.h5"];
+        for name in left.iter().chain(&others) {
+            fs::write(folder.path().join(name), "half").unwrap();
+        }
+        remove_left_behind(folder.path(), |target| target == "flight.h5");
+        let is_there = |name: &str| folder.path().join(name).exists();
+        assert!(!left.into_iter().any(is_there));
+        assert!(others.into_iter().all(is_there));
+        assert!(wanted.iter().all(|name| is_there(name)));
+        drop(parts);
+        assert!(!wanted.iter().any(|name| is_there(name)));
+    }
+
+    #[test]
+    fn behaves_names_as_long_as_the_system_takes_are_written() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("\u{e9}".repeat(127));
+        write_whole(&path, b"long").unwrap();
+        assert_eq!(fs::read(&path).unwrap(), b"long");
     }
 }

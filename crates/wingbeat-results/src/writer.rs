@@ -5,7 +5,6 @@ use std::time::{Duration, Instant};
 use wingbeat_flight::{AirModel, FlightState, Record, Snapshot};
 
 use super::checkpoint::Header;
-use super::directory::remove_half_written;
 use super::framer::Framer;
 use super::history::HistoryWriter;
 use super::manifest::{Manifest, Outcome, sha256};
@@ -67,6 +66,9 @@ impl RunWriter {
         dir.write("manifest.json", manifest.to_json().as_bytes())?;
         dir.write("case.toml", resolved.as_bytes())?;
         let history = HistoryWriter::create(&dir.join("history.csv"), &case.setup)?;
+        // What a run that was killed before its first checkpoint has left here.
+        dir.remove_half_written();
+        saver::go_back(dir.path(), 0)?;
         if case.output.frames_every > 0 {
             dir.folder("frames")?;
         }
@@ -115,7 +117,7 @@ impl RunWriter {
         // A manifest never promises more of the history than there is.
         dir.write("manifest.json", manifest.to_json().as_bytes())?;
         history.cut()?;
-        remove_half_written(dir.path())?;
+        dir.remove_half_written();
         let steps = saver::go_back(dir.path(), header.step)?;
         let step = case.setup.time.step;
         let writer = Self {

@@ -296,6 +296,15 @@ fn exact_broken_toml() {
         report.contains("this is not TOML") && report.contains("case.toml:2:"),
         "{report}"
     );
+    assert!(report.contains("wingbeat new"), "{report}");
+    for (lacking, whole) in [("-.1", "-0.1"), ("5.", "5.0"), (".5", "0.5")] {
+        let number = format!("[flight]\nyaw_deg = {lacking}");
+        case_in(&scratch, &GOOD.replace("[flight]", &number));
+        let out = wingbeat(&scratch.0, &["check", "case.toml"]);
+        let report = String::from_utf8(out.stderr).unwrap();
+        assert!(report.contains("no numbers like .5"), "{report}");
+        assert!(report.contains(&format!("write {whole}")), "{report}");
+    }
 }
 
 #[test]

@@ -146,6 +146,9 @@ fn refuses_damaged_results_in_every_command() {
         false,
         "manifest.json",
     );
+    let again = "fly the case.toml of this result again";
+    with_damage(dir, "manifest.json", b"\xff\xfe", false, again);
+    with_damage(dir, "manifest.json", b"{}", false, again);
     with_damage(dir, "case.toml", &cut("case.toml"), false, "case.toml");
     with_damage(dir, "case.toml", b"\xff\xfe\x00", false, "case.toml");
     with_damage(dir, "history.csv", b"", false, "history.csv");
@@ -212,6 +215,9 @@ fn refuses_missing_files_and_foreign_directories_in_every_command() {
             clear(dir);
             if framed || !frames_only {
                 refused(dir, args, file.rsplit('/').next().unwrap());
+                let said = outcome(dir, args).1;
+                assert!(said.contains("put it back"), "{args:?}: {said}");
+                assert!(said.contains("again"), "{args:?}: {said}");
             }
         }
         fs::rename(&away, &path).unwrap();

@@ -300,13 +300,68 @@ fn refuses_directories_that_cannot_be_gone_on_with() {
 }
 
 #[test]
-fn refuses_a_run_that_lost_a_frame() {
+fn refuses_a_run_whose_frames_were_lost_cut_or_damaged() {
     let scratch = Scratch::new("lost");
+    let dir = scratch.0.join("run");
+    interrupted(&dir);
     for part in ["surfaces", "wakes"] {
-        let dir = scratch.0.join(part);
-        interrupted(&dir);
-        fs::remove_file(dir.join(format!("frames/{part}_000000.vtp"))).unwrap();
+        let path = dir.join(format!("frames/{part}_000000.vtp"));
+        let whole = fs::read(&path).unwrap();
+        let mut flipped = whole.clone();
+        flipped[whole.len() / 2] ^= 1;
+        let mut binary = whole.clone();
+        binary[whole.len() / 2] = 0xff;
+        let damages: [(&[u8], &str); 5] = [
+            (b"", "this frame is cut"),
+            (&whole[..whole.len() / 2], "this frame is cut"),
+            (&flipped, "its checksum is wrong"),
+            (&binary, "it is no text"),
+            (&[&whole[..], b"more"].concat(), "this frame is cut"),
+        ];
+        for (bytes, problem) in damages {
+            fs::write(&path, bytes).unwrap();
+            refused(&dir, problem);
+            refused(&dir, &format!("{part}_000000.vtp"));
+            refused(&dir, "not made again by going on");
+        }
+        fs::remove_file(&path).unwrap();
         refused(&dir, "was written and is missing");
+        fs::write(&path, whole).unwrap();
+    }
+}
+
+/// What processes that were killed left of a run's files, of its exports and figures.
+#[cfg(unix)]
+#[test]
+fn behaves_going_on_removes_what_dead_processes_left() {
+    let scratch = Scratch::new("left");
+    let left = [
+        "checkpoint.bin.4711.part",
+        "flight.glb.4711.part",
+        "figures/animation.gif.4711-1.part",
+        "frames/wakes_000000.vtp.4711.part",
+    ];
+    // Before the first checkpoint, after it, at the end; another process writes an export meanwhile.
+    for (name, is_saved) in [("start", false), ("middle", true)] {
+        let dir = scratch.0.join(name);
+        interrupted(&dir);
+        if !is_saved {
+            fs::remove_file(dir.join("checkpoint.bin")).unwrap();
+        }
+        fs::create_dir_all(dir.join("figures")).unwrap();
+        let writing = dir.join("flight.h5.4712.part");
+        let file = fs::File::create(&writing).unwrap();
+        file.lock().unwrap();
+        for _ in 0..2 {
+            for name in left {
+                fs::write(dir.join(name), "half").unwrap();
+            }
+            let done = wingbeat(&dir, &["resume", ".", "--quiet"]);
+            let said = String::from_utf8_lossy(&done.stderr);
+            assert!(done.status.success(), "{said}");
+            assert!(!left.iter().any(|name| dir.join(name).exists()), "{name}");
+            assert!(writing.exists());
+        }
     }
 }
 

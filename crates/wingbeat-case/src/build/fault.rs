@@ -15,9 +15,8 @@ pub(super) fn fault_at(path: &str, raw: &impl Serialize, error: &ModelError) -> 
         return fault;
     }
     let (named, allowed) = match error {
-        ModelError::Value { key, allowed, .. } | ModelError::Count { key, allowed, .. } => {
-            (key.as_str(), *allowed)
-        }
+        ModelError::Value { key, allowed, .. } => (key.as_str(), allowed.as_ref()),
+        ModelError::Count { key, allowed, .. } => (key.as_str(), *allowed),
         _ => ("", ""),
     };
     let stem = named.rsplit('.').next().unwrap_or("");
@@ -64,6 +63,13 @@ pub(super) fn beyond_numbers(
             "check its unit and its power of ten",
         )
     })
+}
+
+/// The key of the number of a case that is farthest from 1, where nothing that flies has such a one.
+pub(super) fn extreme_key(case: &impl Serialize) -> Option<String> {
+    let table = toml::Table::try_from(case).ok()?;
+    let (powers, key) = most_extreme(String::new(), &toml::Value::Table(table))?;
+    (powers > EXTREME).then(|| key.trim_start_matches('.').to_owned())
 }
 
 /// The number that is farthest from 1 in powers of ten, with its key.

@@ -427,6 +427,16 @@ pub(super) fn fault_of(case: &Case, setup: &FlightSetup, error: &DynamicsError) 
             key_of_body(setup, body),
             "let every chain of joints begin at the body",
         ),
+        DynamicsError::SingularInertia { .. } => match case.body.inertia_about_centre_kg_m2 {
+            Some(_) => (
+                "body.inertia_about_centre_kg_m2".to_owned(),
+                "give principal moments above 0",
+            ),
+            None => (
+                "body".to_owned(),
+                "give body and wings extent: parts with length and diameter, or moments of inertia above 0",
+            ),
+        },
         DynamicsError::NotFinite { .. } => (
             "time".to_owned(),
             "take smaller steps, and check speeds, masses and stiffnesses: units are part of the keys",

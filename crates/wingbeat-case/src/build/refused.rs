@@ -1,14 +1,23 @@
 //! What a flight refuses when it is built or flown, at the key of the case it is about.
 
 use wingbeat_air::AirError;
+use wingbeat_dynamics::DynamicsError;
 use wingbeat_flight::{FlightError, FlightSetup};
 
+use super::fault::extreme_key;
 use super::{joint, lattice};
 use crate::error::Fault;
 use crate::raw::{Case, ControlCase, ControllerCase, WingCase};
 
 /// The error of a flight of `setup`, which `case` made, as a fault of the case.
 pub(crate) fn refused(case: &Case, setup: &FlightSetup, error: &FlightError) -> Fault {
+    if is_not_finite(error)
+        && let Some(key) = extreme_key(case)
+    {
+        let problem = format!("with it numbers of the flight go beyond all bounds: {error}");
+        let allowed = "sizes, speeds, loads and rates that some flyer has";
+        return Fault::new(key, problem, allowed, "check its unit and its power of ten");
+    }
     let (key, remedy) = match error {
         FlightError::Dynamics(e) => return joint::fault_of(case, setup, e),
         FlightError::Air(AirError::Singular { .. }) if has_wide_cores(setup) => {
@@ -18,6 +27,10 @@ pub(crate) fn refused(case: &Case, setup: &FlightSetup, error: &FlightError) -> 
         FlightError::Asymmetric { .. } => (
             "air.mirror".to_owned(),
             "set it to false: both sides are computed",
+        ),
+        FlightError::Diverged { .. } => (
+            "time.steps_per_beat".to_owned(),
+            "the message says what to take",
         ),
         FlightError::JointGrows { joint, .. } => {
             (joint::key_of(case, joint), "the message says what to take")
@@ -87,6 +100,20 @@ fn of_control(case: &Case) -> (String, &'static str) {
         ),
         false => ("control.controller".to_owned(), ""),
     }
+}
+
+/// Whether the flight ended at a number that is none.
+fn is_not_finite(error: &FlightError) -> bool {
+    matches!(
+        error,
+        FlightError::Dynamics(DynamicsError::NotFinite { .. })
+            | FlightError::Air(
+                AirError::SurfaceNotFinite { .. }
+                    | AirError::PanelNotFinite { .. }
+                    | AirError::WakeNotFinite { .. }
+                    | AirError::ParticleNotFinite { .. }
+            )
+    )
 }
 
 fn of_lattice(error: &AirError) -> (String, &'static str) {

@@ -87,7 +87,7 @@ pub struct DimensionlessCase {
     /// Reference speed U.
     ///
     /// Change it to that of the table.
-    #[schemars(extend("exclusiveMinimum" = 0))]
+    #[schemars(extend("exclusiveMinimum" = 0, "maximum" = 340))]
     pub speed_m_s: f64,
     /// Area S of all wings.
     ///

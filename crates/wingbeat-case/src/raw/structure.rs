@@ -66,7 +66,8 @@ pub struct BeamCase {
     #[schemars(range(min = 1, max = 400), extend("or" = "stations"))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub elements: Option<usize>,
-    /// Nodes of the beam, r/R from the root to the tip (1), where elements have lengths of their own.
+    /// Nodes of the beam, r/R from the root of the surface (`root_offset_m` over the length from the hinge to the tip)
+    /// to the tip (1), where elements have lengths of their own.
     ///
     /// Change it for tables of stiffness by element.
     #[schemars(length(min = 2, max = 401))]

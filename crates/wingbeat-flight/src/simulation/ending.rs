@@ -1,11 +1,17 @@
-//! Why a flight ended: errors that growth on a free joint makes are said to be its.
+//! Why a flight ended: errors that growth on a free joint makes are said to be its, and what surfaces meet that a
+//! diverging motion throws about is said to be that.
+
+use std::f64::consts::TAU;
 
 use wingbeat_dynamics::DynamicsError;
 
 use super::Simulation;
 use crate::error::FlightError;
 use crate::joint_steps::growing_joint;
-use crate::setup::IntegratorChoice;
+use crate::setup::{FormulationChoice, IntegratorChoice};
+
+/// Lengths of a flyer by which no body moves in a step [1].
+const LENGTHS: f64 = 100.0;
 
 impl Simulation {
     /// The error `ended` of a step, or what made it: a free joint whose motion the integrator does not carry.
@@ -38,6 +44,7 @@ impl Simulation {
             setup.integrator,
             IntegratorChoice::Hamming | IntegratorChoice::Adams
         );
+        let is_of_place = matches!(*ended, FlightError::Asymmetric { .. } | FlightError::Air(_));
         match is_explicit.then(|| self.alternating_joint()).flatten() {
             Some(joint) => FlightError::JointGrows {
                 time,
@@ -47,8 +54,36 @@ impl Simulation {
                 remedy: "dynamics.integrator = \"bdf\", or more steps (time.steps_per_beat, or a smaller time.step_s)".into(),
                 ended,
             },
+            None if is_of_place => self.diverged(time).unwrap_or(*ended),
             None => *ended,
         }
+    }
+
+    /// The error of a free motion that diverges within a step, by what was evaluated last: a root that turns by more
+    /// than a whole turn in it, or moves by more than a hundred lengths of the flyer.
+    fn diverged(&self, time: f64) -> Option<FlightError> {
+        let (core, step) = (&self.equations().core, self.setup.time.step);
+        let (body, motion) = (core.system().bodies().first()?, self.scratch.motions[0]);
+        let [turned, moved] = [motion.w, motion.v].map(|x| x.length() * step);
+        let is_thrown = turned > TAU || moved > LENGTHS * core.system().units().length;
+        // Numbers that are none have causes of their own.
+        if core.is_held() || !is_thrown || !(turned + moved).is_finite() {
+            return None;
+        }
+        Some(FlightError::Diverged {
+            time,
+            body: body.name.clone(),
+            turned: turned.to_degrees(),
+            moved,
+            remedy: match self.setup.formulation {
+                FormulationChoice::Euler(_) => {
+                    "more steps (time.steps_per_beat, or a smaller time.step_s), or dynamics.formulation = \"momentum\""
+                }
+                _ => {
+                    "more steps (time.steps_per_beat, or a smaller time.step_s), or corrector.relaxation below 1"
+                }
+            },
+        })
     }
 
     /// The first joint whose rate went to and fro in the last steps, farther each time.

@@ -345,7 +345,8 @@ fn check_stations(key: &str, stations: &[f64], root: f64) -> Result<(), ModelErr
     require_count(key, count, (2..=401).contains(&count), "2 to 401 stations")?;
     let (first, last) = (stations[0], stations[count - 1]);
     let begins = (first - root).abs() < 1e-6;
-    require(key, first, begins, "r/R of the root of the surface first")?;
+    let from = format!("{root:.8} first, r/R of the root of the surface");
+    require(key, first, begins, from)?;
     require(key, last, (last - 1.0).abs() < 1e-6, "1 last: the tip")?;
     let rises = |pair: &&[f64]| pair[1] - pair[0] > 1e-6;
     if let Some(pair) = stations.windows(2).find(|pair| !rises(pair)) {

@@ -9,6 +9,10 @@ use crate::deformation::{behind, column, span};
 use crate::error::{MemberError, ModelError, require};
 use crate::mesh::GridMesh;
 
+/// Radii of veins, from a nanometre on: powers of both make their stiffnesses \[m\].
+const THINNEST: f64 = 1e-9;
+const THICKEST: f64 = 1.0;
+
 /// A vein, spar or batten: a round beam joined to the nodes of the mesh nearest to a straight line over the
 /// wing, along lines of the mesh and diagonals of its panels. Pairs are values at its two ends, linear between.
 #[derive(Clone, Debug, PartialEq)]
@@ -157,7 +161,10 @@ impl Vein {
         inside("to", self.to)?;
         let positive = |k: &str, x: f64| require(&of(k), x, x > 0.0, "above 0").map(drop);
         let both = |k: &str, pair: [f64; 2]| pair.into_iter().try_for_each(|x| positive(k, x));
-        both("radius", self.radius)?;
+        let is_vein = |x: f64| (THINNEST..=THICKEST).contains(&x);
+        for x in self.radius {
+            require(&of("radius"), x, is_vein(x), "from 1e-9 to 1 (metres)")?;
+        }
         if let Some(density) = self.density {
             positive("density", density)?;
         }

@@ -1,11 +1,12 @@
 //! The program about itself: commands in groups, completions of shells, manual pages.
 
+use std::any::TypeId;
 use std::fmt::Write as _;
 use std::path::Path;
 
 use clap::builder::StyledStr;
 use clap::error::{ContextKind, ContextValue};
-use clap::{Command, CommandFactory, Error};
+use clap::{Arg, Command, CommandFactory, Error};
 use clap_complete::Shell;
 use wingbeat::case::{nearest, presets};
 use wingbeat::results::file::{Existing, NewFile, make_folder};
@@ -48,9 +49,28 @@ pub(crate) fn command() -> Command {
     let mut command = Cli::command();
     command.build();
     let list = groups(&command, width());
-    Cli::command().help_template(StyledStr::from(format!(
+    negative_numbers(Cli::command()).help_template(StyledStr::from(format!(
         "{{about-with-newline}}\n{{usage-heading}} {{usage}}\n\n{list}{{options}}{{after-help}}"
     )))
+}
+
+/// Options that take numbers take negative ones: their own range is what is said of these, not that they are no
+/// options.
+fn negative_numbers(command: Command) -> Command {
+    let numbers = [
+        TypeId::of::<usize>(),
+        TypeId::of::<u64>(),
+        TypeId::of::<f64>(),
+    ];
+    let of_arg = |arg: Arg| {
+        let kind = arg.get_value_parser().type_id();
+        let is_option = !arg.is_positional() && arg.get_action().takes_values();
+        match is_option && numbers.iter().any(|n| kind == *n) && !arg.is_allow_hyphen_values_set() {
+            true => arg.allow_negative_numbers(true),
+            false => arg,
+        }
+    };
+    command.mut_args(of_arg).mut_subcommands(negative_numbers)
 }
 
 /// A mistaken command that is a case: how it is flown.

@@ -28,7 +28,7 @@ pub(crate) struct PlotArgs {
     #[arg(long, value_parser = Choice(&Format::ALL), hide_possible_values = true)]
     format: Option<Format>,
     /// Step whose wakes are drawn (the nearest frame); default the last.
-    #[arg(long, value_name = "STEP")]
+    #[arg(long, value_name = "STEP", value_parser = options::count::<0, 1_000_000_000>)]
     step: Option<usize>,
     /// Draw the flight from this time on: wingbeats, or seconds where there are none.
     #[arg(long, value_name = "TIME", allow_negative_numbers = true,

@@ -149,6 +149,7 @@ fn go_back(
     let dir = ResultDir::open(&args.dir)?;
     let saved = saver::read(dir.path())?;
     if saved.manifest.outcome == Outcome::Finished {
+        dir.remove_half_written();
         if !dir.case()?.output.save.keep {
             // A kill at the very end may have left it; where nothing can be written it stays.
             let _ = saver::forget(dir.path());

@@ -1,5 +1,7 @@
 //! Bad numbers and words on the command line.
 
+use std::process::Command;
+
 use crate::field::Field;
 
 /// No number of any kind.
@@ -82,6 +84,30 @@ fn refuses_bad_numbers_in_every_option() {
         field.refused(&[&["stabilise", "--tilt"], &tilt[..]].concat());
     }
     field.end(180);
+}
+
+/// Negative numbers are refused by what an option takes, and not taken for options.
+#[test]
+fn refuses_negative_numbers_by_their_option() {
+    let dir = std::env::temp_dir();
+    for (command, option) in [
+        (&["run", "fruit-fly-blade"][..], "--threads"),
+        (&["ensemble", "fruit-fly-blade"], "--members"),
+        (&["plot", "r"], "--step"),
+        (&["view", "r"], "--size"),
+        (&["campaign", "run", "c.toml"], "--jobs"),
+    ] {
+        let args = [command, &[option, "-1"]].concat();
+        let out = Command::new(env!("CARGO_BIN_EXE_wingbeat"))
+            .current_dir(&dir)
+            .args(&args)
+            .output();
+        let out = out.unwrap();
+        let said = String::from_utf8_lossy(&out.stderr);
+        assert_eq!(out.status.code(), Some(2), "{args:?}: {said}");
+        let names = said.contains("invalid value '-1' for") && said.contains(option);
+        assert!(names && !said.contains("'-- -1'"), "{args:?}: {said}");
+    }
 }
 
 #[test]

@@ -139,6 +139,26 @@ fn refuses_exports_of_what_is_not_there() {
     assert!(!scratch.0.join("run/history.parquet.part").exists());
 }
 
+/// Exports and figures remove what others that were killed left in their folder, whatever format those had.
+#[cfg(unix)]
+#[test]
+fn behaves_the_next_writer_removes_what_dead_processes_left() {
+    let scratch = Scratch::new("left-behind");
+    flown(&scratch.0, &CASE);
+    let left =
+        ["flight.glb.4711.part", "wakes.vtkhdf.4711-1.part"].map(|f| scratch.0.join("run").join(f));
+    let drawn = scratch.0.join("run/figures/animation.gif.4711.part");
+    let mine = scratch.0.join("run/notes.txt.4711.part");
+    fs::create_dir_all(scratch.0.join("run/figures")).unwrap();
+    for file in left.iter().chain([&drawn, &mine]) {
+        fs::write(file, "half").unwrap();
+    }
+    flown(&scratch.0, &["export", "run", "--format", "parquet"]);
+    assert!(!left.iter().any(|f| f.exists()) && drawn.exists() && mine.exists());
+    flown(&scratch.0, &["plot", "run", "forces", "--overwrite"]);
+    assert!(!drawn.exists() && mine.exists());
+}
+
 /// A head of 0.84 mm whose middle lies 0.21 mm behind the nose, before a body held level, above a ground 5 mm below.
 #[test]
 fn exact_points_within_the_body_and_below_the_ground_are_not_in_the_air() {

@@ -256,6 +256,8 @@ fn exact_overwrite_replaces_an_earlier_run_only() {
         "manifest.json.4711.part",
         "checkpoint.bin.part",
         "frames/wakes_000010.vtp.4711.part",
+        "flight.glb.4711.part",
+        "figures/animation.gif.4711-1.part",
     ];
     for name in left {
         fs::write(scratch.0.join("run").join(name), "half").unwrap();
