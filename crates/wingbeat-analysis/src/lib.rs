@@ -66,6 +66,7 @@ mod steering;
 mod sweep;
 mod table;
 mod trim;
+mod turned;
 mod unknown;
 pub mod wake;
 mod wing_modes;
@@ -97,5 +98,6 @@ pub use steady::{
 pub use sweep::{Lost, Sweep, Swept, sweep};
 pub use table::{rigid_animal, table_model};
 pub use trim::{Trim, trim, trim_from};
+pub use turned::{turned_over, turned_over_with_wake};
 pub use unknown::{Bound, UNKNOWNS, Unknown, UnknownKind};
 pub use wing_modes::{About, Alike, WingMode, WingModes, wing_modes};

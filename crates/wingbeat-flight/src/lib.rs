@@ -57,6 +57,7 @@ pub mod simulation;
 mod solver;
 mod stages;
 mod starts_apart;
+mod turned_over;
 mod turns;
 mod unjoined;
 mod validate;
