@@ -18,18 +18,20 @@ use crate::progress;
 use crate::residuals::Residuals;
 use crate::solution::TrimSolution;
 use crate::steady::check;
+use crate::sweep::trim_by_way;
 use crate::trim::{Trim, trim, trim_from};
 use crate::unknown::{Bound, Unknown};
 
 /// Trims the flight of `setup` within the bounds of the problem. What is named beyond what steady flight determines is
-/// chosen such that the mean power of muscles with perfect elastic storage is least.
+/// chosen such that the mean power of muscles with perfect elastic storage is least. Where Newton's method finds nothing
+/// from the controls of the case, the trim of a slower flight is followed up to the speed asked.
 ///
 /// # Errors
 /// As [`trim`] and [`power_of_trim`], at the start of the search; a flight that takes no power.
 pub fn trim_within(setup: &FlightSetup, problem: &TrimProblem) -> Result<Trim, AnalysisError> {
     let needed = Residuals::of(problem).controls();
     if problem.unknowns.len() <= needed {
-        return trim(setup, problem);
+        return trim_by_way(setup, problem);
     }
     check(setup, problem)?;
     let (determined, spare) = problem.unknowns.split_at(needed);

@@ -1,7 +1,9 @@
 //! Trim over a range of velocities: power and strokes against speed.
 //!
 //! Each trim begins at the point of the one before, extrapolated (natural continuation). Where Newton's method
-//! does not arrive, the way there is halved, a few times; where it does not arrive then, the range ends.
+//! does not arrive, the way there is halved, a few times; where it does not arrive then, the range ends. The first
+//! is sought from the controls of the case, then by way of slower flights; where it is not found, the next is the
+//! first.
 
 use std::f64::consts::PI;
 
@@ -34,7 +36,10 @@ pub struct Swept {
 pub struct Sweep {
     /// One for each velocity that was reached.
     pub flights: Vec<Swept>,
-    /// The first velocity that was not reached, N components [m/s], and why.
+    /// The velocities before the first that was reached, N components [m/s], and why they were not; all, where none
+    /// was.
+    pub missed: Vec<(DVec3, Lost)>,
+    /// The first velocity after those reached that was not, N components [m/s], and why.
     pub lost: Option<(DVec3, Lost)>,
 }
 
@@ -118,41 +123,75 @@ pub fn sweep(
     problem: &TrimProblem,
     velocities: &[DVec3],
 ) -> Result<Sweep, AnalysisError> {
-    let mut path = Path {
-        setup,
-        problem,
-        points: vec![],
-    };
+    let mut path = Path::new(setup, problem);
     let mut found = Sweep::default();
     for (k, &velocity) in velocities.iter().enumerate() {
         progress::task("sweep", k, velocities.len());
-        match path.reach(velocity)? {
-            Ok(trim) => {
-                let wing = trim.setup.animal.wings.first();
-                let stroke_amplitude = wing.map_or(0.0, stroke_amplitude);
-                if stroke_amplitude > PI {
-                    found.lost = Some((velocity, Lost::Stroke(stroke_amplitude)));
-                    break;
-                }
-                if let Some(&unknown) = trim.solution.outside.first() {
-                    found.lost = Some((velocity, Lost::Bound(unknown)));
-                    break;
-                }
-                let power = power_of_trim(&trim)?;
-                found.flights.push(Swept {
-                    velocity,
-                    stroke_amplitude,
-                    trim,
-                    power,
-                });
-            }
-            Err(residual) => {
-                found.lost = Some((velocity, Lost::NotTrimmed(residual)));
+        match flight_at(&mut path, velocity)? {
+            Ok(flight) => found.flights.push(flight),
+            Err(why) if found.flights.is_empty() => found.missed.push((velocity, why)),
+            Err(why) => {
+                found.lost = Some((velocity, why));
                 break;
             }
         }
     }
     Ok(found)
+}
+
+/// The flight at a velocity, or why there is none.
+fn flight_at(path: &mut Path, velocity: DVec3) -> Result<Result<Swept, Lost>, AnalysisError> {
+    let trim = match path.reach(velocity)? {
+        Ok(trim) => trim,
+        Err(residual) => return Ok(Err(Lost::NotTrimmed(residual))),
+    };
+    let wing = trim.setup.animal.wings.first();
+    let stroke_amplitude = wing.map_or(0.0, stroke_amplitude);
+    if stroke_amplitude > PI {
+        return Ok(Err(Lost::Stroke(stroke_amplitude)));
+    }
+    if let Some(&unknown) = trim.solution.outside.first() {
+        return Ok(Err(Lost::Bound(unknown)));
+    }
+    let power = power_of_trim(&trim)?;
+    Ok(Ok(Swept {
+        velocity,
+        stroke_amplitude,
+        trim,
+        power,
+    }))
+}
+
+/// Parts of a velocity from which the way to it begins where it is not trimmed from the controls of the case, the
+/// nearest first \[1\].
+const SLOWER: [f64; 4] = [0.75, 0.5, 0.25, 0.0];
+
+/// The trim of `problem` from the controls of the case; where that finds nothing, by way of the fastest of some slower
+/// flights that it finds.
+///
+/// # Errors
+/// As [`trim`].
+pub(crate) fn trim_by_way(
+    setup: &FlightSetup,
+    problem: &TrimProblem,
+) -> Result<Trim, AnalysisError> {
+    let direct = trim(setup, problem)?;
+    if direct.solution.converged || problem.velocity == DVec3::ZERO {
+        return Ok(direct);
+    }
+    for part in SLOWER {
+        let slower = part * problem.velocity;
+        let what = format!("by way of {:.3} m/s", slower.length());
+        progress::task(&what, 0, 0);
+        let mut path = Path::new(setup, problem);
+        let first = trim(setup, &path.at(slower)).ok();
+        let Some(first) = first.filter(|t| t.solution.converged) else {
+            continue;
+        };
+        path.points.push((slower, first.point));
+        return Ok(path.reach(problem.velocity)?.unwrap_or(direct));
+    }
+    Ok(direct)
 }
 
 /// The points found so far.
@@ -162,7 +201,16 @@ struct Path<'a> {
     points: Vec<(DVec3, Vec<f64>)>,
 }
 
-impl Path<'_> {
+impl<'a> Path<'a> {
+    /// A path without points.
+    fn new(setup: &'a FlightSetup, problem: &'a TrimProblem) -> Self {
+        Self {
+            setup,
+            problem,
+            points: vec![],
+        }
+    }
+
     /// The trim at a velocity, or the residual of what was found instead.
     fn reach(&mut self, velocity: DVec3) -> Result<Result<Trim, Option<f64>>, AnalysisError> {
         let Some(from) = self.points.last().map(|p| p.0) else {
@@ -194,8 +242,10 @@ impl Path<'_> {
     }
 
     fn first(&mut self, velocity: DVec3) -> Result<Trim, AnalysisError> {
-        let found = trim(self.setup, &self.at(velocity))?;
-        self.points.push((velocity, found.point.clone()));
+        let found = trim_by_way(self.setup, &self.at(velocity))?;
+        if found.solution.converged {
+            self.points.push((velocity, found.point.clone()));
+        }
         Ok(found)
     }
 

@@ -47,7 +47,7 @@ fn exact_least_power_between_speeds_of_a_parabola() {
         };
         Sweep {
             flights: speeds.iter().map(flight).collect(),
-            lost: None,
+            ..Sweep::default()
         }
     };
     let uneven = [0.0, 0.4, 0.7, 0.9, 1.5];
@@ -80,5 +80,37 @@ fn limit_strokes_of_more_than_half_a_circle_are_no_flight() {
     heavy.gravity *= 3.0;
     let found = sweep(&heavy, &hover(40), &forward(&[0.0, 0.1])).unwrap();
     assert!(found.flights.is_empty());
-    assert!(matches!(found.lost, Some((_, Lost::Stroke(s))) if s > std::f64::consts::PI));
+    assert_eq!(found.missed.len(), 2);
+    let too_far = |why: &Lost| matches!(why, Lost::Stroke(s) if *s > std::f64::consts::PI);
+    assert!(found.missed.iter().all(|(_, why)| too_far(why)));
+}
+
+/// From the controls of its hover Newton's method finds no flight of a hawkmoth at 3 m/s; by way of a slower one it is
+/// the flight that a sweep has.
+#[test]
+fn agrees_a_fast_flight_by_way_of_slower_ones_with_a_sweep() {
+    let problem = TrimProblem {
+        velocity: DVec3::new(3.0, 0.0, 0.0),
+        ..hover(40)
+    };
+    let direct = trim(&moth(), &problem).unwrap().solution;
+    assert!(!direct.converged, "the test is void");
+    let found = trim_within(&moth(), &problem).unwrap();
+    assert!(found.solution.converged);
+    let swept = sweep(&moth(), &hover(40), &forward(&[1.0, 2.0, 3.0])).unwrap();
+    let last = &swept.flights[2].trim;
+    for (a, b) in found.point.iter().zip(&last.point) {
+        // Two ways to one orbit, both to 1e-9.
+        assert!((a - b).abs() < 1e-7, "{:?} {:?}", found.point, last.point);
+    }
+}
+
+#[test]
+fn behaves_a_sweep_begins_at_the_first_speed_that_is_found() {
+    let found = sweep(&fly(), &hover(40), &forward(&[20.0, 0.6, 0.3])).unwrap();
+    let missed: Vec<f64> = found.missed.iter().map(|(v, _)| v.x).collect();
+    assert_eq!(missed, [20.0]);
+    let flown: Vec<f64> = found.flights.iter().map(|f| f.velocity.x).collect();
+    assert_eq!(flown, [0.6, 0.3]);
+    assert!(found.lost.is_none());
 }

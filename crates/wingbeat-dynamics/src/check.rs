@@ -51,13 +51,18 @@ fn bad_number(what: &str, value: f64, bound: &'static str) -> DynamicsError {
     }
 }
 
-/// An error if a component of the state is not finite.
-pub(crate) fn check_state(time: f64, y: &[f64]) -> Result<(), DynamicsError> {
+/// An error if a component of the state is not finite; `name` says what the component of a number is.
+pub(crate) fn check_state(
+    time: f64,
+    y: &[f64],
+    name: fn(usize, usize) -> &'static str,
+) -> Result<(), DynamicsError> {
     match y.iter().position(|x| !x.is_finite()) {
         None => Ok(()),
         Some(component) => Err(DynamicsError::NotFinite {
             time,
             component,
+            what: name(component, y.len()),
             value: y[component],
         }),
     }

@@ -127,13 +127,15 @@ pub enum DynamicsError {
     },
     /// The state is no longer a set of finite numbers.
     #[error(
-        "the state is not finite at t = {time:.6e} s (component {component} is {value}): the integration has broken down, use a smaller step"
+        "the state is not finite at t = {time:.6e} s ({what}, component {component}, is {value}): the integration has broken down, use a smaller step"
     )]
     NotFinite {
         /// Time \[s\].
         time: f64,
         /// Index of the component in the state vector.
         component: usize,
+        /// What that is.
+        what: &'static str,
         /// Its value.
         value: f64,
     },

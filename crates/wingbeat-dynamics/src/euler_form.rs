@@ -29,6 +29,16 @@ pub struct EulerForm {
     baumgarte: Baumgarte,
 }
 
+/// What component `k` of a state of so many numbers is.
+fn component(k: usize, of: usize) -> &'static str {
+    match (2 * k < of, k % COORDINATES < 3) {
+        (true, true) => "a position",
+        (true, false) => "an Euler angle",
+        (false, true) => "a velocity",
+        (false, false) => "the rate of an Euler angle",
+    }
+}
+
 impl EulerForm {
     /// The Euler form of `system` with stabilization `baumgarte`.
     pub fn new(system: System, baumgarte: Baumgarte) -> Self {
@@ -57,7 +67,7 @@ impl EulerForm {
     fn unfold(&self, t: f64, y: &[f64], ws: &mut Workspace) -> Result<(), DynamicsError> {
         let n = self.coordinates();
         assert_eq!(y.len(), 2 * n, "the Euler form has {} components", 2 * n);
-        check_state(t, y)?;
+        check_state(t, y, component)?;
         for (i, body) in self.system.bodies().iter().enumerate() {
             let (q, qd) = (&y[COORDINATES * i..n], &y[n + COORDINATES * i..]);
             let k = BodyKinematics::new(body, q, qd);
@@ -143,7 +153,7 @@ impl Formulation for EulerForm {
         ws.configuration.update(&self.system, t);
         ws.configuration.motions(root, &mut ws.motions);
         let mut y = self.pack(&ws.motions);
-        check_state(t, &y)?;
+        check_state(t, &y, component)?;
         let (q, qd) = y.split_at_mut(self.coordinates());
         consistent_coordinates(&self.system, t, q)?;
         consistent_rates(&self.system, t, q, qd)?;

@@ -25,7 +25,7 @@ use std::sync::Arc;
 use wingbeat_math::{DMat3, DQuat, DVec3};
 
 use self::joints::{move_joints, write_joint_rates};
-use self::state::State;
+use self::state::{State, component};
 use self::whole::{momentum_rate, total_load, whole_load};
 use crate::budget::{budget, load_power};
 use crate::check::{check_rotation, check_state};
@@ -118,7 +118,7 @@ impl MomentumForm {
         state.write(&mut y);
         y.extend(q);
         y.extend(u);
-        check_state(t, &y)?;
+        check_state(t, &y, component)?;
         Ok(y)
     }
 
@@ -375,7 +375,7 @@ impl Formulation for MomentumForm {
     }
 
     fn normalise(&self, t: f64, y: &mut [f64], _ws: &mut Workspace) -> Result<(), DynamicsError> {
-        check_state(t, y)?;
+        check_state(t, y, component)?;
         self.to_unit_length(y);
         Ok(())
     }

@@ -11,6 +11,7 @@ use crate::configuration::Configuration;
 use crate::inverse::multipliers;
 use crate::joint::Joint;
 use crate::mechanism::Mechanism;
+use crate::mechanism::form::component;
 use crate::mechanism::form::{AbsoluteForm, AbsoluteScratch, Stabilization};
 use crate::mirror::MirrorSymmetry;
 use crate::{
@@ -105,7 +106,7 @@ impl Formulation for QuaternionForm {
     fn initial_from(&self, t: f64, motions: &[BodyMotion]) -> Result<Vec<f64>, DynamicsError> {
         let mut y = vec![0.0; self.dim()];
         self.form.pack(motions, &mut y);
-        check_state(t, &y)?;
+        check_state(t, &y, component)?;
         Ok(y)
     }
 

@@ -52,6 +52,7 @@ pub mod simulation;
 mod solver;
 mod stages;
 mod tethered;
+mod turned_over;
 mod turns;
 mod validate;
 

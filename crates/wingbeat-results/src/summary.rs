@@ -10,6 +10,7 @@ mod ensemble;
 mod estimate;
 mod held;
 mod impulse;
+mod in_play;
 mod last_part;
 mod listed;
 mod means;
@@ -22,8 +23,8 @@ mod words;
 
 use std::path::Path;
 
-use wingbeat_flight::{AirModel, FlightSetup, MotionMode, Record};
-use wingbeat_math::{larger, smaller};
+use wingbeat_flight::{AirModel, FlightSetup, Record};
+use wingbeat_math::smaller;
 
 use super::Outcome;
 pub use beats::{BeatMeans, Beats, down, over_weight};
@@ -33,6 +34,7 @@ pub use ensemble::{Ensemble, EnsembleBeat, Members};
 pub use estimate::Estimate;
 pub use held::{Departure, Departures};
 pub use impulse::ImpulseBudget;
+use in_play::ratio;
 pub use last_part::LastPart;
 pub use means::{LEFT_OUT, ManyBeats};
 pub use numbers::Summary;
@@ -111,9 +113,9 @@ impl Summary {
             final_thrust_newton: s.last.air_force().x,
             displacement_m: [0, 1, 2].map(|k| s.change(k)),
             turn_deg: [3, 4, 5].map(|k| s.change(k).to_degrees()),
-            energy_residual_relative: energy_residual(setup, each),
+            energy_residual_relative: each.in_play.energy_residual(setup),
             joint_residual_relative: joint_residual(each),
-            momentum_residual_relative: momentum_residual(setup, each, s.last.time),
+            momentum_residual_relative: each.in_play.momentum_residual(setup),
             violation_position_m: each.violation_position.most,
             violation_orientation: each.violation_orientation.most,
             euler_regularity: smaller(each.euler_regularity.least, 1.0),
@@ -136,6 +138,7 @@ impl Summary {
         };
         let mut warnings = trust::warnings(setup, &summary);
         bent::warnings(setup, &s.each.bent, &mut warnings);
+        turned_over(setup, &s.each, &mut warnings);
         trust::flown_crossings(
             setup,
             &s.each.crossings.map_or(vec![], |c| c.found()),
@@ -148,65 +151,20 @@ impl Summary {
     }
 }
 
-/// Part of the largest potential energy, which has no natural zero, that always counts as turned
-/// over: far above its round-off.
-const POTENTIAL_FLOOR: f64 = 1e-6;
-
-/// Part of the energies of a fall whose rounding is not judged.
-const ROUNDING: f64 = 1e-6;
-
 /// What the motion along free joints loses or gains beside what acts on it; 0 where there are none.
 fn joint_residual(s: &EachStep) -> f64 {
     match s.has_free_joints {
-        true => ratio(s.driven.most, energy_scale(s)),
+        true => ratio(s.driven.most, s.in_play.energy_scale()),
         false => 0.0,
     }
 }
 
-/// Largest residual over the largest of what is in play. Elastic wings that fly freely gain or lose energy of
-/// their own, however much a fall has: there works count, and what the parts turn over among themselves.
-fn energy_residual(setup: &FlightSetup, s: &EachStep) -> f64 {
-    let all = energy_scale(s);
-    let is_free = matches!(setup.mode, MotionMode::Free(_));
-    let scale = match is_free && setup.animal.is_elastic() {
-        true => [works(s), s.inner_energy.most]
-            .into_iter()
-            .fold(ROUNDING * all, larger),
-        false => all,
-    };
-    ratio(s.energy_residual.most, scale)
-}
-
-/// The largest of what residuals of the energy are measured by [J]: kinetic energy, change of potential energy, works.
-fn energy_scale(s: &EachStep) -> f64 {
-    let energies = [
-        s.kinetic_energy.most,
-        s.potential_energy.range(),
-        POTENTIAL_FLOOR * s.potential_energy.most,
-    ];
-    energies.into_iter().fold(works(s), larger)
-}
-
-/// The largest of the works [J].
-fn works(s: &EachStep) -> f64 {
-    let works = [s.hinge_work, s.air_work, s.deformation_work, s.applied_work];
-    works.map(|w| w.most).into_iter().fold(0.0, larger)
-}
-
-/// Largest residual over the largest of what is in play: the momentum, the impulse of the weight, and the
-/// momentum that the kinetic energy stands for where that of the parts cancels. A support bears the weight of a
-/// tethered animal: there that impulse counts over a wingbeat, lest every flight be a good one if it is but
-/// long.
-fn momentum_residual(setup: &FlightSetup, s: &EachStep, time: f64) -> f64 {
-    let mass = setup.animal.mass();
-    let time = match (&setup.mode, setup.time.period) {
-        (MotionMode::Tethered(_), Some(period)) => time.min(period),
-        _ => time,
-    };
-    let impulse = mass * setup.gravity.length() * time;
-    let of_parts = (2.0 * mass * s.kinetic_energy.most).sqrt();
-    let scale = larger(larger(impulse, s.momentum.most), of_parts);
-    ratio(s.momentum_residual.most, scale)
+/// Wings that turned over on passive hinges.
+fn turned_over(setup: &FlightSetup, each: &EachStep, list: &mut Warnings) {
+    let ranges = each.joints.iter().map(|q| [q.least, q.highest]);
+    for said in setup.turned_over(&ranges.collect::<Vec<_>>()) {
+        list.limit(format!("Wings that turn over: {said}."));
+    }
 }
 
 /// What a thinned history leaves out: nothing of what the summary says, where every step was seen as it was flown.
@@ -235,10 +193,6 @@ pub fn ordinal(number: usize) -> String {
         _ => "th",
     };
     format!("{number}{ending}")
-}
-
-fn ratio(x: f64, scale: f64) -> f64 {
-    if scale == 0.0 { x } else { x / scale }
 }
 
 /// Total air force along a direction, row by row \[N\].

@@ -91,11 +91,19 @@ const LARGE: f64 = 2.5e8;
 const PASSES: usize = 200;
 const CONVERGED: f64 = 1e-8;
 
+/// Relative error of the eigenvalue, twice that of the frequency, up to which it is known after all passes \[1\].
+const KNOWN: f64 = 0.02;
+
 /// Angular frequency \[rad/s\] of the slowest vibration about rest, by inverse iteration with the banded
 /// stiffness and Rayleigh's quotient; 0 where a push grows. With `turns` nodes have all their inertia; without,
 /// as for sheets, that of their turns counts in the quotient alone: motions in which nodes turn and nothing
-/// moves are of the elements and of no sheet. None of a body so large that this takes long, and where the
-/// iteration does not converge: the slowest vibrations are too close to each other.
+/// moves are of the elements and of no sheet. Where the slowest vibrations are too close to each other to be told
+/// apart, as flapping and lagging of a round beam, the quotient of their mixture is taken if it is known to 1 %: an
+/// eigenvalue `mu` of `K^-1 M` lies within `|K^-1 M x - mu x|` of the quotient of x, `|x| = 1`, in the norm of M.
+/// None of a body so large that this takes long, and where the iteration does not come so near.
+///
+/// # Source
+/// The bound: B. N. Parlett, The symmetric eigenvalue problem, 1980, sec. 4-5 (residuals of Rayleigh's quotient).
 ///
 /// # Errors
 /// [`StructureError::Singular`], [`StructureError::Modes`]: a body that is not held, stiffnesses that differ by more than rounding.
@@ -114,7 +122,7 @@ pub fn first_frequency(structure: &Structure, turns: bool) -> Result<Option<f64>
     let nodes = structure.nodes() as f64;
     let numbers = push.iter_mut().zip(&structure.number);
     numbers.for_each(|(f, k)| *f *= 1.0 + (k / NODE) as f64 / nodes);
-    let mut square = 0.0_f64;
+    let (mut square, mut error) = (0.0_f64, f64::INFINITY);
     for _ in 0..PASSES {
         let mut shape = push.clone();
         assembly.matrix.solve(&mut shape);
@@ -125,6 +133,7 @@ pub fn first_frequency(structure: &Structure, turns: bool) -> Result<Option<f64>
         let (found, before) = (stiffness / whole, square);
         (push, square) = (momentum, found);
         push.iter_mut().for_each(|f| *f /= kinetic.sqrt());
+        error = (kinetic / stiffness.powi(2) - 1.0).max(0.0).sqrt();
         if !found.is_finite() {
             return Err(StructureError::Modes(
                 "stiffnesses differ by more than rounding",
@@ -134,7 +143,7 @@ pub fn first_frequency(structure: &Structure, turns: bool) -> Result<Option<f64>
             return Ok(Some(found.max(0.0).sqrt()));
         }
     }
-    Ok(None)
+    Ok((error <= KNOWN).then(|| square.max(0.0).sqrt()))
 }
 
 fn product(a: &[f64], b: &[f64]) -> f64 {

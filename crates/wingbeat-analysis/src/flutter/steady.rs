@@ -73,6 +73,12 @@ impl ElasticRig {
         })
     }
 
+    /// Whether a steady state is sought at all: `setup` is none of what [`Self::new`] refuses at its own speed.
+    pub fn covers(setup: &FlightSetup) -> bool {
+        let speed = setup.air.stream().map_or(0.0, |s| s.length());
+        Self::new(setup, speed).is_ok()
+    }
+
     /// Elastic wing number `k`.
     pub(super) fn wing(&self, k: usize) -> &ElasticWing {
         &self.elastic.wings()[k]

@@ -8,7 +8,7 @@ use wingbeat_model::{DeformingMesh, Wing};
 use super::air::stream;
 use super::limit::{Doubts, Limit, rounded};
 use super::numbers::{Estimate, WingEstimate};
-use super::sides::against_each_other;
+use super::sides::{against_each_other, strokes_against_each_other};
 use super::wake::kept_wake;
 use super::{elastic, joints};
 
@@ -192,7 +192,10 @@ pub(super) fn doubts(setup: &FlightSetup, e: &Estimate) -> Vec<String> {
         list.extend(own.into_iter().map(name));
     }
     list.extend(against_each_other(&setup.animal.wings));
-    list.extend(setup.trailing_edges_ahead());
+    // A stroke with the wrong sign has the trailing edge ahead, however right the feathering is.
+    if !strokes_against_each_other(&setup.animal.wings) {
+        list.extend(setup.trailing_edges_ahead());
+    }
     list.extend(setup.scattered_angles());
     list.extend(setup.gaps_in_angles());
     list.extend(setup.crossing_wings().into_iter().map(|c| c.said));

@@ -32,13 +32,22 @@ const ANGLES: [Angle; 3] = [
 
 /// Right and left wings of one pair that go opposite ways.
 pub(super) fn against_each_other(wings: &[Wing]) -> Vec<String> {
-    let pairs = wings.iter().enumerate().flat_map(|(k, a)| {
+    pairs(wings).flat_map(|(a, b)| opposite(a, b)).collect()
+}
+
+/// Whether those of a pair stroke opposite ways.
+pub(super) fn strokes_against_each_other(wings: &[Wing]) -> bool {
+    pairs(wings).any(|(a, b)| goes_opposite(&ANGLES[0], a, b))
+}
+
+/// Wings on either side that are a pair.
+fn pairs(wings: &[Wing]) -> impl Iterator<Item = (&Wing, &Wing)> {
+    wings.iter().enumerate().flat_map(move |(k, a)| {
         let others = wings[k + 1..].iter();
         others
             .filter(move |b| a.side != b.side && is_pair(wings, a, b))
             .map(move |b| (a, b))
-    });
-    pairs.flat_map(|(a, b)| opposite(a, b)).collect()
+    })
 }
 
 /// Whether two wings on either side are a pair: by their names, where one of them has a partner by name, as
@@ -57,12 +66,7 @@ fn is_pair(wings: &[Wing], a: &Wing, b: &Wing) -> bool {
 /// The angles in which a wing and one on the other side go opposite ways. Where the strokes do, the others mean
 /// nothing.
 fn opposite(a: &Wing, b: &Wing) -> Vec<String> {
-    let laws = [a.motion.angles.clone(), b.motion.angles.mirrored()];
-    let phases = [a.motion.phase, b.motion.phase];
-    let is_opposite = |angle: &&Angle| {
-        let swings = [0, 1].map(|w| swing((angle.of)(&laws[w]), phases[w]));
-        likeness(&swings) < -0.5
-    };
+    let is_opposite = |angle: &&Angle| goes_opposite(angle, a, b);
     let say = |angle: &Angle| format!("wings `{}` and `{}` {}", a.name, b.name, angle.says);
     let strokes = ANGLES[..1].iter().filter(is_opposite);
     let strokes: Vec<String> = strokes.map(say).collect();
@@ -70,6 +74,14 @@ fn opposite(a: &Wing, b: &Wing) -> Vec<String> {
         false => strokes,
         true => ANGLES[1..].iter().filter(is_opposite).map(say).collect(),
     }
+}
+
+/// Whether two wings on either side go opposite ways in this angle.
+fn goes_opposite(angle: &Angle, a: &Wing, b: &Wing) -> bool {
+    let laws = [a.motion.angles.clone(), b.motion.angles.mirrored()];
+    let phases = [a.motion.phase, b.motion.phase];
+    let swings = [0, 1].map(|w| swing((angle.of)(&laws[w]), phases[w]));
+    likeness(&swings) < -0.5
 }
 
 /// Correlation of two angles \[1\]; 0 where one does not swing.

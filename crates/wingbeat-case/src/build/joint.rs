@@ -15,7 +15,7 @@ use super::names::{body_names, column_name};
 use super::numbers::vector;
 use super::{element, segment, wing};
 use crate::error::Fault;
-use crate::raw::{Case, JointCase, JointKind, TravelCase, TurnCase};
+use crate::raw::{Case, JointCase, JointKind, TravelCase, TurnCase, WingInertia};
 
 /// All joints, those mirrored to left wings among them.
 pub(super) fn build_all(case: &Case, animal: &Animal) -> Built<Vec<Joint>> {
@@ -427,6 +427,18 @@ pub(super) fn fault_of(case: &Case, setup: &FlightSetup, error: &DynamicsError) 
             key_of_body(setup, body),
             "let every chain of joints begin at the body",
         ),
+        DynamicsError::NotFinite { .. } if goes_far_in_a_step(setup) => (
+            "flight.velocity_m_s".to_owned(),
+            "fly slower, or take smaller steps: in one the flyer goes farther than ten of its wings are long; units are part of the keys",
+        ),
+        DynamicsError::SingularMechanism { .. } | DynamicsError::SingularInertia { .. }
+            if case.dynamics.wings == WingInertia::Massless =>
+        {
+            (
+                "dynamics.wings".to_owned(),
+                "leave out dynamics.wings = \"massless\": a wing that a joint leaves free moves by its inertia",
+            )
+        }
         DynamicsError::SingularInertia { .. } => match case.body.inertia_about_centre_kg_m2 {
             Some(_) => (
                 "body.inertia_about_centre_kg_m2".to_owned(),
@@ -444,6 +456,12 @@ pub(super) fn fault_of(case: &Case, setup: &FlightSetup, error: &DynamicsError) 
         _ => ("joint".to_owned(), "correct the joints of the animal"),
     };
     Fault::new(key, error.to_string(), "", remedy)
+}
+
+/// Whether the flyer starts so fast that its steps are no way to follow it.
+fn goes_far_in_a_step(setup: &FlightSetup) -> bool {
+    let way = setup.root_at_start().v.length() * setup.time.step;
+    way > 10.0 * setup.animal.wing_reach() && way > 0.0
 }
 
 /// The table of a joint; all joints where the case has none of this name.

@@ -88,6 +88,8 @@ function ticks(low, high, most) {
   for (let t = Math.ceil(low / step) * step; t <= high + step * 1e-9; t += step) out.push(Math.abs(t) < step / 1e6 ? 0 : +t.toPrecision(10));
   return out;
 }
+// A number at a tick, short enough for the margin.
+const tickWords = (t) => minus(String(t).length > 7 ? t.toExponential() : String(t));
 // Least and largest value of a line near a time: one number, where every step is there.
 function valuesAt({ chart }, s, x) {
   const list = chart.x;
@@ -127,11 +129,11 @@ function drawPlot(p) {
     g.strokeStyle = of("--line"); g.lineWidth = t === 0 && !panel.logarithmic ? 1.4 : 0.8;
     g.beginPath(); g.moveTo(PAD.left, Y(t)); g.lineTo(w - PAD.right, Y(t)); g.stroke();
     g.fillStyle = of("--muted");
-    g.fillText(panel.logarithmic ? "1e" + minus(String(+t.toFixed(1))) : minus(String(t)), PAD.left - 5, Y(t));
+    g.fillText(panel.logarithmic ? "1e" + minus(String(+t.toFixed(1))) : tickWords(t), PAD.left - 5, Y(t));
   }
   g.textAlign = "center"; g.textBaseline = "top"; g.fillStyle = of("--muted");
   const named = p === plots.list[plots.list.length - 1], last = w - (named ? PAD.right + g.measureText(chart.x_label).width + 14 : 0);
-  for (const t of ticks(x0, x1, Math.max(2, Math.floor(w / 64)))) if (X(t) < last) g.fillText(minus(String(t)), Math.min(X(t), w - 8), h - 13);
+  for (const t of ticks(x0, x1, Math.max(2, Math.floor(w / 64)))) if (X(t) < last) g.fillText(tickWords(t), Math.min(X(t), w - 8), h - 13);
   g.textAlign = "right";
   if (named) g.fillText(chart.x_label, w - PAD.right, h - 13);
   const now = LAST >= 0 ? flight.frames[frameNow()].x : x1, at = plots.hover ?? now;

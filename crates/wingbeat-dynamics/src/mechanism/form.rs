@@ -43,6 +43,16 @@ pub struct AbsoluteForm {
     stabilization: Stabilization,
 }
 
+/// What component `k` of a state is.
+pub(crate) fn component(k: usize, _of: usize) -> &'static str {
+    match k % STATE_NUMBERS {
+        0..3 => "a position",
+        3..7 => "an attitude",
+        7..10 => "a velocity",
+        _ => "an angular velocity",
+    }
+}
+
 impl AbsoluteForm {
     /// The equations of `mechanism`.
     pub fn new(mechanism: Mechanism, stabilization: Stabilization) -> Self {
@@ -109,7 +119,7 @@ impl AbsoluteForm {
     /// The state is not finite.
     pub fn motions(&self, t: f64, y: &[f64], out: &mut [BodyMotion]) -> Result<(), DynamicsError> {
         assert_eq!(y.len(), self.dim(), "13 components for every body");
-        check_state(t, y)?;
+        check_state(t, y, component)?;
         for (m, y) in out.iter_mut().zip(y.chunks_exact(STATE_NUMBERS)) {
             let v = |i: usize| DVec3::from_slice(&y[i..]);
             *m = BodyMotion {

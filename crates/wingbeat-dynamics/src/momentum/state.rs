@@ -6,6 +6,7 @@ use crate::check::check_state;
 use crate::configuration::Composite;
 use crate::error::DynamicsError;
 use crate::motion::{BodyMotion, Wrench};
+use crate::workspace::MOMENTUM_STATE;
 
 /// The state vector, taken apart.
 pub(super) struct State {
@@ -31,7 +32,7 @@ impl State {
     /// # Errors
     /// Numbers that are not finite.
     pub fn read(t: f64, y: &[f64]) -> Result<Self, DynamicsError> {
-        check_state(t, y)?;
+        check_state(t, y, component)?;
         Ok(Self::of(y))
     }
 
@@ -66,5 +67,16 @@ impl State {
     /// Rotation of the root; the length of the quaternion does not matter.
     pub fn rotation(&self) -> DMat3 {
         DMat3::from_quat(self.attitude.normalize())
+    }
+}
+
+/// What component `k` of a state is.
+pub(super) fn component(k: usize, _of: usize) -> &'static str {
+    match k {
+        0..3 => "position of the mass centre",
+        3..7 => "attitude",
+        7..10 => "momentum",
+        10..MOMENTUM_STATE => "angular momentum",
+        _ => "coordinate or rate of a free joint",
     }
 }

@@ -67,7 +67,7 @@ impl Simulation {
         let [turned, moved] = [motion.w, motion.v].map(|x| x.length() * step);
         let is_thrown = turned > TAU || moved > LENGTHS * core.system().units().length;
         // Numbers that are none have causes of their own.
-        if core.is_held() || !is_thrown || !(turned + moved).is_finite() {
+        if core.is_supported() || !is_thrown || !(turned + moved).is_finite() {
             return None;
         }
         Some(FlightError::Diverged {

@@ -11,6 +11,7 @@ use super::bent::Bent;
 use super::driven::DrivenWork;
 use super::held::Departures;
 use super::impulse::Parting;
+use super::in_play::InPlay;
 
 /// Ends of the range of a number, and its largest magnitude; not numbers where one of the numbers is not.
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
@@ -47,20 +48,13 @@ impl Extent {
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub(crate) struct EachStep {
     pub(super) steps: usize,
-    pub(super) kinetic_energy: Extent,
-    pub(super) potential_energy: Extent,
-    /// Kinetic energy beside that of the mass centre, and strain energy of elastic wings.
-    pub(super) inner_energy: Extent,
-    pub(super) hinge_work: Extent,
-    pub(super) air_work: Extent,
-    pub(super) deformation_work: Extent,
-    pub(super) applied_work: Extent,
-    pub(super) energy_residual: Extent,
+    /// Energies and momenta, and their residuals.
+    pub(super) in_play: InPlay,
     /// Whether joints leave something free.
     pub(super) has_free_joints: bool,
     pub(super) driven: DrivenWork,
-    pub(super) momentum: Extent,
-    pub(super) momentum_residual: Extent,
+    /// Coordinates along the free directions of joints [rad or m].
+    pub(super) joints: Vec<Extent>,
     pub(super) violation_position: Extent,
     pub(super) violation_orientation: Extent,
     pub(super) euler_regularity: Extent,
@@ -116,18 +110,12 @@ impl EachStep {
     pub fn take(&mut self, r: &Record, setup: &FlightSetup) {
         self.steps += 1;
         self.motion(r, setup);
-        self.kinetic_energy.take(r.kinetic_energy);
-        self.potential_energy.take(r.potential_energy);
-        self.inner_energy.take(inner_energy(r, setup));
-        self.hinge_work.take(r.hinge_work);
-        self.air_work.take(r.air_work);
-        self.deformation_work.take(r.deformation_work);
-        self.applied_work.take(r.applied_work);
-        self.energy_residual.take(r.energy_residual);
+        self.in_play.take(r, setup);
         self.has_free_joints |= !r.joints.is_empty();
         self.driven.take(r);
-        self.momentum.take(r.momentum.length());
-        self.momentum_residual.take(r.momentum_residual.length());
+        self.joints.resize(r.joints.len(), Extent::default());
+        let joints = self.joints.iter_mut().zip(&r.joints);
+        joints.for_each(|(extent, [q, _])| extent.take(*q));
         self.violation_position.take(r.violation_position);
         self.violation_orientation.take(r.violation_orientation);
         self.euler_regularity.take(r.euler_regularity);
@@ -154,11 +142,4 @@ impl EachStep {
             crossings.see(&of_wings.map(pose).collect::<Vec<_>>());
         }
     }
-}
-
-/// Energy that the parts of a flyer turn over among themselves \[J\].
-fn inner_energy(r: &Record, setup: &FlightSetup) -> f64 {
-    let mass = setup.animal.mass();
-    let strain: f64 = r.elastic.iter().map(|w| w.strain_energy).sum();
-    r.kinetic_energy - r.momentum.length_squared() / (2.0 * mass) + strain
 }

@@ -7,8 +7,8 @@ use std::path::PathBuf;
 use clap::Args;
 use serde_json::{Value, json};
 use wingbeat::analysis::flutter::{
-    Condition, Crossing, FlutterSettings, Steep, Vibration, by_wing, condition, crossings, growing,
-    likely, steep,
+    Condition, Crossing, ElasticRig, FlutterSettings, Steep, Vibration, by_wing, condition,
+    crossings, growing, likely, steep,
 };
 use wingbeat::case::LoadedCase;
 
@@ -64,7 +64,7 @@ pub(crate) fn run(args: &FlutterArgs) -> Result<(), Failure> {
         let asked = args.speeds.values().collect::<Vec<f64>>();
         report.value("asked_speeds_m_s", asked.clone());
         report.value("complete", false);
-        if case.setup.air.keeps_wake() {
+        if case.setup.air.keeps_wake() && ElasticRig::covers(&case.setup) {
             announce!(
                 "{}: steady states and responses in a wake; a speed takes minutes on fine meshes",
                 case.name

@@ -126,6 +126,21 @@ fn warn(report: &mut Report, t: &TrimSolution, setup: &FlightSetup) {
     }
 }
 
+/// Wings that turn over on passive hinges.
+pub(super) fn warn_of_turned(report: &mut Report, turned: Vec<String>) {
+    turned.iter().for_each(|text| tell!("warning: {text}"));
+    report.value("turned_over", turned);
+}
+
+/// What to try where a flight that is not slow is not found in air with memory, whose trims take minutes.
+pub(super) fn advise_slower(problem: &TrimProblem) {
+    if problem.velocity != DVec3::ZERO {
+        tell!(
+            "a flight at another speed may be found where this one is not: trim a slower one with --write FILE, and then FILE at this speed"
+        );
+    }
+}
+
 /// The residuals, a line each; those of free joints in one.
 fn residuals(report: &mut Report, problem: &TrimProblem, t: &TrimSolution) {
     let mut values = Map::new();

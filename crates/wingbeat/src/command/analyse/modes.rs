@@ -6,6 +6,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 use serde_json::{Value, json};
+use wingbeat::analysis::flutter::ElasticRig;
 use wingbeat::analysis::{About, Alike, WingMode, WingModes, wing_modes};
 use wingbeat::case::LoadedCase;
 use wingbeat::model::Wing;
@@ -52,7 +53,7 @@ pub(crate) fn run(args: &ModesArgs) -> Result<(), Failure> {
     };
     args.report.deliver([&args.shapes], |report, [shapes]| {
         let case = LoadedCase::find(&args.case, &args.set)?;
-        if args.steady && case.setup.air.keeps_wake() {
+        if args.steady && case.setup.air.keeps_wake() && ElasticRig::covers(&case.setup) {
             announce!(
                 "{}: looking for the steady state in a wake; this takes minutes",
                 case.name

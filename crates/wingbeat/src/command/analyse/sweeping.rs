@@ -36,9 +36,9 @@ pub(super) fn run(
         file.write(&swept(&case.name, &rows, lost))?;
         report.drew(&file);
     }
-    match found.lost {
-        None => Ok(()),
-        Some(_) => Err(Failure::Told(FAILED)),
+    match found.lost.is_none() && found.missed.is_empty() {
+        true => Ok(()),
+        false => Err(Failure::Told(FAILED)),
     }
 }
 
@@ -64,7 +64,7 @@ fn tell(report: &mut Report, name: &str, problem: &TrimProblem, found: &Sweep) {
     report.value("climb_m_s", 0.0 - problem.velocity.z);
     report.value("sideslip_m_s", problem.velocity.y);
     report.value("turn_rate_deg_s", problem.turn_rate.to_degrees());
-    table(report, &found.flights);
+    table(report, found);
     cheapest(report, found);
     crossings(report, &found.flights);
     end(report, found);
@@ -73,7 +73,7 @@ fn tell(report: &mut Report, name: &str, problem: &TrimProblem, found: &Sweep) {
     report.value("flights", flights);
 }
 
-fn table(report: &mut Report, flights: &[Swept]) {
+fn table(report: &mut Report, found: &Sweep) {
     line!(
         report,
         "  {:>11}{:>12}{:>14}{:>17}{:>12}{:>14}{:>11}",
@@ -85,7 +85,20 @@ fn table(report: &mut Report, flights: &[Swept]) {
         "frequency Hz",
         "pitch deg"
     );
-    for r in flights.iter().map(row) {
+    for (velocity, lost) in &found.missed {
+        line!(
+            report,
+            "  {:>11.3}  NOT trimmed ({})",
+            velocity.x,
+            why(lost)
+        );
+    }
+    let missed = found.missed.iter();
+    let missed: Vec<Value> = missed
+        .map(|(v, lost)| json!({ "forward_m_s": v.x, "reason": why(lost) }))
+        .collect();
+    report.value("not_trimmed_before", missed);
+    for r in found.flights.iter().map(row) {
         let [air, perfect, none] = r.power;
         line!(
             report,
@@ -157,10 +170,25 @@ fn crossings(report: &mut Report, flights: &[Swept]) {
 
 /// Where the range ended early, and why.
 fn end(report: &mut Report, found: &Sweep) {
-    let Some((velocity, lost)) = &found.lost else {
+    let Some((velocity, lost)) = found.lost.as_ref().or(found.missed.first()) else {
         return;
     };
-    let why = match lost {
+    let (at, why) = (velocity.x, why(lost));
+    let ends = match found.lost.is_some() {
+        true => "the range ends before",
+        false => "the range begins after, where it begins",
+    };
+    line!(
+        report,
+        "NOT trimmed at {at:.3} m/s ({why}): {ends}; choose other --unknowns, or a narrower range",
+    );
+    report.value("not_trimmed_forward_m_s", at);
+    report.value("not_trimmed_reason", why);
+}
+
+/// Why a speed was not reached, in words.
+fn why(lost: &Lost) -> String {
+    match lost {
         Lost::NotTrimmed(Some(residual)) => format!("largest residual {residual:.1e}"),
         Lost::NotTrimmed(None) => "no finite flight".to_owned(),
         Lost::Bound(unknown) => format!("{} outside its bound", unknown.name()),
@@ -168,14 +196,7 @@ fn end(report: &mut Report, found: &Sweep) {
             "strokes of {:.0} deg, with which wings pass through each other or through the body",
             angle.to_degrees()
         ),
-    };
-    line!(
-        report,
-        "NOT trimmed at {:.3} m/s ({why}): the range ends before; choose other --unknowns, or a narrower range",
-        velocity.x
-    );
-    report.value("not_trimmed_forward_m_s", velocity.x);
-    report.value("not_trimmed_reason", why);
+    }
 }
 
 /// Speed of a flight whose wings pass through each other, and the part of the beat in which they do.

@@ -6,7 +6,7 @@ use clap::Args;
 use wingbeat::analysis::wake::{WakeSettings, WakeTrim, check_alike, trim_with_wake};
 use wingbeat::analysis::{
     Beat, Bound, TRIM_STEPS, Trim, TrimProblem, TrimRequest, TrimSettings, UNKNOWNS, Unknown,
-    trim_within,
+    trim_within, turned_over, turned_over_with_wake,
 };
 use wingbeat::case::{IoError, LoadedCase};
 use wingbeat::math::DVec3;
@@ -223,7 +223,10 @@ pub(crate) fn trimmed(args: &Trimming, report: &mut Report) -> Result<(LoadedCas
     let found = watched("trimming", || trim_within(&case.setup, &problem))?;
     found::tell(report, &case, &problem, (&found.solution, &found.setup));
     match found.solution.is_as_asked() {
-        true => Ok((case, found)),
+        true => {
+            found::warn_of_turned(report, turned_over(&found)?);
+            Ok((case, found))
+        }
         false => Err(not_trimmed()),
     }
 }
@@ -280,8 +283,14 @@ pub(crate) fn trimmed_with_wake(
     report.value("flights", found.flights);
     report.value("wingbeats", found.beats);
     match found.solution.is_as_asked() {
-        true => Ok((case, found)),
-        false => Err(not_trimmed()),
+        true => {
+            found::warn_of_turned(report, turned_over_with_wake(&found)?);
+            Ok((case, found))
+        }
+        false => {
+            found::advise_slower(&problem);
+            Err(not_trimmed())
+        }
     }
 }
 

@@ -1,0 +1,50 @@
+//! Wings that turn over on passive hinges in a trimmed flight.
+
+use wingbeat_flight::{FlightSetup, Past, Simulation};
+
+use crate::AnalysisError;
+use crate::trim::Trim;
+use crate::wake::WakeTrim;
+
+/// Which wings turn over on a passive hinge in the trimmed wingbeat, see [`FlightSetup::turned_over`].
+///
+/// # Errors
+/// What the flight reports.
+pub fn turned_over(trim: &Trim) -> Result<Vec<String>, AnalysisError> {
+    in_free_beat(&trim.free(), 0, &Past::default())
+}
+
+/// The same in air with memory, or with elastic wings.
+///
+/// # Errors
+/// What the flight reports.
+pub fn turned_over_with_wake(trim: &WakeTrim) -> Result<Vec<String>, AnalysisError> {
+    in_free_beat(&trim.setup, trim.start().held_steps, &trim.past)
+}
+
+/// The same of a free flight after `held` steps, which begins as in `past` if there is anything.
+fn in_free_beat(
+    setup: &FlightSetup,
+    held: usize,
+    past: &Past,
+) -> Result<Vec<String>, AnalysisError> {
+    let are_free = setup.joints.iter().any(|j| j.model.kind.directions() > 0);
+    if !are_free {
+        return Ok(vec![]);
+    }
+    let mut flight = match past.is_empty() {
+        true => Simulation::new(setup.clone())?,
+        false => Simulation::after(setup.clone(), past)?,
+    };
+    let mut ranges = vec![[f64::INFINITY, f64::NEG_INFINITY]; flight.record().joints.len()];
+    for step in 0..setup.time.steps {
+        let record = flight.step()?;
+        if step < held {
+            continue;
+        }
+        for ([least, most], [angle, _]) in ranges.iter_mut().zip(&record.joints) {
+            (*least, *most) = (least.min(*angle), most.max(*angle));
+        }
+    }
+    Ok(setup.turned_over(&ranges))
+}
