@@ -48,7 +48,7 @@ impl FlightSetup {
         };
         (turns_chord(joint, k) && farthest.abs() > FRAC_PI_2).then(|| {
             format!(
-                "wing `{}` turned by {:.0} deg from the rest of its hinge (joint `{}`), and beyond 90 deg its chord points the other way and its lower side leads: give the hinge a stop or a stiffer spring ([[joint.{}.element]])",
+                "wing `{}` turned by {:.0} deg from the rest of its hinge (joint `{}`), and beyond 90 deg its chord points the other way and its lower side leads: give the hinge a stop, a stiffer one, or a stiffer spring ([[joint.{}.element]])",
                 wing.name,
                 farthest.to_degrees(),
                 joint.name,

@@ -66,14 +66,10 @@ impl InPlay {
         self.momentum.take(momentum.length());
         self.potential.take(r.potential_energy + u.dot(weight));
         self.inner.take(inner_energy(r, mass));
-        let applied = r.momentum - start.momentum - r.air_impulse - weight;
-        let air = r.air_work - u.dot(r.air_impulse);
-        for work in [
-            r.hinge_work,
-            r.deformation_work,
-            air,
-            r.applied_work - u.dot(applied),
-        ] {
+        // Of air, loads and tether together: each alone has its impulse by another rule than its work.
+        let external = r.momentum - start.momentum - r.momentum_residual - weight;
+        let external = r.air_work + r.applied_work - u.dot(external);
+        for work in [r.hinge_work, r.deformation_work, external] {
             self.works.take(work);
         }
         self.energy_residual
