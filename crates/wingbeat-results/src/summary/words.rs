@@ -325,7 +325,7 @@ fn engineering(x: f64, unit: &str) -> String {
 
 /// The same with the prefix of the `largest` number of its column.
 fn in_column(x: f64, largest: f64, unit: &str) -> String {
-    if x.abs() >= 1e6 || largest >= 1e6 || largest < 1e-12 {
+    if x.abs() >= 1e6 || !(1e-12..1e6).contains(&largest) {
         return engineering(x, unit);
     }
     let (scale, prefix) = prefix(largest);
