@@ -2,19 +2,27 @@
 
 use std::fmt::Write as _;
 
+use wingbeat_math::larger;
+
 use super::beats::BeatMeans;
 use super::estimate::Estimate;
 use super::impulse::ImpulseBudget;
 use super::last_part::LastPart;
 use super::means::ManyBeats;
 use super::numbers::Summary;
+use super::verdict::Verdict;
 use crate::Outcome;
 use crate::fixed::{fixed, signed, signed_or_power};
 
 impl Summary {
     /// For people; the verdict comes first, its word in front.
     pub fn to_text(&self) -> String {
-        let mut out = format!("{}: {}.\n", self.verdict.word(), self.verdict_reason);
+        let mut out = format!("{}: {}", self.verdict.word(), self.verdict_reason);
+        let drifts = |m: &ManyBeats| !m.is_steady && m.is_known && !m.changes_within_error();
+        if self.verdict == Verdict::Green && self.means.as_ref().is_some_and(drifts) {
+            out.push_str("; the means over its beats are NOT steady");
+        }
+        out.push_str(".\n");
         self.headline(&mut out);
         self.beat_table(&mut out);
         self.balances(&mut out);
@@ -81,6 +89,7 @@ impl Summary {
             return;
         }
         out.push_str("\n beat   lift/weight      lift       forward      power\n");
+        let largest = self.largest_of_beats();
         for b in &self.beats {
             let ratio = b
                 .mean
@@ -90,18 +99,26 @@ impl Summary {
                 out,
                 "{:5}   {ratio:>11}   {}   {}   {}",
                 b.beat,
-                engineering(b.mean.lift_newton, "N"),
-                engineering(b.mean.thrust_newton, "N"),
-                engineering(b.mean.power_watt, "W")
+                in_column(b.mean.lift_newton, largest[0], "N"),
+                in_column(b.mean.thrust_newton, largest[1], "N"),
+                in_column(b.mean.power_watt, largest[2], "W")
             );
         }
         if let Some(means) = &self.means {
-            mean_rows(means, out);
+            mean_rows(means, largest, out);
         }
         let said = [self.specific_power(), self.coefficients()];
         for text in said.into_iter().flatten() {
             out.push_str(&wrapped("       ", &text));
         }
+    }
+
+    /// Largest size of lift \[N\], thrust \[N\] and power \[W\] over the beats: its prefix is that of the column.
+    fn largest_of_beats(&self) -> [f64; 3] {
+        self.beats.iter().fold([0.0; 3], |largest, b| {
+            let of_beat = [b.mean.lift_newton, b.mean.thrust_newton, b.mean.power_watt];
+            std::array::from_fn(|k| larger(largest[k], of_beat[k].abs()))
+        })
     }
 
     /// Power over the mass, of the mean or of the last beat; none where nothing is driven.
@@ -228,16 +245,16 @@ fn impulse_rows(budget: &ImpulseBudget, out: &mut String) {
 const ENOUGH: usize = 6;
 
 /// Means over many wingbeats, below the table of all.
-fn mean_rows(means: &ManyBeats, out: &mut String) {
+fn mean_rows(means: &ManyBeats, largest: [f64; 3], out: &mut String) {
     let mut row = |name: &str, of: fn(&Estimate) -> f64| {
         let ratio = means.estimate.lift_over_weight;
         let ratio = ratio.map_or("-".to_owned(), |r| fixed(of(&r), 3));
         let _ = writeln!(
             out,
             "{name}   {ratio:>11}   {}   {}   {}",
-            engineering(of(&means.estimate.lift_newton), "N"),
-            engineering(of(&means.estimate.thrust_newton), "N"),
-            engineering(of(&means.estimate.power_watt), "W")
+            in_column(of(&means.estimate.lift_newton), largest[0], "N"),
+            in_column(of(&means.estimate.thrust_newton), largest[1], "N"),
+            in_column(of(&means.estimate.power_watt), largest[2], "W")
         );
     };
     row(" mean", |e| e.mean);
@@ -306,6 +323,15 @@ fn engineering(x: f64, unit: &str) -> String {
     format!("{:>8} {prefix}{unit}", fixed(x / scale, 3))
 }
 
+/// The same with the prefix of the `largest` number of its column.
+fn in_column(x: f64, largest: f64, unit: &str) -> String {
+    if x.abs() >= 1e6 || !(1e-12..1e6).contains(&largest) {
+        return engineering(x, unit);
+    }
+    let (scale, prefix) = prefix(largest);
+    format!("{:>8} {prefix}{unit}", fixed(x / scale, 3))
+}
+
 /// The same in a sentence, where nothing stands below it.
 fn alone(x: f64, unit: &str) -> String {
     engineering(x, unit).trim().replace("  ", " ")
@@ -354,6 +380,9 @@ mod tests {
         assert_eq!(engineering(0.0, "W").trim(), "0.000  W");
         assert_eq!(alone(0.0, "W"), "0.000 W");
         assert_eq!(engineering(-2.5e60, "N").trim(), "-2.50e60  N");
+        assert_eq!(in_column(-4.36e-7, 1.2e-5, "N").trim(), "-0.436 uN");
+        assert_eq!(in_column(0.0, 1.2e-5, "N").trim(), "0.000 uN");
+        assert_eq!(in_column(3e-17, 0.0, "N").trim(), "0.000  N");
         let estimate = |mean, standard_error| Estimate {
             mean,
             standard_error,
