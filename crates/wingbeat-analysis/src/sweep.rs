@@ -145,8 +145,7 @@ fn flight_at(path: &mut Path, velocity: DVec3) -> Result<Result<Swept, Lost>, An
         Ok(trim) => trim,
         Err(residual) => return Ok(Err(Lost::NotTrimmed(residual))),
     };
-    let wing = trim.setup.animal.wings.first();
-    let stroke_amplitude = wing.map_or(0.0, stroke_amplitude);
+    let stroke_amplitude = first_stroke(&trim);
     if stroke_amplitude > PI {
         return Ok(Err(Lost::Stroke(stroke_amplitude)));
     }
@@ -162,12 +161,18 @@ fn flight_at(path: &mut Path, velocity: DVec3) -> Result<Result<Swept, Lost>, An
     }))
 }
 
+/// Stroke angle of the first wing from end to end \[rad\]; 0 without wings.
+fn first_stroke(trim: &Trim) -> f64 {
+    let wing = trim.setup.animal.wings.first();
+    wing.map_or(0.0, stroke_amplitude)
+}
+
 /// Parts of a velocity from which the way to it begins where it is not trimmed from the controls of the case, the
 /// nearest first \[1\].
 const SLOWER: [f64; 4] = [0.75, 0.5, 0.25, 0.0];
 
 /// The trim of `problem` from the controls of the case; where that finds nothing, by way of the fastest of some slower
-/// flights that it finds.
+/// flights that it finds, unless the first wing strokes over more than half a circle there.
 ///
 /// # Errors
 /// As [`trim`].
@@ -189,7 +194,8 @@ pub(crate) fn trim_by_way(
             continue;
         };
         path.points.push((slower, first.point));
-        return Ok(path.reach(problem.velocity)?.unwrap_or(direct));
+        let found = path.reach(problem.velocity)?.ok();
+        return Ok(found.filter(|t| first_stroke(t) <= PI).unwrap_or(direct));
     }
     Ok(direct)
 }

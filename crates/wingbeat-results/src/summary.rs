@@ -8,6 +8,7 @@ mod driven;
 mod each_step;
 mod ensemble;
 mod estimate;
+mod extent;
 mod held;
 mod impulse;
 mod in_play;

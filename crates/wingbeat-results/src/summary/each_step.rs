@@ -3,46 +3,16 @@
 
 use serde::{Deserialize, Serialize};
 use wingbeat_flight::{FlightSetup, Record};
-use wingbeat_math::{DVec3, EulerSequence, larger, smaller};
+use wingbeat_math::{DVec3, EulerSequence};
 use wingbeat_model::FlownCrossings;
 
 use super::alternation::Alternation;
 use super::bent::Bent;
 use super::driven::DrivenWork;
+use super::extent::Extent;
 use super::held::Departures;
 use super::impulse::Parting;
 use super::in_play::InPlay;
-
-/// Ends of the range of a number, and its largest magnitude; not numbers where one of the numbers is not.
-#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
-pub(super) struct Extent {
-    pub least: f64,
-    pub highest: f64,
-    pub most: f64,
-}
-
-impl Default for Extent {
-    fn default() -> Self {
-        Self {
-            least: f64::INFINITY,
-            highest: f64::NEG_INFINITY,
-            most: 0.0,
-        }
-    }
-}
-
-impl Extent {
-    pub fn take(&mut self, value: f64) {
-        self.least = smaller(self.least, value);
-        self.highest = larger(self.highest, value);
-        self.most = larger(self.most, value.abs());
-    }
-
-    /// From end to end; 0 of nothing.
-    pub fn range(&self) -> f64 {
-        larger(self.highest - self.least, 0.0)
-    }
-}
 
 /// Gathered from all steps of a flight, one after the other.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]

@@ -16,7 +16,7 @@ use wingbeat_dynamics::{BodyMotion, kinetic_energy, linear_momentum};
 use wingbeat_flight::{FlightSetup, MotionMode, Record};
 use wingbeat_math::{DMat3, DQuat, DVec3, larger};
 
-use super::each_step::Extent;
+use super::extent::Extent;
 
 /// Part of the energies and momenta in N, carried motion and all, that always counts: far above their round-off.
 const ROUNDING: f64 = 1e-8;
