@@ -195,10 +195,14 @@ impl Report {
             let rows = entry.rows.iter().filter(|r| r.verdict() == Verdict::Fail);
             for r in rows {
                 let (error, may) = (number(r.error()), number(r.tolerance.unwrap_or(0.0)));
+                let unit = match &*r.unit {
+                    "1" => String::new(),
+                    unit => format!(" {unit}"),
+                };
                 let _ = writeln!(
                     text,
-                    "- {}, {}: off by {error} {}, {may} would pass",
-                    entry.case, r.quantity, r.unit
+                    "- {}, {}: off by {error}{unit}, {may} would pass",
+                    entry.case, r.quantity
                 );
             }
         }

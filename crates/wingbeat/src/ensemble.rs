@@ -36,7 +36,7 @@ pub fn ensemble(flight: &Flight, members: usize, threads: usize) -> Result<Ensem
     };
     let flights: Option<Vec<Flight>> = (0..members).map(member).collect();
     let flights = flights.ok_or(Error::Ensemble {
-        problem: "members differ by a breath of wind in a vortex lattice or blade elements, and this flight has other air",
+        problem: "members differ by a small disturbance of the air in a vortex lattice or blade elements, and this flight has other air",
         remedy: "air.model = \"vortex_lattice\" or \"blade_element\"",
     })?;
     let beats = fly_all(&flights, threads, |run: Run| run.summary().beats)?;

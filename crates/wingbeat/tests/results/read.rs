@@ -168,7 +168,7 @@ fn behaves_an_ensemble_parts_and_is_the_same_on_any_number_of_threads() {
     assert_eq!(refused.status.code(), Some(2));
     let said = String::from_utf8_lossy(&refused.stderr).into_owned();
     assert!(
-        said.contains("a breath of wind in a vortex lattice"),
+        said.contains("a small disturbance of the air in a vortex lattice"),
         "{said}"
     );
 }
