@@ -57,11 +57,11 @@ pub enum Rotation {
     /// part is Sane & Dickinson's force times cos alpha; smooth for every motion.
     Circulation,
     /// Kutta-Joukowski with one coefficient for all strips, `Gamma = coefficient c^2 q`:
-    /// `C_R/2` in [Berman & Wang 2007] (C_R = pi is from memory, not read).
+    /// `C_R/2` in [Berman & Wang 2007] (its C_R = pi is not checked against the paper).
     Coefficient(f64),
 }
 
-/// The added mass `m = rho pi/4 c^2 dr` of a strip.
+/// The added mass `m = rho pi/4 c^2 dr` of a strip; v is the normal velocity of mid chord.
 #[derive(
     Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize, schemars::JsonSchema,
 )]
@@ -69,23 +69,23 @@ pub enum Rotation {
 pub enum AddedMass {
     /// Left out.
     None,
-    /// The rate of the momentum `m w` along the normal that the strip gives the air at mid chord,
+    /// The rate of the momentum `m v` along the normal that the strip gives the air,
     /// and of its angular momentum with the added moment of inertia `rho pi/128 c^4 dr` of the
-    /// section (Kirchhoff's equations): no mean force over a periodic motion. Munk's couple `m w u`
+    /// section (Kirchhoff's equations): no mean force over a periodic motion. Munk's couple `m v u`
     /// is left to the centre of pressure, which it moves from mid chord to a quarter in thin-airfoil theory.
     Impulse,
-    /// `-m` times the rate of the normal velocity component at mid chord, along the normal
-    /// [Sane & Dickinson 2001]. It stores energy `m w^2/2` and dissipates none, but a wing that turns
+    /// `-m` times the rate of v, along the normal
+    /// [Sane & Dickinson 2001]. It stores energy `m v^2/2` and dissipates none, but a wing that turns
     /// feels a mean force of it.
     Normal,
-    /// With the force `-m q w` along the chord and the added moment of inertia
-    /// `rho pi/128 c^4 dr` of the section [Berman & Wang 2007; form of the equations from memory].
+    /// The same in plane motion only, that of a section: with the force `-m q v` along the chord and the added moment
+    /// of inertia `rho pi/128 c^4 dr` (Kirchhoff's equations of a plate, as in [Berman & Wang 2007]).
     Section,
 }
 
 /// Viscous moment `-(pi/16) rho c^4 (linear + quadratic abs q) q dr` against feathering
-/// [Berman & Wang 2007: linear = mu1 f, quadratic = mu2; mu1 = mu2 = 0.2, form and numbers from
-/// memory, not read].
+/// [Berman & Wang 2007: linear = mu1 f, quadratic = mu2; mu1 = mu2 = 0.2, form and numbers
+/// not checked against the paper].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ViscousMoment {
     /// mu1 f [1/s].
@@ -123,8 +123,8 @@ impl BladeSettings {
     }
 
     /// Berman & Wang's model of the fruit fly at the wingbeat frequency `frequency` [Hz]:
-    /// coefficients as read, `C_R = pi`, `mu1 = mu2 = 0.2` and the form of the viscous moment
-    /// from memory.
+    /// coefficients as read; `C_R = pi`, `mu1 = mu2 = 0.2` and the form of the viscous moment are not
+    /// checked against the paper.
     pub fn berman_wang(density: f64, frequency: f64) -> Self {
         Self {
             translation: find_set("berman-wang-fruit-fly")
