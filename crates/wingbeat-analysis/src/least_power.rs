@@ -11,33 +11,30 @@ use cobyla::{RhoBeg, StopTols, minimize};
 use wingbeat_flight::FlightSetup;
 
 use crate::AnalysisError;
-use crate::plausibility::stroke_amplitude;
 use crate::power::power_of_trim;
 use crate::problem::TrimProblem;
 use crate::progress;
 use crate::residuals::Residuals;
 use crate::solution::TrimSolution;
 use crate::steady::check;
-use crate::sweep::trim_by_way;
-use crate::trim::{Trim, trim, trim_from};
+use crate::trim::{Trim, trim_from};
 use crate::unknown::{Bound, Unknown};
+use crate::way::{first_stroke, trim_by_way};
 
 /// Trims the flight of `setup` within the bounds of the problem. What is named beyond what steady flight determines is
 /// chosen such that the mean power of muscles with perfect elastic storage is least. Where Newton's method finds nothing
-/// from the controls of the case, the trim of a slower flight is followed up to the speed asked.
+/// from the controls of the case, the trim of a slower flight is followed up to the speed asked, and the order of the
+/// unknowns does not decide whether a flight is found.
 ///
 /// # Errors
 /// As [`trim`] and [`power_of_trim`], at the start of the search; a flight that takes no power.
 pub fn trim_within(setup: &FlightSetup, problem: &TrimProblem) -> Result<Trim, AnalysisError> {
     let needed = Residuals::of(problem).controls();
     if problem.unknowns.len() <= needed {
-        return trim_by_way(setup, problem);
+        return trim_by_way(setup, problem, PI);
     }
     check(setup, problem)?;
-    let (determined, spare) = problem.unknowns.split_at(needed);
-    let search = Search::new(setup, problem, determined, spare);
-    let start = search.start();
-    let first = search.trim(&start)?;
+    let (search, start, first) = begun(setup, problem, needed)?;
     if !first.solution.converged {
         return Ok(first);
     }
@@ -53,6 +50,40 @@ pub fn trim_within(setup: &FlightSetup, problem: &TrimProblem) -> Result<Trim, A
     found.solution.iterations = search.iterations.get();
     found.solution.at_bound = search.at_bound(&found.solution);
     Ok(found)
+}
+
+/// A search from a trim, its spare unknowns there, and the trim: as many unknowns as are `needed` determined, in the
+/// order in which they are named; where that finds nothing, one of them exchanged for a spare one. The best point in
+/// the order named, where no exchange finds anything.
+fn begun<'a>(
+    setup: &'a FlightSetup,
+    problem: &TrimProblem,
+    needed: usize,
+) -> Result<(Search<'a>, Vec<f64>, Trim), AnalysisError> {
+    let from = |names: &[Unknown]| {
+        let (determined, spare) = names.split_at(needed);
+        let search = Search::new(setup, problem, determined, spare);
+        let start = search.start();
+        let first = search.trim(&start)?;
+        Ok((search, start, first))
+    };
+    let named = from(&problem.unknowns)?;
+    if named.2.solution.converged {
+        return Ok(named);
+    }
+    for spare in needed..problem.unknowns.len() {
+        for determined in (0..needed).rev() {
+            let mut names = problem.unknowns.clone();
+            names.swap(determined, spare);
+            let exchanged: Result<_, AnalysisError> = from(&names);
+            if let Ok(found) = exchanged
+                && found.2.solution.converged
+            {
+                return Ok(found);
+            }
+        }
+    }
+    Ok(named)
 }
 
 /// To what the search determines the spare unknowns \[1, rad\].
@@ -194,7 +225,7 @@ impl<'a> Search<'a> {
         };
         let found = match nearest {
             Some(point) => trim_from(self.setup, &problem, point)?,
-            None => trim(self.setup, &problem)?,
+            None => trim_by_way(self.setup, &problem, f64::INFINITY)?,
         };
         self.iterations.update(|n| n + found.solution.iterations);
         if found.solution.converged {
@@ -232,8 +263,7 @@ impl<'a> Search<'a> {
         let power = power_of_trim(&trim).ok()?.perfect_storage;
         let inside = |b: &Bound| trim.solution.value(b.unknown).map_or(-1.0, |x| b.room(x));
         let mut room: Vec<f64> = self.determined.iter().map(inside).collect();
-        let wing = trim.setup.animal.wings.first();
-        room.push(PI - wing.map_or(0.0, stroke_amplitude));
+        room.push(PI - first_stroke(&trim));
         let finite = power.is_finite() && room.iter().all(|r| r.is_finite());
         finite.then_some(Outcome { power, room })
     }

@@ -44,6 +44,7 @@ pub mod flutter;
 mod jacobian;
 mod least_power;
 mod level;
+mod lost;
 mod mean;
 mod modes;
 mod moving;
@@ -71,6 +72,7 @@ mod trim;
 mod turned;
 mod unknown;
 pub mod wake;
+mod way;
 mod wing_modes;
 
 pub use beat::{Beat, Integration, State};
@@ -81,6 +83,7 @@ pub use flutter::{Condition, FlutterSettings};
 pub use jacobian::jacobian;
 pub use least_power::trim_within;
 pub use level::{Level, Perturbation, STATE};
+pub use lost::{Lost, Way};
 pub use mean::MeanLoad;
 pub use modes::{Mode, ModeSet, Plane, Scales};
 pub use plausibility::{
@@ -97,7 +100,7 @@ pub use stability::{
     trimmed_controls,
 };
 pub use steady::{SPEED_OF_SOUND, TRIM_STEPS};
-pub use sweep::{Lost, Sweep, Swept, sweep};
+pub use sweep::{Sweep, Swept, sweep};
 pub use table::{rigid_animal, table_model};
 pub use trim::{Trim, trim, trim_from};
 pub use turned::{turned_over, turned_over_with_wake};

@@ -4,6 +4,7 @@ use wingbeat_flight::FlightSetup;
 use wingbeat_model::motion::Adjustment;
 
 use crate::AnalysisError;
+use crate::lost::Way;
 use crate::problem::TrimProblem;
 use crate::root::largest;
 use crate::steady::check_symmetric;
@@ -39,6 +40,8 @@ pub struct TrimSolution {
     pub body_pitch: f64,
     /// Roll of the body then, right side down \[rad\].
     pub body_roll: f64,
+    /// Where it was sought by way of slower flights and not found: how far they led.
+    pub way: Option<Way>,
 }
 
 impl TrimSolution {
@@ -66,6 +69,7 @@ impl TrimSolution {
             mass_centre: a.mass_centre,
             body_pitch: a.pitch,
             body_roll: a.roll,
+            way: None,
         };
         (point, a.setup)
     }

@@ -3,7 +3,8 @@
 //! Each trim begins at the point of the one before, extrapolated (natural continuation). Where Newton's method
 //! does not arrive, the way there is halved, a few times; where it does not arrive then, the range ends. The first
 //! is sought from the controls of the case, then by way of slower flights; where it is not found, the next is the
-//! first.
+//! first. A range that falls in speed through the air is trimmed from its slow end, so it has the flights of the range
+//! that rises.
 
 use std::f64::consts::PI;
 
@@ -11,12 +12,12 @@ use wingbeat_flight::FlightSetup;
 use wingbeat_math::DVec3;
 
 use crate::AnalysisError;
-use crate::plausibility::stroke_amplitude;
+use crate::lost::Lost;
 use crate::power::{Power, power_of_trim};
 use crate::problem::TrimProblem;
 use crate::progress;
-use crate::trim::{Trim, trim, trim_from};
-use crate::unknown::Unknown;
+use crate::trim::Trim;
+use crate::way::{Path, first_stroke};
 
 /// A trimmed flight of a sweep.
 #[derive(Clone, Debug)]
@@ -41,17 +42,6 @@ pub struct Sweep {
     pub missed: Vec<(DVec3, Lost)>,
     /// The first velocity after those reached that was not, N components [m/s], and why.
     pub lost: Option<(DVec3, Lost)>,
-}
-
-/// Why a velocity was not reached.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Lost {
-    /// No point there has residuals within the tolerance; the largest of the best, if one was finite.
-    NotTrimmed(Option<f64>),
-    /// This unknown would lie outside the bounds of the problem.
-    Bound(Unknown),
-    /// The first wing would stroke over more than half a circle \[rad\]: right and left wings pass through each other.
-    Stroke(f64),
 }
 
 impl Sweep {
@@ -111,14 +101,65 @@ fn work_per_distance(f: &Swept) -> f64 {
     }
 }
 
-/// Halvings of the way to a velocity.
-const HALVINGS: usize = 4;
-
-/// Trims at each of the `velocities` [m/s], N components, in their order.
+/// Trims at each of the `velocities` [m/s], N components, in their order; where all lie on a line along which the speed
+/// through the air is less at the end than at the beginning, from the end on. The flights stand in the order asked.
 ///
 /// # Errors
-/// As [`trim`], for the first of them; as [`power`].
+/// As [`trim`](crate::trim()), for the first of them; as [`power`](crate::power()).
 pub fn sweep(
+    setup: &FlightSetup,
+    problem: &TrimProblem,
+    velocities: &[DVec3],
+) -> Result<Sweep, AnalysisError> {
+    if !is_falling(setup, velocities) {
+        return rising(setup, problem, velocities);
+    }
+    let upwards: Vec<DVec3> = velocities.iter().rev().copied().collect();
+    let found = rising(setup, problem, &upwards)?;
+    Ok(turned(found, velocities))
+}
+
+/// Whether velocities lead one way, to a lower speed through the air.
+fn is_falling(setup: &FlightSetup, velocities: &[DVec3]) -> bool {
+    let stream = setup.air.stream().unwrap_or(DVec3::ZERO);
+    let airspeed = |v: &DVec3| (*v - stream).length();
+    let (Some(first), Some(last)) = (velocities.first(), velocities.last()) else {
+        return false;
+    };
+    let way = *last - *first;
+    let is_onward = |pair: &[DVec3]| (pair[1] - pair[0]).dot(way) > 0.0;
+    airspeed(last) < airspeed(first) && velocities.windows(2).all(is_onward)
+}
+
+/// What was found over velocities from their last to their first, in their order.
+fn turned(found: Sweep, velocities: &[DVec3]) -> Sweep {
+    let Sweep {
+        mut flights,
+        missed: mut slow,
+        lost: fast,
+    } = found;
+    flights.reverse();
+    slow.reverse();
+    if flights.is_empty() {
+        return Sweep {
+            missed: slow,
+            ..Sweep::default()
+        };
+    }
+    let not_tried = |v: &DVec3| (*v, Lost::Beyond);
+    let missed = fast.map_or(vec![], |end| {
+        let beyond = velocities.iter().take_while(|v| **v != end.0);
+        beyond.map(not_tried).chain([end]).collect()
+    });
+    Sweep {
+        flights,
+        missed,
+        lost: slow.first().copied(),
+    }
+}
+
+/// The sweep in the order of the velocities.
+fn rising(
     setup: &FlightSetup,
     problem: &TrimProblem,
     velocities: &[DVec3],
@@ -129,7 +170,10 @@ pub fn sweep(
         progress::task("sweep", k, velocities.len());
         match flight_at(&mut path, velocity)? {
             Ok(flight) => found.flights.push(flight),
-            Err(why) if found.flights.is_empty() => found.missed.push((velocity, why)),
+            Err(why) if found.flights.is_empty() => {
+                found.missed.push((velocity, why));
+                path.clear(); // no way leads on from what is no flight
+            }
             Err(why) => {
                 found.lost = Some((velocity, why));
                 break;
@@ -159,136 +203,4 @@ fn flight_at(path: &mut Path, velocity: DVec3) -> Result<Result<Swept, Lost>, An
         trim,
         power,
     }))
-}
-
-/// Stroke angle of the first wing from end to end \[rad\]; 0 without wings.
-fn first_stroke(trim: &Trim) -> f64 {
-    let wing = trim.setup.animal.wings.first();
-    wing.map_or(0.0, stroke_amplitude)
-}
-
-/// Parts of a velocity from which the way to it begins where it is not trimmed from the controls of the case, the
-/// nearest first \[1\].
-const SLOWER: [f64; 4] = [0.75, 0.5, 0.25, 0.0];
-
-/// The trim of `problem` from the controls of the case; where that finds nothing, by way of the fastest of some slower
-/// flights that it finds, unless the first wing strokes over more than half a circle there.
-///
-/// # Errors
-/// As [`trim`].
-pub(crate) fn trim_by_way(
-    setup: &FlightSetup,
-    problem: &TrimProblem,
-) -> Result<Trim, AnalysisError> {
-    let direct = trim(setup, problem)?;
-    if direct.solution.converged || problem.velocity == DVec3::ZERO {
-        return Ok(direct);
-    }
-    for part in SLOWER {
-        let slower = part * problem.velocity;
-        let what = format!("by way of {:.3} m/s", slower.length());
-        progress::task(&what, 0, 0);
-        let mut path = Path::new(setup, problem);
-        let first = trim(setup, &path.at(slower)).ok();
-        let Some(first) = first.filter(|t| t.solution.converged) else {
-            continue;
-        };
-        path.points.push((slower, first.point));
-        let found = path.reach(problem.velocity)?.ok();
-        return Ok(found.filter(|t| first_stroke(t) <= PI).unwrap_or(direct));
-    }
-    Ok(direct)
-}
-
-/// The points found so far.
-struct Path<'a> {
-    setup: &'a FlightSetup,
-    problem: &'a TrimProblem,
-    points: Vec<(DVec3, Vec<f64>)>,
-}
-
-impl<'a> Path<'a> {
-    /// A path without points.
-    fn new(setup: &'a FlightSetup, problem: &'a TrimProblem) -> Self {
-        Self {
-            setup,
-            problem,
-            points: vec![],
-        }
-    }
-
-    /// The trim at a velocity, or the residual of what was found instead.
-    fn reach(&mut self, velocity: DVec3) -> Result<Result<Trim, Option<f64>>, AnalysisError> {
-        let Some(from) = self.points.last().map(|p| p.0) else {
-            return self.first(velocity).map(arrived);
-        };
-        // Parts of the way that lie ahead, the nearest last.
-        let mut ahead = vec![velocity];
-        let mut at = from;
-        let mut residual = None;
-        while let Some(&next) = ahead.last() {
-            match self.try_at(next) {
-                Ok(trim) if trim.solution.converged => {
-                    at = next;
-                    ahead.pop();
-                    if ahead.is_empty() {
-                        return Ok(Ok(trim));
-                    }
-                }
-                other => {
-                    residual = other.ok().map(|t| t.solution.error()).or(residual);
-                    if ahead.len() > HALVINGS {
-                        break;
-                    }
-                    ahead.push(at.midpoint(next));
-                }
-            }
-        }
-        Ok(Err(residual))
-    }
-
-    fn first(&mut self, velocity: DVec3) -> Result<Trim, AnalysisError> {
-        let found = trim_by_way(self.setup, &self.at(velocity))?;
-        if found.solution.converged {
-            self.points.push((velocity, found.point.clone()));
-        }
-        Ok(found)
-    }
-
-    fn at(&self, velocity: DVec3) -> TrimProblem {
-        TrimProblem {
-            velocity,
-            ..self.problem.clone()
-        }
-    }
-
-    /// Trims at a velocity from the points found, extrapolated along the way.
-    fn try_at(&mut self, velocity: DVec3) -> Result<Trim, AnalysisError> {
-        let guess = match self.points.as_slice() {
-            [.., (v0, x0), (v1, x1)] => {
-                let way = (*v1 - *v0).length();
-                let share = if way > 0.0 {
-                    (velocity - *v1).length() / way
-                } else {
-                    0.0
-                };
-                let along = |(a, b): (&f64, &f64)| b + share.min(2.0) * (b - a);
-                x0.iter().zip(x1).map(along).collect()
-            }
-            [.., (_, x)] => x.clone(),
-            [] => return self.first(velocity),
-        };
-        let found = trim_from(self.setup, &self.at(velocity), guess)?;
-        if found.solution.converged {
-            self.points.push((velocity, found.point.clone()));
-        }
-        Ok(found)
-    }
-}
-
-fn arrived(trim: Trim) -> Result<Trim, Option<f64>> {
-    match trim.solution.converged {
-        true => Ok(trim),
-        false => Err(Some(trim.solution.error())),
-    }
 }

@@ -114,3 +114,69 @@ fn behaves_a_sweep_begins_at_the_first_speed_that_is_found() {
     assert_eq!(flown, [0.6, 0.3]);
     assert!(found.lost.is_none());
 }
+
+/// A range from its fast end has the flights of the range from its slow end, and says where they end.
+#[test]
+fn invariant_a_range_from_either_end() {
+    let speeds = [0.0, 0.6, 1.2, 1.8, 2.4];
+    let turned = [2.4, 1.8, 1.2, 0.6, 0.0];
+    let up = sweep(&fly(), &hover(40), &forward(&speeds)).unwrap();
+    let down = sweep(&fly(), &hover(40), &forward(&turned)).unwrap();
+    assert!(up.flights.len() >= 2 && up.missed.is_empty() && down.lost.is_none());
+    assert_eq!(up.flights.len(), down.flights.len());
+    for (a, b) in up.flights.iter().zip(down.flights.iter().rev()) {
+        assert_eq!(a.velocity, b.velocity);
+        // Both are trimmed from the slow end.
+        assert_eq!(a.trim.point, b.trim.point);
+    }
+    let (end, why) = up.lost.unwrap();
+    let (last, faster) = down.missed.split_last().unwrap();
+    assert_eq!(*last, (end, why));
+    assert_eq!(up.flights.len() + down.missed.len(), speeds.len());
+    assert!(faster.iter().all(|(_, why)| *why == Lost::Beyond));
+}
+
+/// Galilei: by way of slower flights a moth is trimmed through still air, and held against a stream, alike.
+#[test]
+fn invariant_a_trim_by_way_of_slower_flights_in_a_stream() {
+    const SPEED: f64 = 3.0;
+    let trimmed = |stream: f64| {
+        let mut setup = moth();
+        *setup.air.stream_mut().unwrap() = DVec3::new(stream, 0.0, 0.0);
+        let problem = TrimProblem {
+            velocity: DVec3::new(SPEED + stream, 0.0, 0.0),
+            ..hover(40)
+        };
+        trim_within(&setup, &problem).unwrap().solution
+    };
+    let still = trimmed(0.0);
+    assert!(still.converged);
+    for stream in [-SPEED, -0.6 * SPEED, 2.0] {
+        let found = trimmed(stream);
+        assert!(found.converged, "{stream}: {:?}", found.residual);
+        for (a, b) in still.values.iter().zip(&found.values) {
+            // Newton's method ends quadratically, at rounding: 3e-15.
+            assert!((a - b).abs() < 3e-14, "{stream}: {a} {b}");
+        }
+    }
+}
+
+/// Which unknowns are named first does not decide whether least power is found, nor where.
+#[test]
+fn invariant_least_power_of_a_fast_flight_whatever_the_order_of_unknowns() {
+    use Unknown::{BodyPitch, Frequency, StrokeAmplitude, StrokeOffset};
+    let least = |unknowns: [Unknown; 4]| {
+        let problem = TrimProblem {
+            unknowns: unknowns.to_vec(),
+            velocity: DVec3::new(3.0, 0.0, 0.0),
+            ..hover(40)
+        };
+        let found = trim_within(&moth(), &problem).unwrap();
+        assert!(found.solution.is_as_asked(), "{unknowns:?}");
+        power_of_trim(&found).unwrap().perfect_storage
+    };
+    let first = least([BodyPitch, StrokeAmplitude, StrokeOffset, Frequency]);
+    let second = least([BodyPitch, Frequency, StrokeOffset, StrokeAmplitude]);
+    // Both within 1e-5 of where power is least, and flat: squares of that remain, 2.4e-9.
+    assert!((second / first - 1.0).abs() < 2e-8, "{first} {second}");
+}

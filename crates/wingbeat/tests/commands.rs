@@ -175,6 +175,7 @@ fn behaves_a_sweep_draws_power_against_speed_and_says_where_flight_ends() {
     let told = String::from_utf8_lossy(&out.stdout);
     assert_eq!(out.status.code(), Some(1), "{told}");
     assert!(told.contains("NOT trimmed at 5.000 m/s"), "{told}");
+    assert!(told.contains("the range ends before it"), "{told}");
     for (args, reason) in [
         (&["trim", "--sweep", "1", "1"][..], "the same speed"),
         (

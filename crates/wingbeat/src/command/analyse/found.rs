@@ -2,8 +2,8 @@
 
 use serde_json::{Map, Value, json};
 use wingbeat::analysis::{
-    Bound, Residuals, TrimProblem, TrimSolution, UNKNOWNS, Unknown, UnknownKind, jumping_rotation,
-    stroke_amplitude, turned_inside_out,
+    Bound, Lost, Residuals, TrimProblem, TrimSolution, UNKNOWNS, Unknown, UnknownKind,
+    jumping_rotation, stroke_amplitude, turned_inside_out,
 };
 use wingbeat::case::LoadedCase;
 use wingbeat::flight::FlightSetup;
@@ -74,9 +74,33 @@ fn verdict(report: &mut Report, t: &TrimSolution) {
         t.iterations,
         t.error()
     );
+    if let Some(way) = &t.way {
+        line!(
+            report,
+            "  by way of slower flights it came to {:.3} m/s through the air; beyond: {}",
+            way.airspeed,
+            why(&way.ended)
+        );
+        report.value("by_way_to_airspeed_m_s", way.airspeed);
+        report.value("by_way_ended", why(&way.ended));
+    }
     report.value("converged", t.converged);
     report.value("within_bounds", is_within);
     report.value("newton_steps", t.iterations);
+}
+
+/// Why a speed was not reached, in words.
+pub(super) fn why(lost: &Lost) -> String {
+    match lost {
+        Lost::NotTrimmed(Some(residual)) => format!("largest residual {residual:.1e}"),
+        Lost::NotTrimmed(None) => "no finite flight".to_owned(),
+        Lost::Bound(unknown) => format!("{} outside its bound", unknown.name()),
+        Lost::Stroke(angle) => format!(
+            "strokes of {:.0} deg, with which wings pass through each other or through the body",
+            angle.to_degrees()
+        ),
+        Lost::Beyond => "not tried, as the range ends at a lower speed".to_owned(),
+    }
 }
 
 /// The unknowns, a line each.

@@ -1,11 +1,11 @@
 //! `wingbeat trim --sweep`: trimmed flights over a range of speeds.
 
 use serde_json::{Value, json};
-use wingbeat::analysis::{Lost, Sweep, Swept, TrimProblem, sweep};
+use wingbeat::analysis::{Sweep, Swept, TrimProblem, sweep};
 use wingbeat::draw::figures::swept::{SpeedRow, swept};
 use wingbeat::math::DVec3;
 
-use super::found::{sideslip_and_turn, values};
+use super::found::{sideslip_and_turn, values, why};
 use super::trimming::{Trimming, watched};
 use crate::command::failure::{FAILED, Failure};
 use crate::command::report::{Report, line};
@@ -168,34 +168,35 @@ fn crossings(report: &mut Report, flights: &[Swept]) {
     }
 }
 
-/// Where the range ended early, and why.
+/// Where the range begins late or ends early, and why.
 fn end(report: &mut Report, found: &Sweep) {
-    let Some((velocity, lost)) = found.lost.as_ref().or(found.missed.first()) else {
-        return;
+    // The missed speed next to the flights; where there are none, the first.
+    let next = match found.flights.is_empty() {
+        true => found.missed.first(),
+        false => found.missed.last(),
     };
-    let (at, why) = (velocity.x, why(lost));
-    let ends = match found.lost.is_some() {
-        true => "the range ends before",
-        false => "the range begins after, where it begins",
+    let before = match found.flights.is_empty() {
+        true => "no flight is found in this range",
+        false => "the range begins after it",
     };
-    line!(
-        report,
-        "NOT trimmed at {at:.3} m/s ({why}): {ends}; choose other --unknowns, or a narrower range",
-    );
-    report.value("not_trimmed_forward_m_s", at);
-    report.value("not_trimmed_reason", why);
-}
-
-/// Why a speed was not reached, in words.
-fn why(lost: &Lost) -> String {
-    match lost {
-        Lost::NotTrimmed(Some(residual)) => format!("largest residual {residual:.1e}"),
-        Lost::NotTrimmed(None) => "no finite flight".to_owned(),
-        Lost::Bound(unknown) => format!("{} outside its bound", unknown.name()),
-        Lost::Stroke(angle) => format!(
-            "strokes of {:.0} deg, with which wings pass through each other or through the body",
-            angle.to_degrees()
-        ),
+    let ends = [
+        (next, before),
+        (found.lost.as_ref(), "the range ends before it"),
+    ];
+    for (velocity, lost, what) in ends
+        .into_iter()
+        .filter_map(|(e, what)| e.map(|e| (e.0, e.1, what)))
+    {
+        line!(
+            report,
+            "NOT trimmed at {:.3} m/s ({}): {what}; choose other --unknowns, or a narrower range",
+            velocity.x,
+            why(&lost)
+        );
+    }
+    if let Some((velocity, lost)) = found.lost.as_ref().or(next) {
+        report.value("not_trimmed_forward_m_s", velocity.x);
+        report.value("not_trimmed_reason", why(lost));
     }
 }
 
