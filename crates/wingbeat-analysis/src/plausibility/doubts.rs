@@ -103,7 +103,7 @@ const NO_LIFT: f64 = 1e-3;
 
 const LIFT_NONE: Limit = Limit {
     hints: [
-        "it carries nothing: look at stroke, wingbeat frequency, stroke plane and the feathering (psi)",
+        "it carries nothing: look at stroke, wingbeat frequency, feathering (psi) and the density of the air",
         "",
     ],
     ..LIFT

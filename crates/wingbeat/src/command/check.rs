@@ -294,3 +294,22 @@ fn course(report: &mut Report, setup: &FlightSetup) {
     report.value("steps", time.steps);
     report.value("step_s", time.step);
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exact_sizes_have_five_digits_in_the_unit_of_the_wing() {
+        for (length, area, wanted) in [
+            (0.33, 0.033_65, "330.00 mm, 33650 mm2"),
+            (2.5e-3, 1.7475e-6, "2.5000 mm, 1.7475 mm2"),
+            (2.5e-9, 1.7475e-18, "2.5000 nm, 1.7475 nm2"),
+            (12.0, 30.0, "12.000 m, 30.000 m2"),
+        ] {
+            let (size, name) = unit(length);
+            let [x, a] = [length / size, area / (size * size)].map(five_digits);
+            assert_eq!(format!("{x} {name}, {a} {name}2"), wanted);
+        }
+    }
+}
