@@ -4,9 +4,9 @@
 use wingbeat_air::{AIR_VISCOSITY, AirSettings, OVERLAP_SLOPE};
 use wingbeat_math::DVec3;
 
-use crate::build::{every_wing, has_all_angles};
 use crate::data::find_data;
 use crate::error::Fault;
+use crate::own_motion::{every_wing, has_all_angles};
 use crate::raw::{
     AirCase, AirModel, Case, CoreCase, Formulation, IntegratorCase, JointCase, JointKind, Mode,
     MotionCase, SchemeCase, TimeCase,

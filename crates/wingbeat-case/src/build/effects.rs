@@ -6,10 +6,10 @@ use wingbeat_model::planform::Spacing;
 use wingbeat_model::{Wing, mirror_name};
 
 use super::fault::{Built, idle};
-use super::motion::{every_wing, has_all_angles};
 use super::{model_keys, spacing, wingless};
 use crate::data::find_data;
 use crate::error::Fault;
+use crate::own_motion::{every_wing, has_all_angles};
 use crate::raw::{
     AirModel, Case, Formulation, JointCase, Mode, TetherCase, TurnCase, WingCase, WingMeshCase,
 };

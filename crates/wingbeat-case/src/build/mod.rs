@@ -34,7 +34,7 @@ mod wing;
 mod wingless;
 
 pub(crate) use effects::check as check_effects;
-pub(crate) use motion::{every_wing, has_all_angles, radians};
+pub(crate) use motion::radians;
 pub use names::column_name;
 pub(crate) use output::output;
 pub(crate) use refused::refused;

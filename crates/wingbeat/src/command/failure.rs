@@ -53,7 +53,7 @@ impl From<Error> for Failure {
     }
 }
 
-/// An error as it is told; that of a case begins with `error:` itself.
+/// An error in words for users; that of a case begins with `error:` itself.
 pub(crate) fn in_words(e: &IoError) -> String {
     match e {
         IoError::Case(report) => report.to_string(),
