@@ -491,7 +491,4 @@ fn refuses_numbers_that_are_too_large_or_none() {
         let said = refusal("fruit-fly-blade", &[&format!("flight.pitch_deg={typed}")]);
         assert!(said.contains(says) && !said.contains("a text\n"), "{said}");
     }
-    let said = refusal("fruit-fly-blade", &["air.stream_m_s=[1e300, 0, 0]"]);
-    let first = said.lines().next().unwrap_or_default();
-    assert!(first.contains("[1e300, 0, 0]"), "{said}");
 }
