@@ -7,6 +7,7 @@ use std::path::PathBuf;
 
 use wingbeat_case::IoError;
 use wingbeat_case::keys::described;
+use wingbeat_results::directory::remove_left_behind;
 use wingbeat_results::export::parquet::{Cell, Cells, ParquetWriter};
 use wingbeat_results::file::{Existing, NewFile};
 use wingbeat_results::manifest::hexadecimal;
@@ -63,6 +64,8 @@ fn io(e: csv::Error) -> std::io::Error {
 /// # Errors
 /// A result that cannot be read; a file that cannot be written.
 pub fn merge(campaign: &Campaign, store: &Store) -> Result<Vec<PathBuf>, IoError> {
+    store.remove_half_written();
+    remove_left_behind(store.root(), |name| FILES.contains(&name));
     let rows: Vec<Row> = rows(campaign, store).collect::<Result<_, _>>()?;
     let place = |name: &str| NewFile::claim_own(&store.path(name), Existing::Replaced);
     place(FILES[0])?.write(&points_csv(campaign, &rows)?)?;

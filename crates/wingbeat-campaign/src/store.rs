@@ -21,7 +21,7 @@ use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
 use wingbeat_case::IoError;
-use wingbeat_results::directory::{remove_file, write_whole};
+use wingbeat_results::directory::{remove_file, remove_left_behind, write_whole};
 use wingbeat_results::manifest::sha256;
 use wingbeat_results::summary::Verdict;
 
@@ -155,6 +155,24 @@ impl Store {
     /// Whether the campaign that was run here last is that of this text.
     pub fn is_of(&self, text: &str) -> bool {
         fs::read_to_string(self.path(FILE)).is_ok_and(|own| own == text)
+    }
+
+    /// Removes half-written files of processes that died: of results, attempts and the file of the campaign.
+    pub fn remove_half_written(&self) {
+        let is_hash = |name: &str| name.len() == 64 && name.bytes().all(|b| b.is_ascii_hexdigit());
+        let is_result = |name: &str| {
+            let parts = name.split_once('.');
+            parts.is_some_and(|(hash, ending)| is_hash(hash) && ["ok", "failed"].contains(&ending))
+        };
+        for folder in fs::read_dir(self.path("points"))
+            .into_iter()
+            .flatten()
+            .flatten()
+        {
+            remove_left_behind(&folder.path(), is_result);
+        }
+        remove_left_behind(&self.path("attempts"), is_hash);
+        remove_left_behind(&self.root, |name| name == FILE);
     }
 
     /// A path inside.
@@ -365,5 +383,28 @@ mod tests {
         assert_eq!(store.count_death(&hash, 0).unwrap(), 2);
         assert_eq!(store.count_death(&hash, 40).unwrap(), 1, "it advanced");
         fs::remove_dir_all(root).unwrap();
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn behaves_half_written_results_of_dead_processes_are_removed() {
+        let root = std::env::temp_dir().join(format!("wingbeat-parts-{}", std::process::id()));
+        let store = Store::open(&root, "text").unwrap();
+        let hash = "6b".repeat(32);
+        let mut left = vec![store.path("attempts").join(&hash), store.path(FILE)];
+        left.extend(["ok", "failed"].map(|ending| store.place(&hash, ending)));
+        let place =
+            |target: &PathBuf, name: &str| target.with_file_name(format!("{name}.4711.part"));
+        let name_of = |target: &PathBuf| target.file_name().unwrap().to_str().unwrap().to_owned();
+        let parts: Vec<PathBuf> = left.iter().map(|t| place(t, &name_of(t))).collect();
+        let others: Vec<PathBuf> = left.iter().map(|t| place(t, "notes.txt")).collect();
+        for part in parts.iter().chain(&others) {
+            store.make(part.parent().unwrap()).unwrap();
+            fs::write(part, "half").unwrap();
+        }
+        store.remove_half_written();
+        assert!(!parts.iter().any(|p| p.exists()));
+        assert!(others.iter().all(|p| p.exists()) && store.path(FILE).exists());
+        fs::remove_dir_all(&root).unwrap();
     }
 }

@@ -30,6 +30,7 @@ mod loaded;
 mod measured;
 mod mixed_angles;
 mod output;
+mod own_motion;
 pub mod presets;
 pub mod raw;
 mod resolve;

@@ -55,6 +55,7 @@ impl LoadedCase {
             .and_then(|()| build::setup(&raw, &name))
             .and_then(|setup| build::check_effects(&raw, &setup, &source).map(|()| setup));
         let setup = built.map_err(|fault| Box::new(source.locate(fault)))?;
+        resolve::leave_out_data(&mut raw);
         if raw.air.model != raw::AirModel::VortexLattice {
             raw.output.frames_every = 0; // there are none
         }

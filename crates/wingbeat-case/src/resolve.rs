@@ -6,6 +6,7 @@ use wingbeat_math::DVec3;
 
 use crate::data::find_data;
 use crate::error::Fault;
+use crate::own_motion::{every_wing, has_all_angles};
 use crate::raw::{
     AirCase, AirModel, Case, CoreCase, Formulation, IntegratorCase, JointCase, JointKind, Mode,
     MotionCase, SchemeCase, TimeCase,
@@ -20,7 +21,9 @@ const CLEARANCE: f64 = 0.1;
 
 /// Fills in what the case leaves open.
 pub(crate) fn resolve(case: &mut Case) -> Result<(), Fault> {
-    motion(&mut case.motion)?;
+    let shares_plane =
+        !case.wing.is_empty() && !every_wing(case, |own| own.stroke_plane_pitch_deg.is_some());
+    motion(&mut case.motion, shares_plane)?;
     let beats = case.motion.frequency_hz.value() > 0.0;
     time(&mut case.time, beats);
     air(&mut case.air);
@@ -28,14 +31,24 @@ pub(crate) fn resolve(case: &mut Case) -> Result<(), Fault> {
     Ok(())
 }
 
-/// Frequency and stroke plane of the data set; without one, wings that do not beat.
-fn motion(case: &mut MotionCase) -> Result<(), Fault> {
+/// Leaves out the set of measured motion of a resolved case whose angles no wing takes from it: what else it gave is
+/// filled in by now.
+pub(crate) fn leave_out_data(case: &mut Case) {
+    if case.wing.is_empty() || every_wing(case, has_all_angles) {
+        case.motion.data = None;
+    }
+}
+
+/// Frequency and stroke plane of the data set, the latter where some wing `shares_plane`; without a set, wings that do
+/// not beat.
+fn motion(case: &mut MotionCase, shares_plane: bool) -> Result<(), Fault> {
     let data = match &case.data {
         Some(name) => Some(find_data("motion.data", name)?),
         None => None,
     };
     let frequency = data.as_ref().and_then(|d| d.frequency);
-    let pitch = data.as_ref().and_then(|d| d.stroke_plane_pitch);
+    let plane = data.as_ref().filter(|_| shares_plane);
+    let pitch = plane.and_then(|d| d.stroke_plane_pitch);
     case.frequency_hz.decide(frequency.unwrap_or(0.0));
     case.stroke_plane_pitch_deg
         .decide(pitch.unwrap_or(0.0).to_degrees());

@@ -278,13 +278,21 @@ impl CaseSource {
     }
 }
 
-/// Whether a value begins as a list or a table, or is a number, none of which is a text without quotes.
+/// Whether a value begins as a list or a table, or is a number or begins as a negative one, none of which is a text
+/// without quotes.
 fn is_no_word(typed: &str) -> bool {
-    typed.starts_with(['[', '{']) || typed.parse::<f64>().is_ok_and(f64::is_finite)
+    let after_signs = typed.trim_start_matches(['+', '-']);
+    let begins_with_digit = after_signs.starts_with(|c: char| c.is_ascii_digit());
+    let is_signed = after_signs.len() < typed.len();
+    typed.starts_with(['[', '{'])
+        || begins_with_digit && (is_signed || typed.parse::<f64>().is_ok())
 }
 
 /// What is wrong with a value, and where in it.
 fn not_toml(typed: &str, error: &toml::de::Error) -> String {
+    if typed.parse::<f64>().is_ok_and(f64::is_infinite) {
+        return format!("this number is too large: the largest is {:.1e}", f64::MAX);
+    }
     let at = error.span().map_or(0, |s| s.start);
     let at = at.saturating_sub("value = ".len()).min(typed.len());
     let place = match typed.get(at..).unwrap_or_default() {
@@ -453,6 +461,13 @@ pub(crate) fn in_one_line(value: &Value) -> Option<String> {
     match value {
         Value::Table(_) => None,
         Value::Float(x) => Some(format!("{x:?}")),
+        Value::Array(items) if (1..=6).contains(&items.len()) => {
+            let items: Vec<String> = items
+                .iter()
+                .map(|i| in_one_line(i).unwrap_or_else(|| i.to_string()))
+                .collect();
+            Some(format!("[{}]", items.join(", ")))
+        }
         Value::Array(items) if items.len() > 6 => Some(format!("[{} elements]", items.len())),
         other => Some(other.to_string()),
     }

@@ -303,3 +303,16 @@ fn behaves_tables_of_angles_can_be_fitted() {
     );
     assert!(said.contains("motion.phi.table.rows_deg"), "{said}");
 }
+
+/// Lift of next to nothing is neither too little of it nor a push down.
+#[test]
+fn behaves_lift_of_nothing_is_named() {
+    let case = LoadedCase::find("fruit-fly-blade", &["air.density_kg_m3=1e-12".to_owned()]);
+    let doubts = wingbeat_analysis::estimate(&case.unwrap().setup).doubts;
+    let said = doubts.join("\n");
+    assert!(
+        said.contains("it carries nothing: look at stroke"),
+        "{said}"
+    );
+    assert!(!said.contains("it will fall"), "{said}");
+}

@@ -479,3 +479,16 @@ fn refuses_too_many_steps_by_their_number_and_cases_without_a_format() {
     let said = bare.expect_err("no format").to_string();
     assert!(said.contains("add `format = 1`"), "{said}");
 }
+
+/// What begins as a number and is none, or none that a computer has, is not called a text.
+#[test]
+fn refuses_numbers_that_are_too_large_or_none() {
+    for (typed, says) in [
+        ("1e999", "this number is too large: the largest is 1.8e308"),
+        ("-1.8e308", "this number is too large"),
+        ("--1", "this is not TOML"),
+    ] {
+        let said = refusal("fruit-fly-blade", &[&format!("flight.pitch_deg={typed}")]);
+        assert!(said.contains(says) && !said.contains("a text\n"), "{said}");
+    }
+}

@@ -6,6 +6,7 @@ mod attached_wakes;
 mod bodies_in_wind;
 mod common;
 mod counterparts;
+mod data_sets;
 mod defaults;
 mod differences;
 mod heeded;

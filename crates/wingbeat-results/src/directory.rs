@@ -9,8 +9,8 @@ use wingbeat_case::IoError;
 use crate::Outcome;
 use crate::history::is_abandoned;
 use crate::vtp::is_frame;
-pub use crate::whole::{remove_directory, remove_file, write_whole};
-use crate::whole::{remove_left_behind, target_name, was_there};
+pub use crate::whole::{remove_directory, remove_file, remove_left_behind, write_whole};
+use crate::whole::{target_name, was_there};
 
 /// Files a run and its exports may have; `--overwrite` removes these, the frames and the figures, and
 /// nothing else. The manifest comes first and goes last: where it is, there is a run.

@@ -59,8 +59,10 @@ pub(crate) fn half_written(path: &Path) -> std::io::Result<NamedTempFile> {
         builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(PERMISSIONS));
         match builder.tempfile_in(folder_of(path)) {
             Ok(part) if is_kept(&part) => return Ok(part),
+            // Whoever took it for one left behind removes it; another thread may have made a file of its name.
+            Ok(part) => drop(part.keep()),
             Err(e) if e.kind() != ErrorKind::AlreadyExists => return Err(unnamed(e)),
-            _ => {}
+            Err(_) => {}
         }
     }
     unreachable!("some number is free")
@@ -87,7 +89,7 @@ fn is_kept(_: &NamedTempFile) -> bool {
 
 /// Removes half-written files of processes that died from a folder, whose targets are `known` by name. A file that
 /// cannot be removed stays.
-pub(crate) fn remove_left_behind(folder: &Path, known: impl Fn(&str) -> bool) {
+pub fn remove_left_behind(folder: &Path, known: impl Fn(&str) -> bool) {
     for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
         let name = entry.file_name();
         let name = name.to_str().unwrap_or_default();
@@ -98,11 +100,23 @@ pub(crate) fn remove_left_behind(folder: &Path, known: impl Fn(&str) -> bool) {
     }
 }
 
-/// The lock is held until the file is gone: nobody begins to write it meanwhile.
 #[cfg(unix)]
 fn remove_if_left(path: &Path) {
-    if let Ok(file) = fs::File::open(path)
-        && file.try_lock().is_ok()
+    if let Ok(file) = fs::File::open(path) {
+        remove_unlocked(path, &file);
+    }
+}
+
+/// Removes the `file` that was opened at `path` where nobody writes it. Its lock is held until it is gone: nobody
+/// begins to write it meanwhile. Another file may have its name by now, that of a writer who moved his to its place
+/// and began the next: it stays.
+#[cfg(unix)]
+fn remove_unlocked(path: &Path, file: &fs::File) {
+    use std::os::unix::fs::MetadataExt as _;
+    let identity = |m: fs::Metadata| (m.dev(), m.ino());
+    if file.try_lock().is_ok()
+        && let (Ok(opened), Ok(named)) = (file.metadata(), fs::symlink_metadata(path))
+        && identity(opened) == identity(named)
     {
         let _ = fs::remove_file(path); // it stands in nobody's way
     }
@@ -225,6 +239,26 @@ mod tests {
         assert!(wanted.iter().all(|name| is_there(name)));
         drop(parts);
         assert!(!wanted.iter().any(|name| is_there(name)));
+    }
+
+    /// Between the look at a file and its removal its writer moved it to its place and began another of its name.
+    #[cfg(unix)]
+    #[test]
+    fn behaves_a_file_that_took_the_name_of_one_left_behind_stays() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("flight.h5");
+        let first = half_written(&path).unwrap();
+        let name = first.path().to_owned();
+        let seen = fs::File::open(&name).unwrap();
+        drop(first.persist(&path).unwrap());
+        let second = half_written(&path).unwrap();
+        assert_eq!(second.path(), name);
+        remove_unlocked(&name, &seen);
+        assert!(name.exists(), "the file of a writer who lives");
+        drop(second);
+        fs::write(&name, "half").unwrap();
+        remove_if_left(&name);
+        assert!(!name.exists());
     }
 
     #[test]

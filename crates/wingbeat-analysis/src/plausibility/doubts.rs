@@ -98,6 +98,17 @@ const LIFT_DOWN: Limit = Limit {
     ..LIFT
 };
 
+/// Lift over weight below which nothing is carried, neither up nor down.
+const NO_LIFT: f64 = 1e-3;
+
+const LIFT_NONE: Limit = Limit {
+    hints: [
+        "it carries nothing: look at stroke, wingbeat frequency, feathering (psi) and the density of the air",
+        "",
+    ],
+    ..LIFT
+};
+
 /// Tethers carry what the lift does not, but no animal pushes itself down, nor lifts ten of itself.
 const TETHERED_LIFT: Limit = Limit {
     low: -0.1,
@@ -286,6 +297,7 @@ fn free_flight(setup: &FlightSetup, e: &Estimate, list: &mut Doubts) {
     }
     list.see(&WING_LOADING, "wing loading", e.wing_loading, " N/m2");
     let of_lift = match e.lift_over_weight {
+        Some(lift) if lift.abs() < NO_LIFT => &LIFT_NONE,
         Some(lift) if lift < 0.0 => &LIFT_DOWN,
         _ => &LIFT,
     };

@@ -7,7 +7,9 @@ use wingbeat_model::{Wing, mirror_name};
 
 use super::fault::{Built, idle};
 use super::{model_keys, spacing, wingless};
+use crate::data::find_data;
 use crate::error::Fault;
+use crate::own_motion::{every_wing, has_all_angles};
 use crate::raw::{
     AirModel, Case, Formulation, JointCase, Mode, TetherCase, TurnCase, WingCase, WingMeshCase,
 };
@@ -205,34 +207,27 @@ fn motion(case: &Case, source: &CaseSource) -> Built<()> {
             return Err(idle(key, "beside phi, theta and psi"));
         }
     }
-    // A wing that takes its motion from the other side has none of its own.
-    let takes = |name: &str, wing: &WingCase| {
-        let other = mirror_name(name).and_then(|other| case.wing.get(&other));
-        let there = other.and_then(|w| w.motion.as_ref());
-        there.is_some_and(|there| super::motion::takes(wing.motion.as_ref(), there))
-    };
-    let all = |has: &dyn Fn(&WingCase) -> bool| {
-        let moved = case.wing.iter().filter(|(_, w)| w.motion.is_some());
-        let mut whole = moved.filter(|(name, w)| !takes(name, w)).map(|(_, w)| w);
-        whole.clone().count() > 0 && whole.all(has)
-    };
     let every = "beside that of every wing";
-    if case.motion.phase != 0.0 && all(&|w| own(w).phase.is_some()) {
+    if case.motion.phase != 0.0 && every_wing(case, |own| own.phase.is_some()) {
         return Err(idle("motion.phase", every));
     }
+    let gives = |key: &str| source.gives(&format!("motion.{key}"));
+    let own_planes = every_wing(case, |own| own.stroke_plane_pitch_deg.is_some());
     let pitch = case.motion.stroke_plane_pitch_deg.value();
-    if pitch != 0.0
-        && source.gives("motion.stroke_plane_pitch_deg")
-        && all(&|w| own(w).stroke_plane_pitch_deg.is_some())
-    {
+    if pitch != 0.0 && gives("stroke_plane_pitch_deg") && own_planes {
         return Err(idle("motion.stroke_plane_pitch_deg", every));
     }
-    let given = ["motion.frequency_hz", "motion.stroke_plane_pitch_deg"].map(|k| source.gives(k));
-    let angles = |w: &WingCase| own(w).data.is_some() || all_angles(w);
-    if case.motion.data.is_some() && given == [true; 2] && all(&angles) {
+    let Some(name) = case.motion.data.as_deref() else {
+        return Ok(());
+    };
+    let set = find_data("motion.data", name)?;
+    let takes_frequency = set.frequency.is_some() && !gives("frequency_hz");
+    let takes_plane =
+        set.stroke_plane_pitch.is_some() && !gives("stroke_plane_pitch_deg") && !own_planes;
+    if !takes_frequency && !takes_plane && every_wing(case, has_all_angles) {
         return Err(idle(
             "motion.data",
-            "beside frequency, stroke plane and angles of every wing",
+            "where frequency, stroke plane and angles that it has are all given otherwise",
         ));
     }
     Ok(())

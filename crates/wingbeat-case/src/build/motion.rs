@@ -8,6 +8,7 @@ use wingbeat_model::{AngleLaw, AngleLaws, Side, Start, WingMotion};
 use super::fault::Built;
 use crate::data::find_data;
 use crate::error::Fault;
+use crate::own_motion::gives_angles;
 use crate::raw::{
     AngleCase, Case, FourierCase, MotionCase, StartCase, TableCase, WingCase, WingMotionCase,
 };
@@ -60,17 +61,6 @@ fn start(case: &Case, frequency: f64) -> Start {
         },
         _ => Start::Impulsive,
     }
-}
-
-/// Whether a wing of this motion takes what it leaves out from the mirror image of that of its `counterpart`: it gives
-/// no motion, or no angles.
-pub(super) fn takes(own: Option<&WingMotionCase>, counterpart: &WingMotionCase) -> bool {
-    own.is_none_or(|own| !gives_angles(own) && gives_angles(counterpart))
-}
-
-fn gives_angles(motion: &WingMotionCase) -> bool {
-    let angles = [&motion.phi, &motion.theta, &motion.psi];
-    motion.data.is_some() || angles.into_iter().any(Option::is_some)
 }
 
 /// Refuses strokes and feathering that stand still where only the wing on the other side has any.

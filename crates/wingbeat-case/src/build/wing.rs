@@ -9,6 +9,7 @@ use super::numbers::{given_mass, symmetric, vector};
 use super::{deformation, motion, structure};
 use crate::decode::nearest;
 use crate::error::Fault;
+use crate::own_motion::takes;
 use crate::raw::{
     BetaCase, Case, OutlineCase, PlanformCase, RectangleCase, StructureCase, WingCase, WingMeshCase,
 };
@@ -127,7 +128,7 @@ fn motion_of(case: &Case, source: &Source<'_>, side: Side) -> Built<WingMotion> 
     }
     let taken = source.counterpart.filter(|(_, counterpart)| {
         let there = counterpart.motion.as_ref();
-        there.is_some_and(|there| motion::takes(source.own.motion.as_ref(), there))
+        there.is_some_and(|there| takes(source.own.motion.as_ref(), there))
     });
     let base = taken.map(|(name, counterpart)| {
         Ok(motion::law(case, name, counterpart, side.other(), None)?.mirrored())

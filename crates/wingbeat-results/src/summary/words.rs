@@ -10,7 +10,6 @@ use super::impulse::ImpulseBudget;
 use super::last_part::LastPart;
 use super::means::ManyBeats;
 use super::numbers::Summary;
-use super::verdict::Verdict;
 use crate::Outcome;
 use crate::fixed::{fixed, signed, signed_or_power};
 
@@ -19,10 +18,12 @@ impl Summary {
     pub fn to_text(&self) -> String {
         let mut out = format!("{}: {}", self.verdict.word(), self.verdict_reason);
         let drifts = |m: &ManyBeats| !m.is_steady && m.is_known && !m.changes_within_error();
-        if self.verdict == Verdict::Green && self.means.as_ref().is_some_and(drifts) {
-            out.push_str("; the means over its beats are NOT steady");
+        // A reason may end with a question.
+        out.push_str(if out.ends_with('?') { "" } else { "." });
+        if self.means.as_ref().is_some_and(drifts) {
+            out.push_str(" The means over its beats are NOT steady.");
         }
-        out.push_str(".\n");
+        out.push('\n');
         self.headline(&mut out);
         self.beat_table(&mut out);
         self.balances(&mut out);

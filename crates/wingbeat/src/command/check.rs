@@ -200,13 +200,15 @@ fn body(report: &mut Report, setup: &FlightSetup) {
 /// The wings, and what the elastic ones are made of.
 fn wings(report: &mut Report, setup: &FlightSetup) {
     for w in setup.animal.wing_reports() {
+        let (size, name) = unit(w.length);
+        let length = |x: f64| format!("{} {name}", five_digits(x / size));
         entry!(
             report,
             "wing",
             "`{}`: length {}, area {}, mean chord {}, r2_hat {:.3}, mass {:.3e} kg",
             w.name,
             length(w.length),
-            area(w.area),
+            format_args!("{} {name}2", five_digits(w.area / (size * size))),
             length(w.mean_chord),
             w.r2_hat,
             w.mass
@@ -221,19 +223,22 @@ fn wings(report: &mut Report, setup: &FlightSetup) {
     report.value("elastic_wings", values);
 }
 
-/// A length \[m\] in mm, from a metre on in m.
-fn length(size: f64) -> String {
-    match size < 1.0 {
-        true => format!("{:.3} mm", 1e3 * size),
-        false => format!("{size:.3} m"),
-    }
+/// Unit of lengths \[m\] that suits the length of a wing: its size and its name.
+fn unit(length: f64) -> (f64, &'static str) {
+    const UNITS: [(f64, &str); 3] = [(1.0, "m"), (1e-3, "mm"), (1e-6, "um")];
+    let fits = |u: &&(f64, &str)| length >= u.0;
+    UNITS.iter().find(fits).copied().unwrap_or((1e-9, "nm"))
 }
 
-/// An area \[m2\] in mm2, from a hundred square centimetres on in m2.
-fn area(size: f64) -> String {
-    match size < 1e-2 {
-        true => format!("{:.3} mm2", 1e6 * size),
-        false => format!("{size:.4} m2"),
+/// A number with five digits, an exponent where it is far from one.
+fn five_digits(x: f64) -> String {
+    match x.abs() {
+        0.0 => "0".to_owned(),
+        size if (1e-4..1e8).contains(&size) => {
+            let digits = (4 - size.log10().floor() as i32).max(0) as usize;
+            format!("{x:.digits$}")
+        }
+        _ => format!("{x:.4e}"),
     }
 }
 
@@ -288,4 +293,23 @@ fn course(report: &mut Report, setup: &FlightSetup) {
     );
     report.value("steps", time.steps);
     report.value("step_s", time.step);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exact_sizes_have_five_digits_in_the_unit_of_the_wing() {
+        for (length, area, wanted) in [
+            (0.33, 0.033_65, "330.00 mm, 33650 mm2"),
+            (2.5e-3, 1.7475e-6, "2.5000 mm, 1.7475 mm2"),
+            (2.5e-9, 1.7475e-18, "2.5000 nm, 1.7475 nm2"),
+            (12.0, 30.0, "12.000 m, 30.000 m2"),
+        ] {
+            let (size, name) = unit(length);
+            let [x, a] = [length / size, area / (size * size)].map(five_digits);
+            assert_eq!(format!("{x} {name}, {a} {name}2"), wanted);
+        }
+    }
 }

@@ -53,12 +53,19 @@ impl From<Error> for Failure {
     }
 }
 
+/// An error in words for users; that of a case begins with `error:` itself.
+pub(crate) fn in_words(e: &IoError) -> String {
+    match e {
+        IoError::Case(report) => report.to_string(),
+        e => format!("error: {e}"),
+    }
+}
+
 impl Failure {
     /// Tells it; the exit code.
     pub(crate) fn tell(&self) -> u8 {
         match self {
-            Self::Io(IoError::Case(report)) => tell!("{report}"), // begins with `error:` itself
-            Self::Io(e) => tell!("error: {e}"),
+            Self::Io(e) => tell!("{}", in_words(e)),
             Self::Option(problem) => tell!("error: {problem}"),
             Self::Analysis(e) => tell!("error: {e}"),
             Self::Flight(e) => tell!("error: {e}"),

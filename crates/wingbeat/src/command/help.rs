@@ -54,8 +54,8 @@ pub(crate) fn command() -> Command {
     )))
 }
 
-/// Options that take numbers take negative ones: their own range is what is said of these, not that they are no
-/// options.
+/// Options that take numbers take negative ones, `-.2` and `-inf` too: their own range is what is said of these, not
+/// that they are no options.
 fn negative_numbers(command: Command) -> Command {
     let numbers = [
         TypeId::of::<usize>(),
@@ -65,7 +65,9 @@ fn negative_numbers(command: Command) -> Command {
     let of_arg = |arg: Arg| {
         let kind = arg.get_value_parser().type_id();
         let is_option = !arg.is_positional() && arg.get_action().takes_values();
-        match is_option && numbers.iter().any(|n| kind == *n) && !arg.is_allow_hyphen_values_set() {
+        let is_number = numbers.iter().any(|n| kind == *n);
+        match is_option && is_number && !arg.is_allow_hyphen_values_set() {
+            true if kind == TypeId::of::<f64>() => arg.allow_hyphen_values(true),
             true => arg.allow_negative_numbers(true),
             false => arg,
         }

@@ -112,6 +112,12 @@ pub(crate) fn count<const LEAST: usize, const MOST: usize>(text: &str) -> Result
     value.ok_or_else(|| format!("give a whole number from {LEAST} to {MOST}"))
 }
 
+/// The seed of random numbers.
+pub(crate) fn seed(text: &str) -> Result<u64, String> {
+    let value = text.trim().parse();
+    value.map_err(|_| format!("give a whole number from 0 to {}", u64::MAX))
+}
+
 /// One of the `known` names.
 pub(crate) fn choose<T: Copy>(name: &str, known: &[(&'static str, T)]) -> Result<T, String> {
     let found = known.iter().find(|k| k.0 == name);

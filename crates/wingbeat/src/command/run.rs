@@ -10,7 +10,7 @@ use wingbeat::draw::draw_run;
 use wingbeat::flight::{FlightError, Simulation};
 use wingbeat::results::{Outcome, RESULTS, RecordedFlight, ResultDir, Summary, saver};
 
-use crate::command::failure::{FAILED, Failure, INTERRUPTED};
+use crate::command::failure::{self, FAILED, Failure, INTERRUPTED};
 use crate::command::options::{CaseName, RunOptions};
 use crate::command::progress::Progress;
 use crate::command::signals::Interrupts;
@@ -223,8 +223,9 @@ fn fly(options: &RunOptions, mut run: Run, stop: &AtomicBool) -> Result<(), Fail
             return Err(Failure::Told(FAILED));
         }
         Err(e) => {
+            let said = failure::in_words(&e);
             tell!(
-                "error: {e}\nThe flight itself is kept: `wingbeat resume {0}` goes on from its last checkpoint.",
+                "{said}\nThe flight itself is kept: `wingbeat resume {0}` goes on from its last checkpoint.",
                 path.display()
             );
             return Err(Failure::Told(FAILED));

@@ -38,7 +38,7 @@ pub(crate) struct VelocityArgs {
     line: Option<usize>,
     /// Points on the parallelogram with the first `--corner` between the second and third one,
     /// this many along either side: MxN.
-    #[arg(long, value_name = "MxN", value_parser = counts)]
+    #[arg(long, value_name = "MxN", value_parser = counts, allow_hyphen_values = true)]
     plane: Option<[usize; 2]>,
     /// A corner x,y,z: two for a line, three for a plane.
     #[arg(long, value_name = "X,Y,Z", value_parser = place, allow_hyphen_values = true)]

@@ -90,14 +90,23 @@ fn refuses_bad_numbers_in_every_option() {
 #[test]
 fn refuses_negative_numbers_by_their_option() {
     let dir = std::env::temp_dir();
-    for (command, option) in [
-        (&["run", "fruit-fly-blade"][..], "--threads"),
-        (&["ensemble", "fruit-fly-blade"], "--members"),
-        (&["plot", "r"], "--step"),
-        (&["view", "r"], "--size"),
-        (&["campaign", "run", "c.toml"], "--jobs"),
+    let point = &["campaign", "run", "c.toml"][..];
+    for (command, option, value) in [
+        (&["run", "fruit-fly-blade"][..], "--threads", "-1"),
+        (&["ensemble", "fruit-fly-blade"], "--members", "-1"),
+        (&["plot", "r"], "--step", "-1"),
+        (&["view", "r"], "--size", "-1"),
+        (point, "--jobs", "-1"),
+        (point, "--points", "-1"),
+        (point, "--points", "-1..3"),
+        (point, "--shard", "-1/2"),
+        (&["flutter"], "--speeds", "-1:2:3"),
+        (&["velocity", "r"], "--plane", "-4x5"),
+        (&["trim"], "--sideslip", "-inf"),
+        (&["trim"], "--forward", "-400.5"),
+        (&["stabilise", "--tumbles", "3"], "--seed", "-1"),
     ] {
-        let args = [command, &[option, "-1"]].concat();
+        let args = [command, &[option, value]].concat();
         let out = Command::new(env!("CARGO_BIN_EXE_wingbeat"))
             .current_dir(&dir)
             .args(&args)
@@ -105,8 +114,9 @@ fn refuses_negative_numbers_by_their_option() {
         let out = out.unwrap();
         let said = String::from_utf8_lossy(&out.stderr);
         assert_eq!(out.status.code(), Some(2), "{args:?}: {said}");
-        let names = said.contains("invalid value '-1' for") && said.contains(option);
-        assert!(names && !said.contains("'-- -1'"), "{args:?}: {said}");
+        let names = said.contains(&format!("invalid value '{value}' for")) && said.contains(option);
+        let advised = said.contains("give ") && !said.contains("'-- -");
+        assert!(names && advised, "{args:?}: {said}");
     }
 }
 

@@ -28,7 +28,7 @@ pub(crate) struct FlutterArgs {
     #[arg(long = "set", value_name = "KEY=VALUE")]
     set: Vec<String>,
     /// Speeds of the stream, m/s: from, to and their number, or one speed, whose modes are shown.
-    #[arg(long, value_name = "FROM:TO:N", value_parser = options::speeds)]
+    #[arg(long, value_name = "FROM:TO:N", value_parser = options::speeds, allow_hyphen_values = true)]
     speeds: options::Speeds,
     /// Modes of the deformed wing that are disturbed.
     #[arg(long, value_name = "N", default_value_t = FlutterSettings::default().modes,

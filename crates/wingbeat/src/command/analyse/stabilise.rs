@@ -68,7 +68,7 @@ pub(crate) struct StabiliseArgs {
           conflicts_with_all = ["tilt", "sample", "figure"])]
     tumbles: Option<usize>,
     /// The first tumble's seed; the next ones count on [default: 1].
-    #[arg(long, value_name = "SEED", requires = "tumbles")]
+    #[arg(long, value_name = "SEED", requires = "tumbles", value_parser = options::seed)]
     seed: Option<u64>,
 }
 

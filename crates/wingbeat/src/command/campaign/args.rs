@@ -63,10 +63,11 @@ impl Place {
 #[derive(Args, Clone)]
 pub(super) struct Part {
     /// Only the k-th of N equal parts, e.g. 2/8.
-    #[arg(long, value_name = "K/N", value_parser = shard, conflicts_with = "points")]
+    #[arg(long, value_name = "K/N", value_parser = shard, conflicts_with = "points",
+          allow_hyphen_values = true)]
     pub(super) shard: Option<(usize, usize)>,
     /// Only points a to b, b left out; counted from 0.
-    #[arg(long, value_name = "A..B", value_parser = points)]
+    #[arg(long, value_name = "A..B", value_parser = points, allow_hyphen_values = true)]
     pub(super) points: Option<Range<usize>>,
 }
 

@@ -35,6 +35,7 @@ pub(super) fn run(args: &RunArgs) -> Result<(), Failure> {
     let range = args.part.range(campaign.plan().points())?;
     let folder = args.place.folder(&campaign);
     let store = Store::open(&folder, campaign.text())?;
+    store.remove_half_written();
     if args.inspect {
         inspect(&campaign, &store, &(0..campaign.plan().points()))?;
     }
