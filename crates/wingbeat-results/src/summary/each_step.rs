@@ -13,13 +13,16 @@ use super::extent::Extent;
 use super::held::Departures;
 use super::impulse::Parting;
 use super::in_play::InPlay;
+use super::momentum_balance::MomentumBalance;
 
 /// Gathered from all steps of a flight, one after the other.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub(crate) struct EachStep {
     pub(super) steps: usize,
-    /// Energies and momenta, and their residuals.
+    /// Energies and their residual.
     pub(super) in_play: InPlay,
+    /// Momenta and their residual.
+    pub(super) momentum: MomentumBalance,
     /// Whether joints leave something free.
     pub(super) has_free_joints: bool,
     pub(super) driven: DrivenWork,
@@ -81,6 +84,7 @@ impl EachStep {
         self.steps += 1;
         self.motion(r, setup);
         self.in_play.take(r, setup);
+        self.momentum.take(r, setup);
         self.has_free_joints |= !r.joints.is_empty();
         self.driven.take(r);
         self.joints.resize(r.joints.len(), Extent::default());
