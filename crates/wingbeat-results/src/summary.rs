@@ -167,8 +167,7 @@ fn joint_residual(s: &EachStep) -> f64 {
 
 /// Wings that turned over on passive hinges.
 fn turned_over(setup: &FlightSetup, each: &EachStep, list: &mut Warnings) {
-    let ranges = each.joints.iter().map(|q| [q.least, q.highest]);
-    for said in setup.turned_over(&ranges.collect::<Vec<_>>()) {
+    for said in each.turned.found(setup) {
         list.limit(format!("Wings that turn over: {said}."));
     }
 }

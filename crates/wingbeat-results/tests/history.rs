@@ -121,6 +121,7 @@ fn numbers(record: &Record) -> usize {
         passive_work: _,
         positive_work: _,
         dynamic_impulse: _,
+        momentum_residual_of_works: _,
     } = record;
     let lists = coordinates.len() + rates.len() + multipliers.len() + deformation_power.len();
     // Tip (3), twist, four sections (3), elastic energy and its power, that of the air, passes of each; what
