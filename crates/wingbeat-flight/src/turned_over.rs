@@ -132,21 +132,19 @@ fn said(setup: &FlightSetup, wing: &Wing, turn: &Turn, hinge: &Joint) -> String 
 
 /// The passive joint that feathers the body `child`, nearest to it between it and the central body.
 fn feathering_hinge(joints: &[Joint], mut child: usize) -> Option<&Joint> {
-    let mut span = DVec3::Y;
     for _ in joints {
         let joint = joints.iter().find(|joint| joint.child == child)?;
-        if (0..joint.model.kind.directions()).any(|k| feathers(joint, k, span)) {
+        if (0..joint.model.kind.directions()).any(|k| feathers(joint, k)) {
             return Some(joint);
         }
-        span = joint.rotation(0.0).c * span;
         child = joint.parent.filter(|&parent| parent > 0)?;
     }
     None
 }
 
-/// Whether the chord turns about the free direction `k`, with the span along `span` in child components, and no drive
-/// acts along it.
-fn feathers(joint: &Joint, k: usize, span: DVec3) -> bool {
+/// Whether the chord turns about the free direction `k` and no drive acts along it. Where no stroke turns it, the span
+/// lies along axis 2 of all that carries the wing.
+fn feathers(joint: &Joint, k: usize) -> bool {
     let axis = match joint.model.kind {
         JointType::Revolute { axis } => axis,
         JointType::Universal { axes } => axes[k],
@@ -163,7 +161,7 @@ fn feathers(joint: &Joint, k: usize, span: DVec3) -> bool {
                 ElementLaw::Effort(_) | ElementLaw::Follow { .. }
             )
         });
-    !is_driven && axis.dot(span).abs() >= ALONG_SPAN * axis.length()
+    !is_driven && axis.y.abs() >= ALONG_SPAN * axis.length()
 }
 
 /// Stroke angle phi and feathering angle psi of a wing with the Euler angles `eta` \[rad\] in its stroke-plane frame.

@@ -133,7 +133,7 @@ fn numbers(record: &Record) -> usize {
     let passive = 2 * joints.len().min(1); // power and work of springs, dampers and stops
     let reactions = 7 * (hinges.len() + loops.len()) + 2 * joints.len() + passive;
     let loads = 6 * (air.len() + applied.len() + 1);
-    let (scalars, own_vectors) = (22, 15);
+    let (scalars, own_vectors) = (22, 16);
     lists
         + elastic
         + vectors

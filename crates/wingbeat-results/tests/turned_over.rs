@@ -9,7 +9,7 @@ const SOFT: &str = "{ stiffness_newton_m_per_rad = 2.4e-6, damping_newton_m_s_pe
 
 /// The robot bee in blade elements with other hinges.
 fn fly(set: &[&str]) -> Summary {
-    let blades = ["air.model=blade_element", "time.beats=3"];
+    let blades = ["air.model=blade_element"];
     flown(&preset("robobee", &[&blades, set].concat()))
 }
 
@@ -65,6 +65,7 @@ fn behaves_wings_that_turn_over_with_what_carries_them_are_named() {
         "segment.spar={mass_kg=1e-8,centre_m=[0,0,0],inertia_about_centre_kg_m2=[1e-16,1e-16,1e-16,0,0,0]}",
         "joint.hinge-right=",
         "joint.a={child=\"spar\",at_m=[0,2e-3,-5e-3],kind=\"revolute\",axis=[0,1,0],element=[{stiffness_newton_m_per_rad=2.4e-6,damping_newton_m_s_per_rad=2e-10}]}",
+        "time.beats=2",
         "joint.b={child=\"right\",parent=\"spar\"}",
     ]);
     assert!(names_turned(&carried), "{:?}", carried.warnings);
