@@ -1,12 +1,12 @@
 //! Wings that turn over on passive hinges in a trimmed flight.
 
-use wingbeat_flight::{FlightSetup, Past, Simulation};
+use wingbeat_flight::{FlightSetup, Past, Simulation, TurnedOver};
 
 use crate::AnalysisError;
 use crate::trim::Trim;
 use crate::wake::WakeTrim;
 
-/// Which wings turn over on a passive hinge in the trimmed wingbeat, see [`FlightSetup::turned_over`].
+/// Which wings turn over on a passive hinge in the trimmed wingbeat, see [`TurnedOver::found`].
 ///
 /// # Errors
 /// What the flight reports.
@@ -36,15 +36,12 @@ fn in_free_beat(
         true => Simulation::new(setup.clone())?,
         false => Simulation::after(setup.clone(), past)?,
     };
-    let mut ranges = vec![[f64::INFINITY, f64::NEG_INFINITY]; flight.record().joints.len()];
+    let mut turned = TurnedOver::default();
     for step in 0..setup.time.steps {
         let record = flight.step()?;
-        if step < held {
-            continue;
-        }
-        for ([least, most], [angle, _]) in ranges.iter_mut().zip(&record.joints) {
-            (*least, *most) = (least.min(*angle), most.max(*angle));
+        if step >= held {
+            turned.take(record, setup);
         }
     }
-    Ok(setup.turned_over(&ranges))
+    Ok(turned.found(setup))
 }

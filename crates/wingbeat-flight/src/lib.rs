@@ -81,3 +81,4 @@ pub use record::{
 pub use recorder::Ledger;
 pub use setup::*;
 pub use simulation::{FlightState, Past, Simulation};
+pub use turned_over::TurnedOver;

@@ -3,10 +3,10 @@
 use wingbeat_math::DVec3;
 
 /// Quadratures appended to the state of the core.
-pub const QUADRATURES: usize = 11;
+pub const QUADRATURES: usize = 14;
 
-/// Which of them are works.
-pub(crate) const WORKS: [usize; 5] = [0, 1, 2, 9, 10];
+/// Which of them are works, and the impulse that is integrated as they are.
+pub(crate) const WORKS: [usize; 8] = [0, 1, 2, 9, 10, 11, 12, 13];
 
 /// Works and impulses since the start.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -27,6 +27,10 @@ pub struct Quadratures {
     pub deformation_work: f64,
     /// Energy that dampers and stops of joints took up [J].
     pub dissipated: f64,
+    /// Impulse of all external forces, weight included, integrated as the works are, N components [N s]: where
+    /// correctors follow the motion to a tolerance, [`Self::impulse`] has the loads of their passes, works those of
+    /// the accepted state. Seen from a frame of velocity u, works are less by u times this one.
+    pub impulse_of_works: DVec3,
 }
 
 impl Quadratures {
@@ -41,6 +45,7 @@ impl Quadratures {
             angular_impulse: DVec3::new(q[6], q[7], q[8]),
             deformation_work: q[9],
             dissipated: q[10],
+            impulse_of_works: DVec3::new(q[11], q[12], q[13]),
         }
     }
 
@@ -48,6 +53,7 @@ impl Quadratures {
     pub(crate) fn write(&self, y: &mut [f64]) {
         let n = y.len() - QUADRATURES;
         let (f, m) = (self.impulse, self.angular_impulse);
+        let w = self.impulse_of_works;
         y[n..].copy_from_slice(&[
             self.hinge_work,
             self.air_work,
@@ -60,6 +66,9 @@ impl Quadratures {
             m.z,
             self.deformation_work,
             self.dissipated,
+            w.x,
+            w.y,
+            w.z,
         ]);
     }
 }

@@ -88,6 +88,9 @@ pub struct Record {
     pub angular_momentum: DVec3,
     /// Momentum residual, N components: momentum - start - impulse of all external forces [kg m/s].
     pub momentum_residual: DVec3,
+    /// The same with the impulse integrated as the works are, N components [kg m/s]: in a frame of velocity u the
+    /// energy residual is less by u times this one. Not a number of results that do not say it.
+    pub momentum_residual_of_works: DVec3,
     /// The same for angular momentum about the inertial origin, N components [kg m2/s].
     pub angular_momentum_residual: DVec3,
     /// Largest violation of a connection constraint phi_1..6 [m].

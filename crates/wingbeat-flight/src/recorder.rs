@@ -179,6 +179,7 @@ impl Sources<'_> {
         r.momentum = budget.momentum;
         r.angular_momentum = about_origin(budget);
         r.momentum_residual = budget.momentum - ledger.momentum - work.impulse;
+        r.momentum_residual_of_works = budget.momentum - ledger.momentum - work.impulse_of_works;
         r.angular_momentum_residual =
             r.angular_momentum - ledger.angular_momentum - work.angular_impulse;
     }

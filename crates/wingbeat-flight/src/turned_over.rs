@@ -1,65 +1,150 @@
 //! Wings that turn over on a passive hinge.
 //!
-//! A hinge along the span lets the air feather the wing: it is blown back by up to 90 deg from where its spring has
-//! no moment, and stands edge on to the air there. Farther on the chord points the other way, the lower side leads, and
-//! the force of a translating wing has another sign; a real hinge has struck its stop, or the body, before.
+//! A hinge along the span lets the air feather the wing: it is blown back by up to 90 deg from where it stands upright
+//! on its stroke plane (psi = 0), and stands edge on to its stroke there. Farther on the chord points the other way,
+//! the lower side leads, and the force of a translating wing has another sign; a real hinge has struck its stop, or
+//! the body, before. What counts is the chord, whatever joints turn it. A wing that makes no strokes has no side that
+//! leads: it has turned over where its chord turns through more than half a circle.
 
-use std::f64::consts::FRAC_PI_2;
+use std::f64::consts::{FRAC_PI_2, FRAC_PI_6, PI, TAU};
 
+use serde::{Deserialize, Serialize};
 use wingbeat_dynamics::{ElementLaw, Joint, JointType, Mechanism};
-use wingbeat_math::DVec3;
+use wingbeat_math::{DVec3, EulerSequence, larger, smaller};
+use wingbeat_model::Wing;
 
 use crate::bodies::system_of;
-use crate::setup::FlightSetup;
+use crate::record::Record;
+use crate::setup::{AirModel, FlightSetup};
 
 /// Cosine of the angle between an axis and the span up to which the chord turns about it \[1\]: 45 deg.
 const ALONG_SPAN: f64 = std::f64::consts::FRAC_1_SQRT_2;
 
-impl FlightSetup {
-    /// Says which wings turned over on a passive hinge: by more than 90 deg from its rest, about an axis along the
-    /// span. `ranges`: least and largest coordinate along every free direction of every joint \[rad or m\], in the
-    /// order of [`crate::Record::joints`].
-    pub fn turned_over(&self, ranges: &[[f64; 2]]) -> Vec<String> {
-        if ranges.is_empty() {
-            return vec![];
-        }
-        let Ok(system) = system_of(self) else {
-            return vec![];
-        };
-        let mechanism = Mechanism::of(&system);
-        let joints = mechanism.joints().iter();
-        let directions =
-            joints.flat_map(|joint| (0..joint.model.kind.directions()).map(move |k| (joint, k)));
-        let found = directions
-            .zip(ranges)
-            .filter_map(|((joint, k), range)| self.turned(joint, k, *range));
-        found.collect()
+/// Range of the stroke angle from which on a wing strokes \[rad\].
+const STROKE: f64 = FRAC_PI_6;
+
+/// How a wing was turned in its stroke-plane frame.
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
+struct Turn {
+    /// Feathering angle psi at the last step, without jumps \[rad\].
+    last: f64,
+    /// Least and largest stroke angle phi and feathering angle psi \[rad\].
+    phi: [f64; 2],
+    psi: [f64; 2],
+}
+
+impl Turn {
+    fn farthest(&self) -> f64 {
+        larger(self.psi[1], -self.psi[0])
     }
 
-    /// The same of the free direction `k` of a joint.
-    fn turned(&self, joint: &Joint, k: usize, range: [f64; 2]) -> Option<String> {
-        let wing = joint.child.checked_sub(1)?;
-        let wing = self.animal.wings.get(wing)?;
-        let rest = rest(joint, k)?;
-        let from_rest = range.map(|angle| angle - rest);
-        let farthest = match from_rest[1] > -from_rest[0] {
-            true => from_rest[1],
-            false => from_rest[0],
-        };
-        (turns_chord(joint, k) && farthest.abs() > FRAC_PI_2).then(|| {
-            format!(
-                "wing `{}` turned by {:.0} deg from the rest of its hinge (joint `{}`), and beyond 90 deg its chord points the other way and its lower side leads: give the hinge a stop, a stiffer one, or a stiffer spring ([[joint.{}.element]])",
-                wing.name,
-                farthest.to_degrees(),
-                joint.name,
-                joint.name
-            )
-        })
+    fn strokes(&self) -> bool {
+        self.phi[1] - self.phi[0] > STROKE
+    }
+
+    fn is_over(&self) -> bool {
+        match self.strokes() {
+            true => self.farthest() > FRAC_PI_2,
+            false => self.psi[1] - self.psi[0] > PI,
+        }
     }
 }
 
-/// Whether the chord of the child turns about the free direction `k`.
-fn turns_chord(joint: &Joint, k: usize) -> bool {
+/// Gathered step by step: how far the chord of every wing turned.
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
+pub struct TurnedOver {
+    wings: Vec<Turn>,
+}
+
+impl TurnedOver {
+    /// Takes the next step of a flight of `setup`.
+    pub fn take(&mut self, r: &Record, setup: &FlightSetup) {
+        let is_first = self.wings.is_empty();
+        for (k, wing) in setup.animal.wings.iter().enumerate() {
+            let Some(eta) = r.coordinates.get(6 * k + 9..6 * k + 12) else {
+                return;
+            };
+            let [phi, psi] = angles(r, wing, DVec3::from_slice(eta));
+            match self.wings.get_mut(k) {
+                Some(turn) => {
+                    let psi = psi + TAU * ((turn.last - psi) / TAU).round();
+                    turn.last = psi;
+                    turn.phi = wider(turn.phi, phi);
+                    turn.psi = wider(turn.psi, psi);
+                }
+                None if is_first => self.wings.push(Turn {
+                    last: psi,
+                    phi: [phi; 2],
+                    psi: [psi; 2],
+                }),
+                None => return,
+            }
+        }
+    }
+
+    /// Says which wings turned over on a passive hinge: by more than 90 deg from upright on their stroke plane, or
+    /// without strokes through more than 180 deg.
+    pub fn found(&self, setup: &FlightSetup) -> Vec<String> {
+        if !self.wings.iter().any(Turn::is_over) {
+            return vec![];
+        }
+        let Ok(system) = system_of(setup) else {
+            return vec![];
+        };
+        let mechanism = Mechanism::of(&system);
+        let wings = setup.animal.wings.iter().zip(&self.wings).enumerate();
+        let over = wings.filter(|(_, (_, turn))| turn.is_over());
+        let found = over.filter_map(|(k, (wing, turn))| {
+            let hinge = feathering_hinge(mechanism.joints(), k + 1)?;
+            Some(said(setup, wing, turn, hinge))
+        });
+        found.collect()
+    }
+}
+
+/// The sentence.
+fn said(setup: &FlightSetup, wing: &Wing, turn: &Turn, hinge: &Joint) -> String {
+    let (wing, name) = (&wing.name, &hinge.name);
+    let turned = match turn.strokes() {
+        true => format!(
+            "turned by {:.0} deg from upright on its stroke plane (joint `{name}`), and beyond 90 deg its chord points the other way",
+            turn.farthest().to_degrees()
+        ),
+        false => format!(
+            "turned through {:.0} deg on its hinge (joint `{name}`), more than half a circle",
+            (turn.psi[1] - turn.psi[0]).to_degrees()
+        ),
+    };
+    let leads = match (&setup.air, turn.strokes()) {
+        (AirModel::None, _) | (_, false) => "",
+        _ => " and its lower side leads",
+    };
+    let has_stops =
+        (hinge.model.elements.iter()).any(|element| matches!(element.law, ElementLaw::Stop { .. }));
+    let stop = match has_stops {
+        true => "narrower or stiffer stops",
+        false => "a stop",
+    };
+    format!(
+        "wing `{wing}` {turned}{leads}: give the hinge {stop}, or a stiffer spring ([[joint.{name}.element]])"
+    )
+}
+
+/// The passive joint that feathers the body `child`, nearest to it between it and the central body.
+fn feathering_hinge(joints: &[Joint], mut child: usize) -> Option<&Joint> {
+    for _ in joints {
+        let joint = joints.iter().find(|joint| joint.child == child)?;
+        if (0..joint.model.kind.directions()).any(|k| feathers(joint, k)) {
+            return Some(joint);
+        }
+        child = joint.parent.filter(|&parent| parent > 0)?;
+    }
+    None
+}
+
+/// Whether the chord turns about the free direction `k` and no drive acts along it. Where no stroke turns it, the span
+/// lies along axis 2 of all that carries the wing.
+fn feathers(joint: &Joint, k: usize) -> bool {
     let axis = match joint.model.kind {
         JointType::Revolute { axis } => axis,
         JointType::Universal { axes } => axes[k],
@@ -68,26 +153,27 @@ fn turns_chord(joint: &Joint, k: usize) -> bool {
             return false;
         }
     };
-    axis.y.abs() >= ALONG_SPAN * axis.length()
+    let is_driven = (joint.model.elements.iter())
+        .filter(|element| element.direction == k)
+        .any(|element| {
+            matches!(
+                element.law,
+                ElementLaw::Effort(_) | ElementLaw::Follow { .. }
+            )
+        });
+    !is_driven && axis.y.abs() >= ALONG_SPAN * axis.length()
 }
 
-/// Where the springs along the free direction `k` have no moment together \[rad or m\], without springs where the
-/// coordinate is 0; none where a drive acts along it.
-fn rest(joint: &Joint, k: usize) -> Option<f64> {
-    let own = (joint.model.elements.iter()).filter(|element| element.direction == k);
-    let (mut stiffness, mut moment) = (0.0, 0.0);
-    for element in own {
-        match &element.law {
-            ElementLaw::Spring { stiffness: k, rest } => {
-                stiffness += k;
-                moment += k * rest;
-            }
-            ElementLaw::Effort(_) | ElementLaw::Follow { .. } => return None,
-            ElementLaw::Damper { .. } | ElementLaw::Stop { .. } => {}
-        }
-    }
-    Some(match stiffness > 0.0 {
-        true => moment / stiffness,
-        false => 0.0,
-    })
+/// Stroke angle phi and feathering angle psi of a wing with the Euler angles `eta` \[rad\] in its stroke-plane frame.
+fn angles(r: &Record, wing: &Wing, eta: DVec3) -> [f64; 2] {
+    let plane = DVec3::new(wing.motion.stroke_plane_pitch, 0.0, 0.0);
+    let plane = EulerSequence::BODY_231.rotation(plane); // phi of the body is about axis 2
+    let wings = EulerSequence::WING_132;
+    let relative = (r.root_rotation() * plane).transpose() * wings.rotation(eta);
+    let angles = wings.angles(relative);
+    [angles.x, angles.z]
+}
+
+fn wider([least, most]: [f64; 2], value: f64) -> [f64; 2] {
+    [smaller(least, value), larger(most, value)]
 }

@@ -15,6 +15,7 @@ mod in_play;
 mod last_part;
 mod listed;
 mod means;
+mod momentum_balance;
 mod numbers;
 mod per_beat;
 mod statistics;
@@ -25,7 +26,7 @@ mod words;
 use std::path::Path;
 
 use wingbeat_flight::{AirModel, FlightSetup, Record};
-use wingbeat_math::smaller;
+use wingbeat_math::{larger, smaller};
 
 use super::Outcome;
 pub use beats::{BeatMeans, Beats, down, over_weight};
@@ -101,6 +102,10 @@ impl Summary {
     ) -> Self {
         let each = &s.each;
         let is_lattice = matches!(setup.air, AirModel::VortexLattice(_));
+        let momentum = [
+            each.momentum.held_residual(setup),
+            each.momentum.free_residual(setup),
+        ];
         let tells_of_edges = is_lattice && !s.leading_rings.is_nan();
         let mut summary = Self {
             case: setup.name.clone(),
@@ -116,7 +121,7 @@ impl Summary {
             turn_deg: [3, 4, 5].map(|k| s.change(k).to_degrees()),
             energy_residual_relative: each.in_play.energy_residual(setup),
             joint_residual_relative: joint_residual(each),
-            momentum_residual_relative: each.in_play.momentum_residual(setup),
+            momentum_residual_relative: larger(momentum[0], momentum[1]),
             violation_position_m: each.violation_position.most,
             violation_orientation: each.violation_orientation.most,
             euler_regularity: smaller(each.euler_regularity.least, 1.0),
@@ -137,7 +142,7 @@ impl Summary {
             last_part: s.bounds.ended_by(&s.last, setup),
             beats: s.beats,
         };
-        let mut warnings = trust::warnings(setup, &summary);
+        let mut warnings = trust::warnings(setup, &summary, momentum);
         bent::warnings(setup, &s.each.bent, &mut warnings);
         turned_over(setup, &s.each, &mut warnings);
         trust::flown_crossings(
@@ -162,8 +167,7 @@ fn joint_residual(s: &EachStep) -> f64 {
 
 /// Wings that turned over on passive hinges.
 fn turned_over(setup: &FlightSetup, each: &EachStep, list: &mut Warnings) {
-    let ranges = each.joints.iter().map(|q| [q.least, q.highest]);
-    for said in setup.turned_over(&ranges.collect::<Vec<_>>()) {
+    for said in each.turned.found(setup) {
         list.limit(format!("Wings that turn over: {said}."));
     }
 }

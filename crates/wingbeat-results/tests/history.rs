@@ -121,6 +121,7 @@ fn numbers(record: &Record) -> usize {
         passive_work: _,
         positive_work: _,
         dynamic_impulse: _,
+        momentum_residual_of_works: _,
     } = record;
     let lists = coordinates.len() + rates.len() + multipliers.len() + deformation_power.len();
     // Tip (3), twist, four sections (3), elastic energy and its power, that of the air, passes of each; what
@@ -132,7 +133,7 @@ fn numbers(record: &Record) -> usize {
     let passive = 2 * joints.len().min(1); // power and work of springs, dampers and stops
     let reactions = 7 * (hinges.len() + loops.len()) + 2 * joints.len() + passive;
     let loads = 6 * (air.len() + applied.len() + 1);
-    let (scalars, own_vectors) = (22, 15);
+    let (scalars, own_vectors) = (22, 16);
     lists
         + elastic
         + vectors

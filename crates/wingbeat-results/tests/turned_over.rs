@@ -1,28 +1,73 @@
 //! What the summary says of wings that turn over on passive hinges.
 
+use wingbeat_results::Summary;
 use wingbeat_results::summary::Verdict;
 
 use crate::flights::{flown, preset, says};
 
-/// The hinge of a robot bee without its stop, as soft as that the air turns the wing over at mid stroke, and as stiff as
-/// that it turns it by less than 90 deg.
+const SOFT: &str = "{ stiffness_newton_m_per_rad = 2.4e-6, damping_newton_m_s_per_rad = 2e-9 }";
+
+/// The robot bee in blade elements with other hinges.
+fn fly(set: &[&str]) -> Summary {
+    let blades = ["air.model=blade_element"];
+    flown(&preset("robobee", &[&blades, set].concat()))
+}
+
+fn names_turned(s: &Summary) -> bool {
+    let turned = says(s, "Wings that turn over");
+    assert!(!turned || s.verdict >= Verdict::Amber);
+    turned
+}
+
+/// A hinge with a spring \[N m/rad\] and without a stop.
+fn hinge(stiffness: &str) -> String {
+    format!(
+        "joint.hinge-right.element=[{{ stiffness_newton_m_per_rad = {stiffness}, damping_newton_m_s_per_rad = 2e-10 }}]"
+    )
+}
+
+/// The hinge without its stop, as soft as that the air turns the wing over at mid stroke, and as stiff as that it turns
+/// it by less than 90 deg.
 #[test]
 fn behaves_wings_that_turn_over_on_their_hinges_are_named() {
-    let fly = |stiffness: &str| {
-        let element = format!(
-            "joint.hinge-right.element=[{{ stiffness_newton_m_per_rad = {stiffness}, damping_newton_m_s_per_rad = 2e-10 }}]"
+    let soft = fly(&[&hinge("2.4e-6")]);
+    assert!(names_turned(&soft), "{:?}", soft.warnings);
+    assert!(says(&soft, "give the hinge a stop"), "{:?}", soft.warnings);
+    let stiff = fly(&[&hinge("2e-5")]);
+    assert!(!names_turned(&stiff), "{:?}", stiff.warnings);
+}
+
+/// The chord counts, not the coordinate of the hinge: a wing that is mounted at 45 deg turns over by 62 deg more, and is
+/// upright where its hinge has turned by -45.
+#[test]
+fn behaves_wings_turn_over_by_their_chords_wherever_the_rest_of_their_hinges_is() {
+    let mounted = |lower: f64, upper: f64| {
+        let stop = format!(
+            "joint.hinge-right.element=[{SOFT},{{ stop = {{ lower_deg = {lower}, upper_deg = {upper}, stiffness_newton_m_per_rad = 5e-4, damping_s_per_rad = 1e-3 }} }}]"
         );
-        let set = [&element, "air.model=blade_element", "time.beats=3"];
-        flown(&preset("robobee", &set))
+        fly(&[
+            &stop,
+            "wing.right.motion.psi.constant_deg=45",
+            "time.steps_per_beat=320",
+        ])
     };
-    let soft = fly("2.4e-6");
-    assert!(says(&soft, "turned by"), "{:?}", soft.warnings);
-    assert!(
-        says(&soft, "from the rest of its hinge"),
-        "{:?}",
-        soft.warnings
-    );
-    assert!(soft.verdict >= Verdict::Amber);
-    let stiff = fly("2e-5");
-    assert!(!says(&stiff, "from the rest"), "{:?}", stiff.warnings);
+    let over = mounted(-80.0, 80.0);
+    assert!(names_turned(&over), "{:?}", over.warnings);
+    assert!(says(&over, "stiffer stops"), "{:?}", over.warnings);
+    let upright = mounted(-120.0, 30.0);
+    assert!(!names_turned(&upright), "{:?}", upright.warnings);
+}
+
+/// A wing that is welded to a spar which hangs on the hinge.
+#[test]
+fn behaves_wings_that_turn_over_with_what_carries_them_are_named() {
+    let carried = fly(&[
+        "segment.spar={mass_kg=1e-8,centre_m=[0,0,0],inertia_about_centre_kg_m2=[1e-16,1e-16,1e-16,0,0,0]}",
+        "joint.hinge-right=",
+        "joint.a={child=\"spar\",at_m=[0,2e-3,-5e-3],kind=\"revolute\",axis=[0,1,0],element=[{stiffness_newton_m_per_rad=2.4e-6,damping_newton_m_s_per_rad=2e-10}]}",
+        "time.beats=2",
+        "joint.b={child=\"right\",parent=\"spar\"}",
+    ]);
+    assert!(names_turned(&carried), "{:?}", carried.warnings);
+    assert!(says(&carried, "joint `a`"), "{:?}", carried.warnings);
 }

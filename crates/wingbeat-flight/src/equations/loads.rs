@@ -218,6 +218,7 @@ impl Equations {
             angular_impulse,
             deformation_work: deformation,
             dissipated: s.dissipation,
+            impulse_of_works: impulse,
         }
     }
 }

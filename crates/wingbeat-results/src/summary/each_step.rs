@@ -2,7 +2,7 @@
 //! part, passes of the corrector, forces that turn back, wings that pass through each other, departures under feedback.
 
 use serde::{Deserialize, Serialize};
-use wingbeat_flight::{FlightSetup, Record};
+use wingbeat_flight::{FlightSetup, Record, TurnedOver};
 use wingbeat_math::{DVec3, EulerSequence};
 use wingbeat_model::FlownCrossings;
 
@@ -13,18 +13,21 @@ use super::extent::Extent;
 use super::held::Departures;
 use super::impulse::Parting;
 use super::in_play::InPlay;
+use super::momentum_balance::MomentumBalance;
 
 /// Gathered from all steps of a flight, one after the other.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub(crate) struct EachStep {
     pub(super) steps: usize,
-    /// Energies and momenta, and their residuals.
+    /// Energies and their residual.
     pub(super) in_play: InPlay,
+    /// Momenta and their residual.
+    pub(super) momentum: MomentumBalance,
     /// Whether joints leave something free.
     pub(super) has_free_joints: bool,
     pub(super) driven: DrivenWork,
-    /// Coordinates along the free directions of joints [rad or m].
-    pub(super) joints: Vec<Extent>,
+    /// Chords of the wings.
+    pub(super) turned: TurnedOver,
     pub(super) violation_position: Extent,
     pub(super) violation_orientation: Extent,
     pub(super) euler_regularity: Extent,
@@ -81,11 +84,12 @@ impl EachStep {
         self.steps += 1;
         self.motion(r, setup);
         self.in_play.take(r, setup);
+        self.momentum.take(r, setup);
         self.has_free_joints |= !r.joints.is_empty();
         self.driven.take(r);
-        self.joints.resize(r.joints.len(), Extent::default());
-        let joints = self.joints.iter_mut().zip(&r.joints);
-        joints.for_each(|(extent, [q, _])| extent.take(*q));
+        if self.has_free_joints {
+            self.turned.take(r, setup);
+        }
         self.violation_position.take(r.violation_position);
         self.violation_orientation.take(r.violation_orientation);
         self.euler_regularity.take(r.euler_regularity);

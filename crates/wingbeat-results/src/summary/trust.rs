@@ -35,10 +35,11 @@ const SMOOTH: f64 = 5e-5;
 /// order in the step, 3e-6 at 320 steps a beat.
 const ELASTIC_MOMENTUM: f64 = 1e-4;
 
-/// What a reader should know before using the numbers.
-pub(super) fn warnings(setup: &FlightSetup, summary: &Summary) -> Warnings {
+/// What a reader should know before using the numbers. `momentum`: residuals of the momentum while a support has the
+/// body and in free flight \[1\].
+pub(super) fn warnings(setup: &FlightSetup, summary: &Summary, momentum: [f64; 2]) -> Warnings {
     let mut list = Warnings::default();
-    balances(setup, summary, &mut list);
+    balances(setup, summary, momentum, &mut list);
     passive_joints(summary, &mut list);
     let masses = wingbeat_flight::doubtful_masses(setup);
     masses.into_iter().for_each(|text| list.limit(text));
@@ -210,41 +211,37 @@ fn feedback(setup: &FlightSetup, summary: &Summary, list: &mut Warnings) {
 
 /// A balance worse than it should be. Without a wake the motion is smooth; a wake's loads jump where it starts
 /// and where it is regularised, and elastic wings are of second order in the step. The momentum of a tethered
-/// animal, or of one held at first, follows from its prescribed motion: what is open there is the quadrature of
+/// animal, or of one while it is held, follows from its prescribed motion: what is open there is the quadrature of
 /// the support's reaction, which measures how well the steps follow that motion.
-fn balances(setup: &FlightSetup, summary: &Summary, list: &mut Warnings) {
+fn balances(setup: &FlightSetup, summary: &Summary, momentum: [f64; 2], list: &mut Warnings) {
     let is_smooth = !setup.air.keeps_wake() && !setup.animal.is_elastic();
     let energy = if is_smooth { SMOOTH } else { OPEN };
-    let is_held = match &setup.mode {
-        MotionMode::Tethered(_) => true,
-        MotionMode::Free(start) => start.held_steps > 0,
-    };
-    let momentum = match is_held {
-        true => HELD,
-        false => [momentum_tolerance(setup), OPEN],
-    };
     // Through samples that scatter wings beat with the noise, which smaller steps follow.
-    let advice = match setup.scattered_angles().is_empty() {
-        true => "take smaller steps before trusting the motion",
-        false => "the samples of wing angles scatter, which smaller steps do not mend",
-    };
-    let advice = match is_free_and_elastic_by_momenta(setup) {
-        true => {
+    let scatters = !setup.scattered_angles().is_empty();
+    let scattered = "the samples of wing angles scatter, which smaller steps do not mend";
+    let motion = match (is_free_and_elastic_by_momenta(setup), scatters) {
+        (true, _) => {
             "take smaller steps, or dynamics.formulation = \"euler\", before trusting the motion"
         }
-        false => advice,
+        (false, true) => scattered,
+        (false, false) => "take smaller steps before trusting the motion",
     };
+    let reaction = match scatters {
+        true => scattered,
+        false => "take smaller steps before trusting the reaction of the support",
+    };
+    let [held, free] = momentum;
     let balances = [
-        ("energy", summary.energy_residual_relative, [energy, OPEN]),
-        ("momentum", summary.momentum_residual_relative, momentum),
+        (
+            "energy",
+            summary.energy_residual_relative,
+            [energy, OPEN],
+            motion,
+        ),
+        ("momentum", held, HELD, reaction),
+        ("momentum", free, [momentum_tolerance(setup), OPEN], motion),
     ];
-    for (what, residual, [tolerance, open]) in balances {
-        let advice = match (what, is_held) {
-            ("momentum", true) if setup.scattered_angles().is_empty() => {
-                "take smaller steps before trusting the reaction of the support"
-            }
-            _ => advice,
-        };
+    for (what, residual, [tolerance, open], advice) in balances {
         let text = format!(
             "The {what} balance does not close: residual {residual:.1e} (tolerance {tolerance:.0e}); {advice}."
         );

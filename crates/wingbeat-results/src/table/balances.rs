@@ -80,6 +80,14 @@ pub(super) const MOMENTA: &[Quantity] = &[
     )
     .along(Inertial, Frame::Inertial),
     scalar(
+        "momentum_residual_of_works_{c}",
+        Unit::Momentum,
+        "momentum less that of the start less the impulse of all external forces as works are integrated: in a frame of velocity u the energy residual is less by u times this one",
+        |r, _, c| Real(&mut r.momentum_residual_of_works[c]),
+    )
+    .along(Inertial, Frame::Inertial)
+    .new_here(),
+    scalar(
         "angular_momentum_residual_{c}",
         Unit::AngularMomentum,
         "the same for angular momentum",
