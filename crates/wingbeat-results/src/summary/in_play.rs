@@ -18,8 +18,7 @@ use wingbeat_flight::{FlightSetup, MotionMode, Record};
 use wingbeat_math::{DVec3, larger};
 
 use super::extent::Extent;
-pub(super) use super::momentum_balance::ratio;
-use super::momentum_balance::{ROUNDING, body_motion, is_supported, moving, velocity};
+use super::momentum_balance::{ROUNDING, body_motion, is_supported, moving, ratio, velocity};
 
 /// Where a flight begins: velocity of C \[m/s\] and momentum [kg m/s], N components, time \[s\].
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]

@@ -131,7 +131,7 @@ impl MomentumBalance {
     }
 }
 
-pub(in crate::summary) fn ratio(x: f64, scale: f64) -> f64 {
+pub(super) fn ratio(x: f64, scale: f64) -> f64 {
     if scale == 0.0 { x } else { x / scale }
 }
 
