@@ -117,5 +117,6 @@ def test_refuses_an_environment_that_its_own_air_asks():
 
     air.is_steady_and_uniform = True
     envs.append(VectorEnvironment(2, flight=Flight.preset("fruit-fly-blade").with_air(air), steps_per_beat=20))
+    envs[0].reset(seed=1)
     envs[0].step(np.zeros((2, 4)))
     assert told and "within their own step" in told[0]
