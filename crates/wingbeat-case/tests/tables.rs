@@ -115,11 +115,11 @@ fn refuses_rows_of_elastic_wings_by_their_key() {
     for (rows, says) in [
         (
             "[[0, 9e-5], [0.9, 2e-5]]",
-            "flap_table_newton_m2[1] = [0.9, 0.00002]: the table ends at r/R = 0.9",
+            "flap_table_newton_m2[1] = [0.9, 2e-5]: the table ends at r/R = 0.9",
         ),
         (
             "[[0, 9e-5], [0.5, -2e-5], [1, 2e-5]]",
-            "flap_table_newton_m2[1] = [0.5, -0.00002]: along the span it comes to",
+            "flap_table_newton_m2[1] = [0.5, -2e-5]: along the span it comes to",
         ),
     ] {
         let set = [
