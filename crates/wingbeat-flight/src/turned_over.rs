@@ -6,7 +6,7 @@
 //! the body, before. What counts is the chord, whatever joints turn it. A wing that makes no strokes has no side that
 //! leads: it has turned over where its chord turns through more than half a circle.
 
-use std::f64::consts::{FRAC_PI_2, FRAC_PI_6, PI, TAU};
+use std::f64::consts::{FRAC_1_SQRT_2, FRAC_PI_2, FRAC_PI_6, PI, TAU};
 
 use serde::{Deserialize, Serialize};
 use wingbeat_dynamics::{ElementLaw, Joint, JointType, Mechanism};
@@ -18,7 +18,7 @@ use crate::record::Record;
 use crate::setup::{AirModel, FlightSetup};
 
 /// Cosine of the angle between an axis and the span up to which the chord turns about it \[1\]: 45 deg.
-const ALONG_SPAN: f64 = std::f64::consts::FRAC_1_SQRT_2;
+const ALONG_SPAN: f64 = FRAC_1_SQRT_2;
 
 /// Range of the stroke angle from which on a wing strokes \[rad\].
 const STROKE: f64 = FRAC_PI_6;
