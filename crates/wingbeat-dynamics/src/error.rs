@@ -67,7 +67,7 @@ pub enum DynamicsError {
     },
     /// The Euler angles of a body come too close to their singularity.
     #[error(
-        "body `{body}` at t = {time:.6e} s: the middle Euler angle is {theta_deg:.2} deg, |cos| = {cosine:.4} is below {limit}, where the Euler angles become singular; use the momentum form (`formulation = \"momentum\"`), which has no such limit"
+        "body `{body}` at t = {time:.6e} s: the middle Euler angle is {theta_deg:.2} deg, |cos| = {cosine:.4} is below {limit}, where the Euler angles become singular{}; use the momentum form (`formulation = \"momentum\"`), which has no such limit", beyond(*theta_deg)
     )]
     Singular {
         /// Name of the body.
@@ -274,4 +274,14 @@ pub(crate) fn quoted_once<'a>(names: impl Iterator<Item = &'a str>) -> String {
         }
     }
     quoted.join(", ")
+}
+
+/// A middle angle passes its singularity at 90 degrees only within one step.
+fn beyond(theta_deg: f64) -> &'static str {
+    match theta_deg.abs() < 180.0 {
+        true => "",
+        false => {
+            " (so far beyond 90 deg within one step: the step diverged; smaller steps may do, too)"
+        }
+    }
 }

@@ -44,7 +44,7 @@ const REYNOLDS: Limit = Limit {
     high: 2e6,
     hints: [
         "friction rules there, and wingbeat's air has little or none",
-        "larger than any animal's; are chord, speed and viscosity right?",
+        "larger than any animal's: look whether chord, speed and viscosity are right",
     ],
 };
 

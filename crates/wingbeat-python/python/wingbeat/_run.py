@@ -68,8 +68,8 @@ class Beats(Mapping[str, "NDArray[Any]"]):
         """Means over all but the first two wingbeats with their standard errors; empty of fewer than five."""
         known = (means or {}).get("is_known", True)
         self.is_steady: bool | None = (means or {}).get("is_steady") if known else None
-        """Whether lift and thrust stay from the first half of these beats to the second; None of fewer than five, or of beats that
-        scatter too much to tell."""
+        """Whether lift and thrust stay from the first half of these beats to the second; None of fewer than five, or of beats
+        too few or too scattered to tell."""
 
     def __getitem__(self, name: str) -> NDArray[Any]:
         return self._arrays[name]

@@ -13,7 +13,7 @@ use statrs::distribution::{ContinuousCDF as _, StudentsT};
 pub(super) const FEWEST: usize = 3;
 
 /// Largest correlation of neighbours that is believed: beyond, few values do not tell it from a drift.
-const MAX_CORRELATION: f64 = 0.8;
+pub(super) const MAX_CORRELATION: f64 = 0.8;
 
 /// A mean over wingbeats or flights.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -86,31 +86,42 @@ const MANY: f64 = 1e4;
 /// Student's factor: within it times their error lie as many means, with so many degrees of freedom (one or more), as
 /// within one standard deviation of a normal distribution.
 fn student(freedom: f64) -> f64 {
+    quantile(freedom, BELOW_ONE_DEVIATION)
+}
+
+/// Within it times their error lie 95 % of means, with so many degrees of freedom (one or more).
+pub(super) fn within_nineteen_of_twenty(freedom: f64) -> f64 {
+    quantile(freedom, 0.975)
+}
+
+/// Below which value of Student's distribution that part of it lies.
+fn quantile(freedom: f64, part: f64) -> f64 {
     let student = StudentsT::new(0.0, 1.0, freedom.min(MANY)).expect("degrees of freedom");
-    student.inverse_cdf(BELOW_ONE_DEVIATION)
+    student.inverse_cdf(part)
+}
+
+/// Normal numbers with unit variance and correlation `r` of neighbours: sums of twelve uniform ones.
+#[cfg(test)]
+pub(super) fn series(r: f64, n: usize, seed: u64) -> Vec<f64> {
+    let mut state = seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1;
+    let mut uniform = || {
+        state = state
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1);
+        (state >> 11) as f64 / (1u64 << 53) as f64
+    };
+    let mut normal = || (0..12).map(|_| uniform()).sum::<f64>() - 6.0;
+    let mut x = normal();
+    let mut next = || {
+        x = r * x + (1.0 - r * r).sqrt() * normal();
+        x
+    };
+    (0..n).map(|_| next()).collect()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    /// Normal numbers with unit variance and correlation `r` of neighbours: sums of twelve uniform ones.
-    fn series(r: f64, n: usize, seed: u64) -> Vec<f64> {
-        let mut state = seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1;
-        let mut uniform = || {
-            state = state
-                .wrapping_mul(6_364_136_223_846_793_005)
-                .wrapping_add(1);
-            (state >> 11) as f64 / (1u64 << 53) as f64
-        };
-        let mut normal = || (0..12).map(|_| uniform()).sum::<f64>() - 6.0;
-        let mut x = normal();
-        let mut next = || {
-            x = r * x + (1.0 - r * r).sqrt() * normal();
-            x
-        };
-        (0..n).map(|_| next()).collect()
-    }
 
     /// Shares of many estimates whose true mean, 0, lies within one and within two of their errors.
     fn coverage(estimates: &[Estimate]) -> [f64; 2] {

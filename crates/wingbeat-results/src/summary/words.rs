@@ -286,7 +286,7 @@ fn verdict(means: &ManyBeats) -> String {
             "which still drift, by no more than this error"
         }
         (false, true) => "which are NOT steady",
-        (false, false) => "which scatter too much to tell whether they are steady",
+        (false, false) => "too few or too scattered to tell whether they are steady",
     };
     format!(
         "{verdict}: from the first half of them to the second, lift changes by {lift} % of the force, the force forward by {thrust} %"
