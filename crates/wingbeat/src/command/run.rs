@@ -193,6 +193,9 @@ fn go_back(
         );
     }
     let flight = RecordedFlight::resume(dir, &case, flight, (&header, saved.manifest), threads)?;
+    for lost in flight.lost_frames() {
+        tell!("warning: {lost}");
+    }
     Ok(Some(Run { case, flight }))
 }
 
