@@ -6,6 +6,8 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
+#[path = "resume/lost_frames.rs"]
+mod lost_frames;
 mod support;
 
 use support::{Scratch, wingbeat};
@@ -297,69 +299,6 @@ fn refuses_directories_that_cannot_be_gone_on_with() {
     refused(&dir, "case.toml is missing");
     fs::write(dir.join("manifest.json"), "{").unwrap();
     refused(&dir, "the manifest cannot be read");
-}
-
-/// Nothing that is flown needs the frames of earlier steps: those that were lost are named, and the flight goes on to the
-/// same history. What shows them names them again.
-#[test]
-fn behaves_a_run_goes_on_without_frames_that_were_lost_cut_or_damaged() {
-    let scratch = Scratch::new("lost");
-    let whole = fly(&scratch.0, "whole");
-    let dir = scratch.0.join("run");
-    interrupted(&dir);
-    let lost = || {
-        let dir = ResultDir::open(&dir).unwrap();
-        let saved = saver::read(dir.path()).unwrap();
-        let ((header, _), case) = (saved.checkpoint.unwrap(), dir.case().unwrap());
-        let writer = RunWriter::resume(dir, &case, &header, saved.manifest, 1).unwrap();
-        let lost = writer.lost_frames().iter().map(ToString::to_string);
-        lost.collect::<Vec<_>>()
-    };
-    assert!(lost().is_empty());
-    for part in ["surfaces", "wakes"] {
-        let path = dir.join(format!("frames/{part}_000000.vtp"));
-        let whole = fs::read(&path).unwrap();
-        let mut flipped = whole.clone();
-        flipped[whole.len() / 2] ^= 1;
-        let mut binary = whole.clone();
-        binary[whole.len() / 2] = 0xff;
-        let damages: [(Option<&[u8]>, &str); 6] = [
-            (Some(b""), "this frame is cut"),
-            (Some(&whole[..whole.len() / 2]), "this frame is cut"),
-            (Some(&flipped), "its checksum is wrong"),
-            (Some(&binary), "it is no text"),
-            (Some(&[&whole[..], b"more"].concat()), "this frame is cut"),
-            (None, "was written and is missing"),
-        ];
-        for (bytes, problem) in damages {
-            match bytes {
-                Some(bytes) => fs::write(&path, bytes).unwrap(),
-                None => fs::remove_file(&path).unwrap(),
-            }
-            let [said] = &lost()[..] else {
-                panic!("{:?}", lost());
-            };
-            for part in [problem, &format!("{part}_000000.vtp"), "goes on without it"] {
-                assert!(said.contains(part), "{said}");
-            }
-        }
-        fs::write(&path, whole).unwrap();
-    }
-    fs::write(dir.join("frames/wakes_000000.vtp"), "").unwrap();
-    let done = wingbeat(&dir, &["resume", ".", "--quiet"]);
-    let said = String::from_utf8_lossy(&done.stderr);
-    // The page alone is missing.
-    assert_eq!(done.status.code(), Some(1), "{said}");
-    for part in [
-        "warning: ",
-        "wakes_000000.vtp",
-        "what needs that file is not drawn",
-    ] {
-        assert!(said.contains(part), "{said}");
-    }
-    let history = |dir: &Path| fs::read(dir.join("history.csv")).unwrap();
-    assert!(history(&dir) == history(&whole));
-    assert_eq!(manifest(&dir).outcome, Outcome::Finished);
 }
 
 /// What processes that were killed left of a run's files, of its exports and figures.
