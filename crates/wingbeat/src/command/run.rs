@@ -218,7 +218,7 @@ fn fly(options: &RunOptions, mut run: Run, stop: &AtomicBool) -> Result<(), Fail
             say!("\n{text}\nResults: {}", path.display());
         }
         Ok(_) => {}
-        Err(e @ IoError::Damaged { .. }) if path.join("summary.json").is_file() => {
+        Err(e @ IoError::Damaged { .. }) if outcome == Outcome::Finished => {
             tell!(
                 "error: {e}\nThe flight is at its end and its summary is written, `wingbeat show {0}`; what needs that file is not drawn.",
                 path.display()
