@@ -49,6 +49,7 @@ pub fn trim_within(setup: &FlightSetup, problem: &TrimProblem) -> Result<Trim, A
     let mut found = search.trim(&best)?;
     found.solution.iterations = search.iterations.get();
     found.solution.at_bound = search.at_bound(&found.solution);
+    found.solution.in_order_of(&problem.unknowns);
     Ok(found)
 }
 
@@ -166,11 +167,7 @@ impl<'a> Search<'a> {
 
     /// The unknowns whose bounds ended the search, as far as it resolves that.
     fn at_bound(&self, found: &TrimSolution) -> Vec<Unknown> {
-        let asked = |b: &&Bound| self.problem.bounds.contains(b);
-        let bounds = self
-            .spare
-            .iter()
-            .chain(self.determined.iter().filter(asked));
+        let bounds = self.spare.iter().chain(&self.determined);
         let is_reached = |b: &&Bound| {
             let within = (3.0 * RESOLUTION).min(0.01 * (b.to - b.from));
             (found.value(b.unknown)).is_some_and(|x| b.is_reached(x, within))

@@ -15,6 +15,14 @@ pub(crate) fn only_turns(wing: &ElasticWing, mode: &Mode) -> bool {
 /// of the sheet mixed with such turns of nearly its frequency \[1\].
 const MIXED: f64 = 0.9;
 
+/// Whether among the slowest modes of a wing there are `count` that vibrate and in which something moves.
+pub(crate) fn enough(wing: &ElasticWing, count: usize) -> impl Fn(&[Mode]) -> bool {
+    move |slowest| {
+        let vibrating = slowest.iter().filter(|m| m.square > 0.0);
+        vibrating.filter(|m| !only_turns(wing, m)).count() >= count
+    }
+}
+
 /// The leading modes of a wing in which something moves.
 pub(crate) struct Moving {
     /// The modes.
@@ -25,7 +33,7 @@ pub(crate) struct Moving {
     pub mixed: Vec<f64>,
 }
 
-/// The leading `count` of `all` modes of a wing in which something moves.
+/// The leading `count` of the slowest modes, `all` or [`enough`], of a wing in which something moves.
 pub(crate) fn moving(wing: &ElasticWing, all: Vec<Mode>, count: usize) -> Moving {
     let (mut modes, mut left_out, mut since) = (vec![], vec![], vec![]);
     for mode in all {

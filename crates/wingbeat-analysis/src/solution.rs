@@ -22,7 +22,7 @@ pub struct TrimSolution {
     pub lateral: f64,
     /// Steps of Newton's method made, in air with memory of a quasi-Newton method.
     pub iterations: usize,
-    /// What was chosen, and what was given.
+    /// What was chosen, in the order in which it was named, and what was given.
     pub unknowns: Vec<Unknown>,
     /// Values of the unknowns \[1 or rad\].
     pub values: Vec<f64>,
@@ -92,6 +92,18 @@ impl TrimSolution {
         }
     }
 
+    /// Lists unknowns as in `names`, those that are not there after them.
+    pub(crate) fn in_order_of(&mut self, names: &[Unknown]) {
+        let place = |u: &Unknown| names.iter().position(|n| n == u).unwrap_or(names.len());
+        let pairs = self.unknowns.iter().copied().zip(self.values.drain(..));
+        let mut pairs: Vec<(Unknown, f64)> = pairs.collect();
+        pairs.sort_by_key(|(u, _)| place(u));
+        (self.unknowns, self.values) = pairs.into_iter().unzip();
+        for list in [&mut self.outside, &mut self.at_bound] {
+            list.sort_by_key(place);
+        }
+    }
+
     /// The value of an unknown, in its own unit; none if it was neither chosen nor given.
     pub fn value(&self, unknown: Unknown) -> Option<f64> {
         let mut pairs = self.unknowns.iter().zip(&self.values);
@@ -106,5 +118,36 @@ impl TrimSolution {
     /// Whether it is steady flight, and within the bounds that were asked.
     pub fn is_as_asked(&self) -> bool {
         self.converged && self.outside.is_empty()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn behaves_unknowns_are_listed_in_the_order_in_which_they_are_named() {
+        use Unknown::{BodyPitch, Frequency, MassCentre, StrokeAmplitude};
+        let mut found = TrimSolution {
+            converged: true,
+            residual: vec![],
+            lateral: 0.0,
+            iterations: 1,
+            unknowns: vec![Frequency, MassCentre, BodyPitch, StrokeAmplitude],
+            values: vec![1.0, 2.0, 3.0, 4.0],
+            outside: vec![],
+            at_bound: vec![StrokeAmplitude, Frequency],
+            adjustment: Adjustment::default(),
+            difference: Adjustment::default(),
+            mass_centre: 0.0,
+            body_pitch: 0.0,
+            body_roll: 0.0,
+            way: None,
+        };
+        found.in_order_of(&[BodyPitch, Frequency, StrokeAmplitude]);
+        let order = [BodyPitch, Frequency, StrokeAmplitude, MassCentre];
+        assert_eq!(found.unknowns, order);
+        assert_eq!(found.values, [3.0, 1.0, 4.0, 2.0]);
+        assert_eq!(found.at_bound, [Frequency, StrokeAmplitude]);
     }
 }

@@ -19,11 +19,11 @@
 use wingbeat_flight::elastic::ElasticWing;
 use wingbeat_flight::{FlightError, FlightSetup, FlightState, Simulation};
 use wingbeat_math::DVec3;
-use wingbeat_structure::{Configuration, FrameMotion, Mode, modes};
+use wingbeat_structure::{Configuration, FrameMotion, Mode, Slowest, slowest_modes};
 
 use crate::AnalysisError;
 use crate::flutter::{ElasticRig, FlutterSettings};
-use crate::moving::{moving, only_turns};
+use crate::moving::{enough, moving, only_turns};
 use crate::progress;
 
 /// The state that wings vibrate about.
@@ -184,14 +184,18 @@ fn of_wing(flight: &Simulation, k: usize, count: usize) -> Result<WingModes, Ana
     let wing = &flight.elastic_wings().wings()[k];
     let state: &FlightState = flight.state();
     let (structure, at) = (wing.structure(), &state.wings[k].structure.configuration);
-    let all = |what: &str, added: Option<&[f64]>| -> Result<Vec<Mode>, AnalysisError> {
+    let slowest = |what: &str, added: Option<&[f64]>, count| -> Result<Slowest, AnalysisError> {
         progress::task(what, 0, 0);
-        Ok(modes(structure, at, &FrameMotion::REST, added).map_err(FlightError::from)?)
+        let moved = (&FrameMotion::REST, added);
+        let found = slowest_modes(structure, at, moved, &enough(wing, count));
+        Ok(found.map_err(FlightError::from)?)
     };
     let added = flight.added_mass(k)?;
-    let in_vacuum = all("in vacuum", None)?;
-    let in_air = added.map(|a| all("in air", Some(&a))).transpose()?;
+    let in_vacuum = slowest("in vacuum", None, COMPARED * count)?;
+    let in_air = added.map(|a| slowest("in air", Some(&a), count));
+    let in_air = in_air.transpose()?.map(|found| found.modes);
     let turning_growth = turning_growth(wing, &in_vacuum);
+    let in_vacuum = in_vacuum.modes;
     let (vacuum, left_out) = leading(wing, at, in_vacuum.clone(), count);
     let (air, left_out_in_air) = in_air.map(|a| leading(wing, at, a, count)).unzip();
     let compared = leading(wing, at, in_vacuum, COMPARED * count).0;
@@ -241,9 +245,9 @@ fn leading(
 }
 
 /// As [`WingModes::turning_growth`].
-fn turning_growth(wing: &ElasticWing, all: &[Mode]) -> f64 {
-    let fastest = all.last().map_or(0.0, Mode::frequency);
-    let turning = all.iter().filter(|m| only_turns(wing, m));
+fn turning_growth(wing: &ElasticWing, slowest: &Slowest) -> f64 {
+    let fastest = slowest.fastest;
+    let turning = slowest.modes.iter().filter(|m| only_turns(wing, m));
     let growth = turning.map(|m| (-m.square).max(0.0).sqrt());
     let largest = growth.fold(0.0, f64::max);
     match largest > ROUNDING * fastest {

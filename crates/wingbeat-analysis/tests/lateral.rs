@@ -278,3 +278,22 @@ fn limit_least_power_lies_at_the_bound_that_it_is_kept_from_crossing() {
     let over = found.value(Unknown::Frequency).unwrap() - from;
     assert!((0.0..1e-4).contains(&over), "{over}");
 }
+
+/// Where nothing is asked of an unknown, its default bound ends the search as one that is asked does, and is named so.
+#[test]
+fn limit_least_power_lies_at_a_default_bound() {
+    let mut problem = hover(40);
+    problem.unknowns = vec![
+        Unknown::FeatheringLead,
+        Unknown::MassCentre,
+        Unknown::StrokeOffset,
+        Unknown::BodyPitch,
+    ];
+    let found = trim_within(&fly(), &problem).unwrap().solution;
+    assert!(found.is_as_asked());
+    assert_eq!(found.unknowns, problem.unknowns);
+    let offset = found.value(Unknown::StrokeOffset).unwrap();
+    let short = Bound::default_of(Unknown::StrokeOffset).from - offset;
+    assert!(short.abs() < 1e-5, "{offset}"); // what the search resolves
+    assert_eq!(found.at_bound, [Unknown::StrokeOffset]);
+}

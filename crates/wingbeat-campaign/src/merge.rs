@@ -165,7 +165,7 @@ fn parquet(campaign: &Campaign, rows: &[Row], path: &std::path::Path) -> std::io
             .cloned()
             .zip(kinds.iter().map(cells)),
     );
-    columns.push(("success".to_owned(), Cells::Numbers));
+    columns.push(("success".to_owned(), Cells::Flags));
     columns.push(("verdict".to_owned(), Cells::Texts));
     columns.extend(
         campaign
@@ -183,10 +183,9 @@ fn parquet(campaign: &Campaign, rows: &[Row], path: &std::path::Path) -> std::io
             _ => Cell::Number(value.number().unwrap_or(f64::NAN)),
         };
         let keys: Vec<Cell> = row.keys.iter().enumerate().map(key).collect();
-        let success = row.success.map_or(f64::NAN, |s| f64::from(u8::from(s)));
         let head = [Cell::Count(row.point as i64)].into_iter().chain(keys);
         let numbers = row.numbers.iter().map(|x| Cell::Number(*x));
-        let all = (head.chain([Cell::Number(success), Cell::Text(verdict(row))])).chain(numbers);
+        let all = (head.chain([Cell::Flag(row.success), Cell::Text(verdict(row))])).chain(numbers);
         table.cells(all.chain([Cell::Text(reason(row))]))?;
     }
     let [units, meanings] = notes(campaign);

@@ -26,14 +26,40 @@ const STROKE: f64 = FRAC_PI_6;
 /// How a wing was turned in its stroke-plane frame.
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 struct Turn {
-    /// Feathering angle psi at the last step, without jumps \[rad\].
-    last: f64,
+    /// Stroke angle phi and feathering angle psi at the last step, without jumps \[rad\].
+    last: [f64; 2],
     /// Least and largest stroke angle phi and feathering angle psi \[rad\].
     phi: [f64; 2],
     psi: [f64; 2],
 }
 
 impl Turn {
+    fn starting([phi, psi]: [f64; 2]) -> Self {
+        Self {
+            last: [phi, psi],
+            phi: [phi; 2],
+            psi: [psi; 2],
+        }
+    }
+
+    /// Takes the angles of the next step. Those with a deviation `pi - theta` beyond 90 deg are found as half a turn more
+    /// of both and the deviation theta, which stand for the same rotation: what is nearer to the last step counts.
+    fn take(&mut self, angles: [f64; 2]) {
+        let near = |half: f64| {
+            [0, 1].map(|k| {
+                let (x, last) = (angles[k] + half, self.last[k]);
+                x + TAU * ((last - x) / TAU).round()
+            })
+        };
+        let away = |a: [f64; 2]| [0, 1].map(|k: usize| (a[k] - self.last[k]).abs());
+        let [same, other] = [near(0.0), near(PI)];
+        let [a, b] = [away(same), away(other)].map(|d| d[0] + d[1]);
+        let [phi, psi] = if b < a { other } else { same };
+        self.last = [phi, psi];
+        self.phi = wider(self.phi, phi);
+        self.psi = wider(self.psi, psi);
+    }
+
     fn farthest(&self) -> f64 {
         larger(self.psi[1], -self.psi[0])
     }
@@ -64,19 +90,10 @@ impl TurnedOver {
             let Some(eta) = r.coordinates.get(6 * k + 9..6 * k + 12) else {
                 return;
             };
-            let [phi, psi] = angles(r, wing, DVec3::from_slice(eta));
+            let angles = angles(r, wing, DVec3::from_slice(eta));
             match self.wings.get_mut(k) {
-                Some(turn) => {
-                    let psi = psi + TAU * ((turn.last - psi) / TAU).round();
-                    turn.last = psi;
-                    turn.phi = wider(turn.phi, phi);
-                    turn.psi = wider(turn.psi, psi);
-                }
-                None if is_first => self.wings.push(Turn {
-                    last: psi,
-                    phi: [phi; 2],
-                    psi: [psi; 2],
-                }),
+                Some(turn) => turn.take(angles),
+                None if is_first => self.wings.push(Turn::starting(angles)),
                 None => return,
             }
         }
@@ -176,4 +193,36 @@ fn angles(r: &Record, wing: &Wing, eta: DVec3) -> [f64; 2] {
 
 fn wider([least, most]: [f64; 2], value: f64) -> [f64; 2] {
     [smaller(least, value), larger(most, value)]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Gathered over a motion of `[phi, theta, psi]` \[rad\] by its rotations.
+    fn turned(motion: impl Fn(f64) -> [f64; 3]) -> Turn {
+        let angles = |k: usize| {
+            let eta = DVec3::from_array(motion(k as f64 / 50.0));
+            let found = EulerSequence::WING_132.angles(EulerSequence::WING_132.rotation(eta));
+            [found.x, found.z]
+        };
+        let mut turn = Turn::starting(angles(0));
+        (1..=50).for_each(|k| turn.take(angles(k)));
+        turn
+    }
+
+    /// A wing that deviates by 115 deg and feathers by 30 has not turned over; one that feathers by 100 has, and with a
+    /// deviation as well.
+    #[test]
+    fn exact_deviations_beyond_a_right_angle_turn_nothing_over() {
+        let beat = |t: f64| (TAU * t).sin();
+        for (deviation, feathering) in [(2.0, 0.5), (-2.0, 0.5), (0.3, 1.75), (2.0, 1.75)] {
+            let turn = turned(|t| [beat(t), deviation * beat(t), feathering * beat(t)]);
+            let error = (turn.farthest() - feathering * beat(0.24))
+                .abs()
+                .max((turn.phi[1] - beat(0.24)).abs());
+            assert!(error < 1e-12, "{deviation} {feathering}: {turn:?}"); // rounding
+            assert_eq!(turn.is_over(), feathering > FRAC_PI_2);
+        }
+    }
 }

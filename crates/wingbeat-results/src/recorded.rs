@@ -34,7 +34,7 @@ impl RecordedFlight {
     /// written later is cut off.
     ///
     /// # Errors
-    /// A file that cannot be changed; a frame that was removed.
+    /// A file that cannot be changed.
     pub fn resume(
         dir: ResultDir,
         case: &LoadedCase,
@@ -49,6 +49,11 @@ impl RecordedFlight {
     /// The flight.
     pub fn flight(&self) -> &Simulation {
         &self.flight
+    }
+
+    /// Frames of earlier steps that are missing or damaged, see [`RunWriter::lost_frames`].
+    pub fn lost_frames(&self) -> &[IoError] {
+        self.writer.lost_frames()
     }
 
     /// The directory.

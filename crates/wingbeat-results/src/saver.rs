@@ -215,16 +215,17 @@ pub(crate) fn check_history(dir: &Path, manifest: &Manifest) -> Result<(), IoErr
     Ok(())
 }
 
-/// Checks that the frames of these steps are there and hold what was written, by their checksums.
+/// Says which frames of these steps are missing, cut or damaged, by their checksums: going on needs none of them.
 ///
 /// # Errors
-/// [`IoError::Damaged`] names the first that is missing, cut or damaged.
-pub(crate) fn check_frames(
+/// A file that cannot be read.
+pub(crate) fn lost_frames(
     dir: &Path,
     steps: impl Iterator<Item = usize>,
     parts: &[&str],
-) -> Result<(), IoError> {
+) -> Result<Vec<IoError>, IoError> {
     let folder = dir.join("frames");
+    let mut lost = vec![];
     for (step, part) in steps.flat_map(|step| parts.iter().map(move |part| (step, part))) {
         let path = folder.join(frame_name(part, step));
         let problem = match fs::read(&path) {
@@ -234,16 +235,14 @@ pub(crate) fn check_frames(
             }
             Err(e) => return Err(IoError::read(&path)(e)),
         };
-        if let Some(problem) = problem {
-            return Err(IoError::Damaged {
-                path,
-                problem: format!(
-                    "{problem}; frames of earlier steps are not made again by going on: put the file back, or {AGAIN}"
-                ),
-            });
-        }
+        lost.extend(problem.map(|problem| IoError::Damaged {
+            path,
+            problem: format!(
+                "{problem}; the flight goes on without it, and what draws or exports this frame will name it: put the file back, or {AGAIN}"
+            ),
+        }));
     }
-    Ok(())
+    Ok(lost)
 }
 
 fn check_sum_of(frame: &[u8]) -> Result<(), String> {

@@ -29,6 +29,8 @@ pub struct RunWriter {
     /// The thread that writes frames; none before the first.
     framer: Option<Framer>,
     frames: Vec<(f64, usize)>,
+    /// As [`Self::lost_frames`].
+    lost_frames: Vec<IoError>,
     indexed: usize,
     manifest: Manifest,
     started: Instant,
@@ -79,6 +81,7 @@ impl RunWriter {
             each: is_thinned(case).then(|| EachStep::new(&case.setup)),
             framer: None,
             frames: vec![],
+            lost_frames: vec![],
             indexed: 0,
             manifest,
             started: Instant::now(),
@@ -88,10 +91,11 @@ impl RunWriter {
         })
     }
 
-    /// Goes on with a run from its checkpoint: what was written later is cut off.
+    /// Goes on with a run from its checkpoint: what was written later is cut off. Frames that were lost stay so, see
+    /// [`Self::lost_frames`].
     ///
     /// # Errors
-    /// A file that cannot be changed; a frame that was removed.
+    /// A file that cannot be changed.
     pub fn resume(
         dir: ResultDir,
         case: &LoadedCase,
@@ -99,11 +103,12 @@ impl RunWriter {
         manifest: Manifest,
         threads: usize,
     ) -> Result<Self, IoError> {
-        if manifest.frames > 0 {
-            let every = case.output.frames_every;
-            let written = (0..=header.step).step_by(every.max(1));
-            saver::check_frames(dir.path(), written, parts(case))?;
-        }
+        let every = case.output.frames_every;
+        let written = (0..=header.step).step_by(every.max(1));
+        let lost_frames = match manifest.frames > 0 {
+            true => saver::lost_frames(dir.path(), written, parts(case))?,
+            false => vec![],
+        };
         let path = dir.join("history.csv");
         let mut history = HistoryWriter::reopen(&path, &case.setup, header)?;
         let manifest = Manifest {
@@ -129,6 +134,7 @@ impl RunWriter {
             },
             framer: None,
             frames: steps.iter().map(|k| (*k as f64 * step, *k)).collect(),
+            lost_frames,
             indexed: 0,
             started: Instant::now(),
             writing: Duration::from_secs_f64(manifest.writing_time_s),
@@ -192,6 +198,11 @@ impl RunWriter {
         manifest.writing_time_s = self.writing.as_secs_f64();
         self.dir
             .write("manifest.json", manifest.to_json().as_bytes())
+    }
+
+    /// Frames of earlier steps that are missing or damaged, each with what is wrong: they are not made again by going on.
+    pub fn lost_frames(&self) -> &[IoError] {
+        &self.lost_frames
     }
 
     /// The directory.

@@ -31,6 +31,7 @@ mod matrix;
 mod modes;
 mod screw;
 pub mod shell;
+mod slowest;
 mod statics;
 mod structure;
 
@@ -45,7 +46,7 @@ pub use error::StructureError;
 pub use follower::{Follower, Share};
 pub use frame::FrameMotion;
 pub use loads::{Loading, NodeLoad};
-pub use modes::{Mode, first_frequency, modes};
+pub use modes::{Mode, Slowest, first_frequency, modes, slowest_modes};
 pub use shell::{Lamina, Shell, ShellError, ShellMesh};
 pub use statics::{StaticSettings, equilibrium};
 pub use structure::{Damping, Structure};

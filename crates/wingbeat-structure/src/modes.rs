@@ -1,9 +1,10 @@
 //! Frequencies and shapes of small vibrations.
 
+use faer::linalg::solvers::Llt;
 use faer::linalg::triangular_solve::{
     solve_lower_triangular_in_place, solve_upper_triangular_in_place,
 };
-use faer::{Mat, Par, Side};
+use faer::{ColRef, Mat, MatRef, Par, Side};
 use wingbeat_math::{DMat3, DVec3, MassProperties};
 
 use crate::assembly::Assembly;
@@ -11,6 +12,7 @@ use crate::configuration::{Configuration, NODE};
 use crate::error::StructureError;
 use crate::frame::FrameMotion;
 use crate::inertia::mass_matrix;
+use crate::slowest::{below, slowest};
 use crate::statics::steady_tangent;
 use crate::structure::{HELD, Structure};
 
@@ -47,7 +49,8 @@ impl Mode {
 /// left out, as motions without mass are. `added` is mass that moves along, by rows of 6 N x 6 N numbers, N
 /// nodes, force in W and moment in node components by acceleration (added mass of the air), to be symmetric.
 ///
-/// The matrices of this eigenproblem are dense: up to some 600 unknowns are solved within seconds.
+/// The matrices of this eigenproblem are dense: up to some 600 unknowns are solved within seconds. Of larger bodies
+/// [`slowest_modes`] are found sooner.
 ///
 /// # Errors
 /// [`StructureError::Modes`].
@@ -57,31 +60,162 @@ pub fn modes(
     frame: &FrameMotion,
     added: Option<&[f64]>,
 ) -> Result<Vec<Mode>, StructureError> {
-    let (mut k, mut m) = matrices(structure, at, frame, added);
+    let problem = Problem::new(structure, at, frame, added);
+    let (factor, shift) = problem.factor()?;
+    problem.all(factor.L(), shift)
+}
+
+/// The slowest modes of a body.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Slowest {
+    /// Of rising frequency; none is left out between them.
+    pub modes: Vec<Mode>,
+    /// Angular frequency of the fastest mode of the body [rad/s]; where that is not among those found, what it is at
+    /// least.
+    pub fastest: f64,
+}
+
+/// Unknowns up to which all modes are found at once.
+const SMALL: usize = 600;
+
+/// How many of the slowest modes of a larger body are looked for first, and part of its unknowns up to which there are
+/// more to be tried before all.
+const FIRST: usize = 40;
+const PART: usize = 8;
+
+/// The slowest [`modes`], so many that they are `enough`, or all.
+///
+/// # Errors
+/// [`StructureError::Modes`].
+pub fn slowest_modes(
+    structure: &Structure,
+    at: &Configuration,
+    (frame, added): (&FrameMotion, Option<&[f64]>),
+    enough: &dyn Fn(&[Mode]) -> bool,
+) -> Result<Slowest, StructureError> {
+    let problem = Problem::new(structure, at, frame, added);
+    let (factor, shift) = problem.factor()?;
     let n = structure.unknowns();
-    // Diagonals of the stiffness of one: metres, radians, stiff and soft directions weigh alike.
-    let scale: Vec<f64> = (0..n).map(|i| positive(k[(i, i)]).sqrt().recip()).collect();
-    for matrix in [&mut k, &mut m] {
-        scaled(matrix, &scale);
+    let mut count = FIRST;
+    while n > SMALL && count <= n / PART {
+        let found = slowest(factor.L(), problem.mass.as_ref(), count);
+        let Some((values, vectors)) = found else {
+            break;
+        };
+        let mut modes: Vec<Mode> = (0..count)
+            .map(|j| problem.mode(values[j], vectors.col(j), shift))
+            .collect();
+        let sigma = cut(&mut modes);
+        if enough(&modes) {
+            if below(problem.stiffness.as_ref(), problem.mass.as_ref(), sigma) != modes.len() {
+                break;
+            }
+            let fastest = problem.largest_ratio().sqrt();
+            return Ok(Slowest { modes, fastest });
+        }
+        count *= 2;
     }
-    let (values, vectors, shift) = shifted_eigen(&k, &m)?;
-    let mode = |j: usize| {
-        let mut shape = vec![0.0; NODE * structure.nodes()];
-        for (i, &number) in structure.number.iter().enumerate() {
-            shape[number] = scale[i] * vectors[(i, j)] / values[j].sqrt();
+    let modes = problem.all(factor.L(), shift)?;
+    let fastest = modes.last().map_or(0.0, Mode::frequency);
+    Ok(Slowest { modes, fastest })
+}
+
+/// Takes the last modes away from the widest gap among the last quarter on; the middle of the gap [rad2/s2].
+fn cut(modes: &mut Vec<Mode>) -> f64 {
+    let gap = |j: usize| modes[j].square - modes[j - 1].square;
+    let quarter = modes.len() - modes.len() / 4..modes.len();
+    let widest = quarter.max_by(|&a, &b| gap(a).total_cmp(&gap(b)));
+    let at = widest.unwrap_or(1);
+    let sigma = 0.5 * (modes[at].square + modes[at - 1].square);
+    modes.truncate(at);
+    sigma
+}
+
+/// Symmetric stiffness and mass of the free unknowns, scaled so that the diagonals of the stiffness are one: metres,
+/// radians, stiff and soft directions weigh alike.
+struct Problem<'a> {
+    structure: &'a Structure,
+    stiffness: Mat<f64>,
+    mass: Mat<f64>,
+    scale: Vec<f64>,
+}
+
+impl<'a> Problem<'a> {
+    fn new(
+        structure: &'a Structure,
+        at: &Configuration,
+        frame: &FrameMotion,
+        added: Option<&[f64]>,
+    ) -> Self {
+        let (mut stiffness, mut mass) = matrices(structure, at, frame, added);
+        let n = structure.unknowns();
+        let scale = (0..n).map(|i| positive(stiffness[(i, i)]).sqrt().recip());
+        let scale: Vec<f64> = scale.collect();
+        for matrix in [&mut stiffness, &mut mass] {
+            scaled(matrix, &scale);
+        }
+        Self {
+            structure,
+            stiffness,
+            mass,
+            scale,
+        }
+    }
+
+    /// All modes.
+    fn all(&self, lower: MatRef<f64>, shift: f64) -> Result<Vec<Mode>, StructureError> {
+        let n = self.scale.len();
+        let (values, vectors) = whole_eigen(lower, &self.mass)?;
+        // Massless combinations have no frequency: their eigenvalues are the rounding of the largest.
+        let heaviest = values.iter().fold(0.0_f64, |a, v| a.max(*v));
+        let rounding = n as f64 * f64::EPSILON * heaviest;
+        let heavy = (0..n).filter(|&j| values[j] > rounding);
+        let modes = heavy.map(|j| self.mode(values[j], vectors.col(j), shift));
+        let mut all: Vec<Mode> = modes.collect();
+        all.sort_by(|a, b| a.square.total_cmp(&b.square));
+        Ok(all)
+    }
+
+    /// The mode of an eigenvalue `1 / (omega^2 + shift)`.
+    fn mode(&self, value: f64, vector: ColRef<f64>, shift: f64) -> Mode {
+        let mut shape = vec![0.0; NODE * self.structure.nodes()];
+        for (i, &number) in self.structure.number.iter().enumerate() {
+            shape[number] = self.scale[i] * vector[i] / value.sqrt();
         }
         Mode {
-            square: 1.0 / values[j] - shift,
+            square: 1.0 / value - shift,
             shape,
         }
-    };
-    // Massless combinations have no frequency: their eigenvalues are the rounding of the largest.
-    let heaviest = values.iter().fold(0.0_f64, |a, v| a.max(*v));
-    let rounding = n as f64 * f64::EPSILON * heaviest;
-    let heavy = (0..n).filter(|&j| values[j] > rounding);
-    let mut all: Vec<Mode> = heavy.map(mode).collect();
-    all.sort_by(|a, b| a.square.total_cmp(&b.square));
-    Ok(all)
+    }
+
+    /// Ratios of the diagonals of stiffness and mass [rad2/s2].
+    fn ratios(&self) -> impl Iterator<Item = f64> {
+        let [k, m] = [&self.stiffness, &self.mass];
+        let heavy = (0..self.scale.len()).filter(|&i| m[(i, i)] > 0.0);
+        heavy.map(|i| k[(i, i)].abs() / m[(i, i)])
+    }
+
+    /// Rayleigh's quotients of the unknowns one by one: the largest is below that of the fastest mode.
+    fn largest_ratio(&self) -> f64 {
+        self.ratios().fold(0.0, f64::max)
+    }
+
+    /// Cholesky's factor of `K + shift M`, and the shift: small frequencies come out best, and neither massless
+    /// directions nor rigid motions disturb.
+    fn factor(&self) -> Result<(Llt<f64>, f64), StructureError> {
+        let [k, m] = [&self.stiffness, &self.mass];
+        let n = self.scale.len();
+        let smallest = self.ratios().fold(f64::INFINITY, f64::min);
+        for shift in SHIFTS.map(|s| s * smallest) {
+            let sum = Mat::from_fn(n, n, |i, j| k[(i, j)] + shift * m[(i, j)]);
+            if let Ok(factor) = sum.llt(Side::Lower) {
+                return Ok((factor, shift));
+            }
+        }
+        Err(StructureError::Modes(
+            "the stiffness has strongly negative eigenvalues: the state is not an equilibrium that can vibrate; look at structure of the wing: less tension at rest (shell.prestress_newton_per_m) where edges are free, more thickness, or smaller loads",
+        ))
+    }
 }
 
 /// Unknowns times the square of the band of a stiffness up to which its factors take some tenths of a second.
@@ -232,32 +366,17 @@ const SHIFTS: [f64; 16] = [
     1e-8, 1e-6, 1e-4, 1e-2, 1.0, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12,
 ];
 
-/// Eigenvalues `1 / (omega^2 + shift)` and vectors of `M x = mu (K + shift M) x`, and the shift: small frequencies
-/// come out best, and neither massless directions nor rigid motions disturb.
-fn shifted_eigen(k: &Mat<f64>, m: &Mat<f64>) -> Result<(Vec<f64>, Mat<f64>, f64), StructureError> {
-    let n = k.nrows();
-    let ratios = (0..n).filter(|&i| m[(i, i)] > 0.0);
-    let ratios = ratios.map(|i| k[(i, i)].abs() / m[(i, i)]);
-    let smallest = ratios.fold(f64::INFINITY, f64::min);
-    for shift in SHIFTS.map(|s| s * smallest) {
-        let sum = Mat::from_fn(n, n, |i, j| k[(i, j)] + shift * m[(i, j)]);
-        let Ok(llt) = sum.llt(Side::Lower) else {
-            continue;
-        };
-        let lower = llt.L();
-        let mut half = m.clone();
-        solve_lower_triangular_in_place(lower, half.as_mut(), Par::Seq);
-        let mut whole = half.transpose().to_owned();
-        solve_lower_triangular_in_place(lower, whole.as_mut(), Par::Seq);
-        let eigen = whole
-            .self_adjoint_eigen(Side::Lower)
-            .map_err(|_| StructureError::Modes("the iteration does not converge"))?;
-        let mut vectors = eigen.U().to_owned();
-        solve_upper_triangular_in_place(lower.transpose(), vectors.as_mut(), Par::Seq);
-        let values = (0..n).map(|i| eigen.S()[i]).collect();
-        return Ok((values, vectors, shift));
-    }
-    Err(StructureError::Modes(
-        "the stiffness has strongly negative eigenvalues: the state is not an equilibrium that can vibrate; look at structure of the wing: less tension at rest (shell.prestress_newton_per_m) where edges are free, more thickness, or smaller loads",
-    ))
+/// All eigenvalues `1 / (omega^2 + shift)` and vectors of `M x = mu L L^T x`.
+fn whole_eigen(lower: MatRef<f64>, m: &Mat<f64>) -> Result<(Vec<f64>, Mat<f64>), StructureError> {
+    let mut half = m.clone();
+    solve_lower_triangular_in_place(lower, half.as_mut(), Par::Seq);
+    let mut whole = half.transpose().to_owned();
+    solve_lower_triangular_in_place(lower, whole.as_mut(), Par::Seq);
+    let eigen = whole
+        .self_adjoint_eigen(Side::Lower)
+        .map_err(|_| StructureError::Modes("the iteration does not converge"))?;
+    let mut vectors = eigen.U().to_owned();
+    solve_upper_triangular_in_place(lower.transpose(), vectors.as_mut(), Par::Seq);
+    let values = (0..m.nrows()).map(|i| eigen.S()[i]).collect();
+    Ok((values, vectors))
 }

@@ -65,6 +65,46 @@ fn refuses_bounds_that_are_none_and_reports_trims_outside() {
     );
 }
 
+/// An option behind one that takes a number is not its value: that one has none. Negative numbers are values.
+#[test]
+fn refuses_options_in_place_of_values() {
+    let scratch = Scratch::new("no-value");
+    let dir = &scratch.0;
+    for (args, option, taken) in [
+        (
+            &["trim", "--forward", "--json"][..],
+            "--forward <SPEED>",
+            "--json",
+        ),
+        (
+            &["trim", "--turn-rate", "--set=time.beats=1"],
+            "--turn-rate <DEG_S>",
+            "--set=time.beats=1",
+        ),
+        (
+            &["new", "--mass", "--species", "moth"],
+            "--mass <MASS>",
+            "--species",
+        ),
+        (&["plot", "r", "--from", "-h"], "--from <TIME>", "-h"),
+        (
+            &["velocity", "r", "--point", "--help"],
+            "--point <X,Y,Z>",
+            "--help",
+        ),
+    ] {
+        let told = refused(dir, 2, args);
+        let missing = format!("a value is required for '{option}' but none was supplied");
+        assert!(told.contains(&missing), "{told}");
+        assert!(
+            told.contains(&format!("{taken} is an option itself")),
+            "{told}"
+        );
+    }
+    let told = refused(dir, 2, &["trim", "--forward", "-inf"]);
+    assert!(!told.contains("is an option itself"), "{told}");
+}
+
 /// Averages over a beat need motions that are known beforehand: what cannot be had is named before the work is
 /// done, and what can be had is given.
 #[test]

@@ -6,6 +6,8 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
+#[path = "resume/lost_frames.rs"]
+mod lost_frames;
 mod support;
 
 use support::{Scratch, wingbeat};
@@ -297,37 +299,6 @@ fn refuses_directories_that_cannot_be_gone_on_with() {
     refused(&dir, "case.toml is missing");
     fs::write(dir.join("manifest.json"), "{").unwrap();
     refused(&dir, "the manifest cannot be read");
-}
-
-#[test]
-fn refuses_a_run_whose_frames_were_lost_cut_or_damaged() {
-    let scratch = Scratch::new("lost");
-    let dir = scratch.0.join("run");
-    interrupted(&dir);
-    for part in ["surfaces", "wakes"] {
-        let path = dir.join(format!("frames/{part}_000000.vtp"));
-        let whole = fs::read(&path).unwrap();
-        let mut flipped = whole.clone();
-        flipped[whole.len() / 2] ^= 1;
-        let mut binary = whole.clone();
-        binary[whole.len() / 2] = 0xff;
-        let damages: [(&[u8], &str); 5] = [
-            (b"", "this frame is cut"),
-            (&whole[..whole.len() / 2], "this frame is cut"),
-            (&flipped, "its checksum is wrong"),
-            (&binary, "it is no text"),
-            (&[&whole[..], b"more"].concat(), "this frame is cut"),
-        ];
-        for (bytes, problem) in damages {
-            fs::write(&path, bytes).unwrap();
-            refused(&dir, problem);
-            refused(&dir, &format!("{part}_000000.vtp"));
-            refused(&dir, "not made again by going on");
-        }
-        fs::remove_file(&path).unwrap();
-        refused(&dir, "was written and is missing");
-        fs::write(&path, whole).unwrap();
-    }
 }
 
 /// What processes that were killed left of a run's files, of its exports and figures.

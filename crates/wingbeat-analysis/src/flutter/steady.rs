@@ -5,12 +5,12 @@ use std::f64::consts::TAU;
 use wingbeat_flight::elastic::{ElasticWing, ElasticWings};
 use wingbeat_flight::{AirModel, FlightError, FlightSetup, FlightState, MotionMode, Simulation};
 use wingbeat_math::{DVec3, rotation_vector};
-use wingbeat_structure::{FrameMotion, Mode, modes};
+use wingbeat_structure::{FrameMotion, Mode, slowest_modes};
 
 use super::settings::FlutterSettings;
 use super::settling::{Settling, drift};
 use crate::AnalysisError;
-use crate::moving::moving;
+use crate::moving::{enough, moving};
 
 /// Steps of the setup in a long step.
 const LONG: usize = 4;
@@ -242,8 +242,9 @@ pub(super) fn leading(
     count: usize,
 ) -> Result<Vec<Mode>, AnalysisError> {
     let (wing, at) = (rig.wing(k), &state.wings[k].structure.configuration);
-    let found = modes(wing.structure(), at, &FrameMotion::REST, None);
-    let mut found = found.map_err(FlightError::from)?;
+    let still = (&FrameMotion::REST, None);
+    let found = slowest_modes(wing.structure(), at, still, &enough(wing, count));
+    let mut found = found.map_err(FlightError::from)?.modes;
     found.retain(|m| m.square > 0.0);
     let found = moving(wing, found, count).modes;
     match found.is_empty() {

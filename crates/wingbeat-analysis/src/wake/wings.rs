@@ -12,7 +12,7 @@ use faer::{Mat, c64};
 use wingbeat_flight::elastic::{ElasticState, ElasticWing, ElasticWings};
 use wingbeat_flight::{AirMemory, FlightError, MotionMode, Past, Record, Simulation};
 use wingbeat_math::{DQuat, DVec3, MassProperties, rotation_vector};
-use wingbeat_structure::{FrameMotion, MassBetween, Mode, NODE, modes};
+use wingbeat_structure::{FrameMotion, MassBetween, Mode, NODE, slowest_modes};
 
 use super::differences::{departures, map_between};
 use super::free_beat::{level, scales, seen, steps_per_beat};
@@ -23,7 +23,7 @@ use crate::disturbance::Disturbance;
 use crate::eigen::{Eigenpair, eigen};
 use crate::level::{Level, Perturbation};
 use crate::modes::{ModeSet, Scales};
-use crate::moving::moving;
+use crate::moving::{enough, moving};
 
 /// Components of a departure of the body.
 pub(super) const BODY: usize = 9;
@@ -256,8 +256,9 @@ impl WingBasis {
     fn new(wing: &ElasticWing, at: &ElasticState, count: usize) -> Result<Self, AnalysisError> {
         let structure = wing.structure();
         let at = &at.structure.configuration;
-        let all = modes(structure, at, &FrameMotion::REST, None).map_err(FlightError::from)?;
-        let modes = moving(wing, all, count).modes;
+        let still = (&FrameMotion::REST, None);
+        let all = slowest_modes(structure, at, still, &enough(wing, count));
+        let modes = moving(wing, all.map_err(FlightError::from)?.modes, count).modes;
         let size = |m: &Mode| {
             let nodes = m.shape.chunks_exact(NODE);
             let moves = |six: &[f64]| {

@@ -36,7 +36,7 @@ pub struct AirCase {
     /// Velocity of the undisturbed air, inertial axes.
     ///
     /// Change it for wind, or for a tunnel: a body at rest in a stream.
-    #[schemars(extend("with" = FLUID))]
+    #[schemars(inner(range(min = -10_000, max = 10_000)), extend("with" = FLUID))]
     pub stream_m_s: [f64; 3],
     /// Whether head, thorax and abdomen are part of the lattice.
     ///

@@ -72,6 +72,7 @@ pub struct BladeCase {
     /// wings.
     ///
     /// Change it with coefficients of wings in steady flow.
+    #[schemars(inner(range(min = -10_000, max = 10_000)))]
     pub induced_m_s: [f64; 3],
 }
 

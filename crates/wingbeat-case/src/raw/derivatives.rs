@@ -21,6 +21,7 @@ pub struct DerivativesCase {
     /// Velocity in the reference flight, axes of the table.
     ///
     /// Change it to that of the flight that was linearised.
+    #[schemars(inner(range(min = -10_000, max = 10_000)))]
     pub velocity_m_s: [f64; 3],
     /// Force in the reference flight; left out: it carries the weight.
     ///

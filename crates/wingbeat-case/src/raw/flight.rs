@@ -38,6 +38,7 @@ pub struct FlightCase {
     /// Velocity of the body origin, inertial axes; a tethered body keeps it.
     ///
     /// Change it for forward flight in still air.
+    #[schemars(inner(range(min = -10_000, max = 10_000)))]
     pub velocity_m_s: [f64; 3],
     /// Angular velocity in body axes, at the release if the body is held, beside that of the tether.
     ///
@@ -118,7 +119,7 @@ pub struct PathOscillation {
     /// Frequency f.
     ///
     /// Change it to that of the motion.
-    #[schemars(extend("with" = "cosine_m | sine_m"))]
+    #[schemars(range(min = -1_000_000, max = 1_000_000), extend("with" = "cosine_m | sine_m"))]
     pub frequency_hz: f64,
     /// Cosine coefficients of harmonics 1, 2, ...
     ///
@@ -144,7 +145,7 @@ pub struct AngleOscillation {
     /// Frequency f.
     ///
     /// Change it to that of the motion.
-    #[schemars(extend("with" = "cosine_deg | sine_deg"))]
+    #[schemars(range(min = -1_000_000, max = 1_000_000), extend("with" = "cosine_deg | sine_deg"))]
     #[serde(default)]
     pub frequency_hz: f64,
     /// Cosine coefficients of harmonics 1, 2, ...

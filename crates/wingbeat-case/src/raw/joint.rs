@@ -161,7 +161,7 @@ pub struct TurnCase {
     /// Frequency f. Left out: the wingbeat's.
     ///
     /// Change it for motions slower or faster than the beat.
-    #[schemars(range(min = 0), extend("with" = "cosine_deg | sine_deg"))]
+    #[schemars(range(min = 0, max = 1_000_000), extend("with" = "cosine_deg | sine_deg"))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub frequency_hz: Option<f64>,
     /// Mean angle.
@@ -188,7 +188,7 @@ pub struct TravelCase {
     /// Frequency f. Left out: the wingbeat's.
     ///
     /// Change it for motions slower or faster than the beat.
-    #[schemars(range(min = 0), extend("with" = "cosine_m | sine_m"))]
+    #[schemars(range(min = 0, max = 1_000_000), extend("with" = "cosine_m | sine_m"))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub frequency_hz: Option<f64>,
     /// Cosine parts.
@@ -305,7 +305,7 @@ pub struct SeriesCase {
     /// Frequency f. Left out: the wingbeat's.
     ///
     /// Change it for actuators slower or faster than the beat.
-    #[schemars(range(min = 0), extend("with" = "cosine | sine"))]
+    #[schemars(range(min = 0, max = 1_000_000), extend("with" = "cosine | sine"))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub frequency_hz: Option<f64>,
     /// Mean.

@@ -41,7 +41,7 @@ pub struct LoadCase {
     /// Frequency f of the oscillating parts.
     ///
     /// Change it together with the series below.
-    #[schemars(range(min = 0), extend("with" = SERIES))]
+    #[schemars(range(min = 0, max = 1_000_000), extend("with" = SERIES))]
     #[serde(default)]
     pub frequency_hz: f64,
     /// Cosine parts of the force, one vector per harmonic 1, 2, ...

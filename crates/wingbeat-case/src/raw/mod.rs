@@ -100,6 +100,7 @@ pub struct Case {
     /// Acceleration of gravity, inertial axes (n3 down).
     ///
     /// Change it to zeros to see the forces of the air alone.
+    #[schemars(inner(range(min = -10_000, max = 10_000)))]
     #[default(gravity())]
     #[serde(default = "gravity")]
     pub gravity_m_s2: [f64; 3],

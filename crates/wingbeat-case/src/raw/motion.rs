@@ -14,7 +14,7 @@ pub struct MotionCase {
     /// Wingbeat frequency. Default: that of the data set, else 0: wings that do not beat.
     ///
     /// Change it to what was measured.
-    #[schemars(extend("minimum" = 0))]
+    #[schemars(extend("minimum" = 0, "maximum" = 1_000_000))]
     #[serde(skip_serializing_if = "Open::is_open")]
     pub frequency_hz: Open<f64>,
     /// Pitch of the stroke plane in the body: the angle about b2 that carries b1 to the normal

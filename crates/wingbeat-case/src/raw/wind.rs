@@ -11,6 +11,7 @@ pub struct GustCase {
     /// Velocity at the height of the gust, inertial axes.
     ///
     /// Change it for a stronger gust or another direction.
+    #[schemars(inner(range(min = -10_000, max = 10_000)))]
     pub amplitude_m_s: [f64; 3],
     /// Time at which it begins at the origin.
     ///
@@ -93,6 +94,7 @@ pub struct VortexStreetCase {
     /// Velocity with which the street travels, along its rows, inertial axes; not 0.
     ///
     /// Change it to the speed with which the wake meets the animal.
+    #[schemars(inner(range(min = -10_000, max = 10_000)))]
     pub drift_m_s: [f64; 3],
     /// Axis of the vortices, of any length but 0, square to the drift, inertial axes.
     ///

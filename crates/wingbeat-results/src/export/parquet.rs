@@ -1,4 +1,4 @@
-//! A table as Apache Parquet: uncompressed columns of doubles, whole numbers and texts, in groups of rows.
+//! A table as Apache Parquet: uncompressed columns of doubles, whole numbers, booleans and texts, in groups of rows.
 //!
 //! Numbers of fields are those of `parquet.thrift` (Apache Parquet format 2.x), written in
 //! Thrift's compact protocol.
@@ -10,11 +10,13 @@ use std::path::Path;
 /// Rows that are gathered before they are written: the memory the writer takes.
 const GROUP: usize = 4096;
 const MAGIC: &[u8] = b"PAR1";
+const BOOLEAN: i64 = 0;
 const INT64: i64 = 2;
 const DOUBLE: i64 = 5;
 const BYTE_ARRAY: i64 = 6;
 const UTF8: i64 = 0;
 const REQUIRED: i64 = 0;
+const OPTIONAL: i64 = 1;
 const PLAIN: i64 = 0;
 const RLE: i64 = 3;
 
@@ -25,6 +27,8 @@ pub enum Cells {
     Numbers,
     /// Whole numbers.
     Counts,
+    /// True or false, or neither.
+    Flags,
     /// Texts.
     Texts,
 }
@@ -35,7 +39,16 @@ impl Cells {
         match self {
             Self::Numbers => DOUBLE,
             Self::Counts => INT64,
+            Self::Flags => BOOLEAN,
             Self::Texts => BYTE_ARRAY,
+        }
+    }
+
+    /// Whether each row has a value.
+    fn repetition(self) -> i64 {
+        match self {
+            Self::Flags => OPTIONAL,
+            Self::Numbers | Self::Counts | Self::Texts => REQUIRED,
         }
     }
 }
@@ -47,6 +60,8 @@ pub enum Cell<'a> {
     Number(f64),
     /// A whole number, kept to its last digit.
     Count(i64),
+    /// True or false, or neither.
+    Flag(Option<bool>),
     /// A text.
     Text(&'a str),
 }
@@ -59,7 +74,7 @@ pub struct ParquetWriter {
     name: String,
     names: Vec<String>,
     cells: Vec<Cells>,
-    /// Rows gathered so far, and the bytes of each column.
+    /// Rows gathered so far, and the bytes of each column; of booleans one a row.
     rows: usize,
     columns: Vec<Vec<u8>>,
     groups: Vec<Group>,
@@ -111,6 +126,9 @@ impl ParquetWriter {
                 (Cells::Numbers, Some(Cell::Number(x))) => column.extend(x.to_le_bytes()),
                 (Cells::Counts, Some(Cell::Count(n))) => column.extend(n.to_le_bytes()),
                 (Cells::Counts, Some(Cell::Number(x))) => column.extend((x as i64).to_le_bytes()),
+                (Cells::Flags, Some(Cell::Flag(flag))) => {
+                    column.push(flag.map_or(NEITHER, u8::from));
+                }
                 (Cells::Texts, Some(Cell::Text(text))) => {
                     column.extend((text.len() as u32).to_le_bytes());
                     column.extend(text.as_bytes());
@@ -140,7 +158,10 @@ impl ParquetWriter {
             return Ok(());
         }
         let mut pages = vec![];
-        for data in &mut self.columns {
+        for (data, cells) in self.columns.iter_mut().zip(&self.cells) {
+            if *cells == Cells::Flags {
+                *data = flags(data);
+            }
             let head = page_header(rows, data.len());
             self.file.write_all(&head)?;
             self.file.write_all(data)?;
@@ -178,7 +199,7 @@ impl ParquetWriter {
         for (name, cells) in self.names.iter().zip(&self.cells) {
             t.element(|t| {
                 t.integer(1, cells.kind());
-                t.integer(3, REQUIRED);
+                t.integer(3, cells.repetition());
                 t.text(4, name);
                 if *cells == Cells::Texts {
                     t.integer(6, UTF8);
@@ -227,6 +248,28 @@ impl ParquetWriter {
         t.long(2, group.pages.iter().map(|p| p[1] as i64).sum());
         t.long(3, group.rows as i64);
     }
+}
+
+/// A boolean that is neither true nor false, among those gathered.
+const NEITHER: u8 = 2;
+
+/// The page of a column of booleans: for every row by a bit whether there is one (levels of definition: their length,
+/// then one run of bits), then by a bit whether it is true, of those there are.
+fn flags(rows: &[u8]) -> Vec<u8> {
+    let there: Vec<bool> = rows.iter().map(|f| *f != NEITHER).collect();
+    let values = rows.iter().filter(|f| **f != NEITHER);
+    let values: Vec<bool> = values.map(|f| *f == 1).collect();
+    let mut run = Thrift::default();
+    run.whole((rows.len().div_ceil(8) as u64) << 1 | 1);
+    run.bytes.extend(bits(&there));
+    let length = (run.bytes.len() as u32).to_le_bytes();
+    [&length[..], &run.bytes, &bits(&values)].concat()
+}
+
+/// Eight a byte, the first in its lowest bit.
+fn bits(all: &[bool]) -> Vec<u8> {
+    let byte = |eight: &[bool]| (0..).zip(eight).map(|(k, b)| u8::from(*b) << k).sum();
+    all.chunks(8).map(byte).collect()
 }
 
 /// PageHeader with its DataPageHeader.
@@ -334,5 +377,15 @@ mod tests {
         assert_eq!(table.columns[0], seed.to_le_bytes());
         assert!(table.cells([Cell::Count(1), Cell::Count(2)]).is_err());
         std::fs::remove_file(&path).unwrap();
+    }
+
+    #[test]
+    fn behaves_booleans_are_bits_and_neither_is_left_out() {
+        let mut rows = vec![1; 9];
+        rows[2] = NEITHER;
+        rows[4] = 0;
+        let run = [2 << 1 | 1, 0b1111_1011, 0b1];
+        let found = flags(&rows);
+        assert_eq!(found, [&[3, 0, 0, 0][..], &run, &[0b1111_0111]].concat());
     }
 }

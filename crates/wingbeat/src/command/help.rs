@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use std::path::Path;
 
 use clap::builder::StyledStr;
-use clap::error::{ContextKind, ContextValue};
+use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{Arg, Command, CommandFactory, Error};
 use clap_complete::Shell;
 use wingbeat::case::{nearest, presets};
@@ -75,8 +75,54 @@ fn negative_numbers(command: Command) -> Command {
     command.mut_args(of_arg).mut_subcommands(negative_numbers)
 }
 
-/// A mistaken command that is a case: how it is flown.
-pub(crate) fn advised(mut mistake: Error) -> Error {
+/// An option that was taken as the value of the one before, which has none then: of those that take negative numbers
+/// any word may be a value. `--forward --json` is the former, `--forward -1` and `--forward -inf` are not.
+fn without_value(mistake: Error) -> Error {
+    let context = |kind| mistake.get(kind);
+    let (Some(ContextValue::String(option)), Some(ContextValue::String(value))) = (
+        context(ContextKind::InvalidArg),
+        context(ContextKind::InvalidValue),
+    ) else {
+        return mistake;
+    };
+    let mut command = Cli::command();
+    command.build();
+    if !has_option(&command, value) {
+        return mistake;
+    }
+    let literal = STYLES.get_literal();
+    let tip = format!(
+        "{literal}{value}{literal:#} is an option itself: give {literal}{option}{literal:#} its value before it"
+    );
+    let mut found = Error::new(ErrorKind::InvalidValue).with_cmd(&command);
+    for (kind, text) in [
+        (ContextKind::InvalidArg, option.clone()),
+        (ContextKind::InvalidValue, String::new()),
+    ] {
+        found.insert(kind, ContextValue::String(text));
+    }
+    let tips = ContextValue::StyledStrs(vec![StyledStr::from(tip)]);
+    found.insert(ContextKind::Suggested, tips);
+    found
+}
+
+/// Whether `word` is the name of an option of this command or of one below it, its value behind `=` included.
+fn has_option(command: &Command, word: &str) -> bool {
+    let name = word.split('=').next().unwrap_or_default();
+    let is_named = |arg: &Arg| match name.strip_prefix("--") {
+        Some(long) => arg.get_long() == Some(long),
+        None => (arg.get_short())
+            .is_some_and(|short| name.strip_prefix('-') == Some(&short.to_string())),
+    };
+    command.get_arguments().any(is_named)
+        || command
+            .get_subcommands()
+            .any(|below| has_option(below, word))
+}
+
+/// A mistaken command that is a case: how it is flown. An option in place of a value: that there is none.
+pub(crate) fn advised(mistake: Error) -> Error {
+    let mut mistake = without_value(mistake);
     let Some(ContextValue::String(name)) = mistake.get(ContextKind::InvalidSubcommand) else {
         return mistake;
     };

@@ -193,6 +193,9 @@ fn go_back(
         );
     }
     let flight = RecordedFlight::resume(dir, &case, flight, (&header, saved.manifest), threads)?;
+    for lost in flight.lost_frames() {
+        tell!("warning: {lost}");
+    }
     Ok(Some(Run { case, flight }))
 }
 
@@ -215,7 +218,7 @@ fn fly(options: &RunOptions, mut run: Run, stop: &AtomicBool) -> Result<(), Fail
             say!("\n{text}\nResults: {}", path.display());
         }
         Ok(_) => {}
-        Err(e @ IoError::Damaged { .. }) if path.join("summary.json").is_file() => {
+        Err(e @ IoError::Damaged { .. }) if outcome == Outcome::Finished => {
             tell!(
                 "error: {e}\nThe flight is at its end and its summary is written, `wingbeat show {0}`; what needs that file is not drawn.",
                 path.display()

@@ -67,6 +67,10 @@ fn balances_the_documented_trim_in_the_lattice_closes_its_orbit() {
     let dir = &scratch.0;
     let text = said(dir, &words);
     assert!(text.contains("trimmed after"), "{text}");
+    // As many as are announced.
+    let flights = text.lines().find(|l| l.contains(" flights of ")).unwrap();
+    let flights: usize = flights.split_whitespace().next().unwrap().parse().unwrap();
+    assert!((10..=30).contains(&flights), "{text}");
     said(dir, &["run", "trimmed.toml", "--quiet", "--out", "r"]);
     // Held for two beats of 24 steps, then free for one: residuals are below 2e-3, drift in wing lengths and
     // pitch in rad among them.

@@ -9,7 +9,7 @@ use clap::Args;
 use wingbeat::campaign::{Ended, Store, Worker, plan_name};
 
 use super::args::{Part, Place};
-use crate::command::failure::{FAILED, Failure, INTERRUPTED};
+use crate::command::failure::{FAILED, Failure, INTERRUPTED, in_words};
 use crate::command::signals::stop_flag;
 use crate::command::terminal::tell;
 
@@ -70,7 +70,8 @@ pub(super) fn work(args: &WorkArgs) -> Result<(), Failure> {
         }
         Err(e) => {
             tell!(
-                "error: {e}\nWhat is done is kept; when that is mended, the same command goes on."
+                "{}\nWhat is done is kept; when that is mended, the same command goes on.",
+                in_words(&e)
             );
             Err(Failure::Told(FAILED))
         }
