@@ -1,12 +1,11 @@
 //! The rigid body of the averaged model: Newton's and Euler's laws with the added mass of the air and the
 //! angular momentum of the beating wings.
 
-use wingbeat_math::{DMat3, DQuat, DVec3, solve_small};
+use wingbeat_math::{DMat3, DQuat, DVec3, Wrench, solve_small};
 
 use crate::AnalysisError;
 use crate::beat::Beat;
 use crate::level::{Level, Perturbation};
-use crate::mean::MeanLoad;
 
 /// What the equations of a rigid aircraft need; axes fixed in the body, level in the reference attitude.
 #[derive(Clone, Copy, Debug)]
@@ -55,7 +54,7 @@ impl RigidBody {
     pub(crate) fn rates(
         &self,
         x: &[f64],
-        load: impl Fn(&Perturbation) -> Result<MeanLoad, AnalysisError>,
+        load: impl Fn(&Perturbation) -> Result<Wrench, AnalysisError>,
     ) -> Result<[f64; 9], AnalysisError> {
         let state = Perturbation::from_array(x.try_into().expect("nine components"));
         let (w, j) = (state.rate, self.inertia);
@@ -63,7 +62,7 @@ impl RigidBody {
         // What changes is the velocity through the air; the stream turns against the body.
         let stream = back * self.stream;
         let load = load(&state)?;
-        let [through, rate] = self.accelerations(&MeanLoad {
+        let [through, rate] = self.accelerations(&Wrench {
             force: load.force
                 + self.mass * (back * self.gravity - w.cross(state.velocity - stream)),
             moment: load.moment - w.cross(j * w + self.momentum),
@@ -81,7 +80,7 @@ impl RigidBody {
     ///
     /// # Errors
     /// Masses that are none.
-    pub(crate) fn accelerations(&self, load: &MeanLoad) -> Result<[DVec3; 2], AnalysisError> {
+    pub(crate) fn accelerations(&self, load: &Wrench) -> Result<[DVec3; 2], AnalysisError> {
         // Moments and angles by the length: all numbers are of one size.
         let scale = |i: usize| if i < 3 { 1.0 } else { self.length };
         let own = |i: usize, j: usize| match (i < 3, j < 3) {

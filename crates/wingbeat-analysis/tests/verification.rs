@@ -264,7 +264,7 @@ fn rigid_body_beat(
     v0: DVec3,
     w0: DVec3,
 ) -> (DVec3, DVec3) {
-    use wingbeat_blade::WingFrame;
+    use wingbeat_dynamics::BodyMotion;
     use wingbeat_math::{DQuat, RotationLaw};
     let AirModel::BladeElement(options) = &setup.air else {
         unreachable!("blade elements")
@@ -280,10 +280,11 @@ fn rigid_body_beat(
         let (mut force, mut moment) = (q.inverse() * (m * setup.gravity), DVec3::ZERO);
         for (wing, strips) in setup.animal.wings.iter().zip(side.wings()) {
             let law = wing.motion.at(t);
-            let load = strips.velocity_load(&WingFrame {
-                rotation: law.c,
-                velocity: v + w.cross(wing.hinge_b),
-                rate: law.c.transpose() * w + law.w,
+            let load = strips.velocity_load(&BodyMotion {
+                r: law.c,
+                v: v + w.cross(wing.hinge_b),
+                w: law.c.transpose() * w + law.w,
+                ..BodyMotion::REST
             });
             let push = law.c * load.force;
             force += push;

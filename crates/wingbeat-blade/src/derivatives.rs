@@ -8,9 +8,7 @@
 //! the mass centre, as flight dynamicists write them. Measured, from computed flow, or from the
 //! cycle means of this program: the table does not say. It knows neither wings nor wingbeats.
 
-use wingbeat_math::{DMat3, DVec3};
-
-use crate::wing::{Load, WingFrame};
+use wingbeat_math::{BodyMotion, DMat3, DVec3, Wrench};
 
 /// A table of stability derivatives, SI.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -35,11 +33,11 @@ pub struct DerivativeTable {
 impl DerivativeTable {
     /// Force and moment about the body's origin, body components, but for what follows its acceleration over the ground
     /// ([`Self::added_mass_of_body`]).
-    pub fn load(&self, body: &WingFrame) -> Load {
-        let air = body.rotation.transpose() * (body.velocity - self.stream);
-        let here = air + body.rate.cross(self.point);
+    pub fn load(&self, body: &BodyMotion) -> Wrench {
+        let air = body.r.transpose() * (body.v - self.stream);
+        let here = air + body.w.cross(self.point);
         let v = self.to_body.transpose() * here - self.velocity;
-        let w = self.to_body.transpose() * body.rate;
+        let w = self.to_body.transpose() * body.w;
         let x = [v.x, v.y, v.z, w.x, w.y, w.z];
         // Where the origin does not accelerate, its velocity through the air turns against the axes.
         let turning = -w.cross(self.to_body.transpose() * air);
@@ -52,7 +50,7 @@ impl DerivativeTable {
         };
         let force = self.to_body * DVec3::new(row(0), row(1), row(2));
         let moment = self.to_body * DVec3::new(row(3), row(4), row(5));
-        Load {
+        Wrench {
             force,
             moment: moment + self.point.cross(force),
         }
@@ -145,10 +143,11 @@ mod tests {
             added_mass: [[0.0; 6]; 6],
             stream: DVec3::ZERO,
         };
-        let load = table.load(&WingFrame {
-            rotation: wingbeat_math::r2(std::f64::consts::FRAC_PI_2),
-            velocity: DVec3::new(0.0, 0.0, -4.0),
-            rate: DVec3::new(0.0, 0.5, 0.0),
+        let load = table.load(&BodyMotion {
+            r: wingbeat_math::r2(std::f64::consts::FRAC_PI_2),
+            v: DVec3::new(0.0, 0.0, -4.0),
+            w: DVec3::new(0.0, 0.5, 0.0),
+            ..BodyMotion::REST
         });
         // u = 4, w at the point = -0.5 * 2 = -1: X = 10 - 3 (4 - 1) = 1, Z = 7 / 2,
         // M = -5 about the point, less 2 Z at the origin.
@@ -178,10 +177,11 @@ mod tests {
         // A body that goes ahead by 7 m/s through air of 2 m/s, without acceleration, and turns nose up by 0.5
         // rad/s: its velocity of 5 m/s through the air changes by -w x v = (0, 0, 2.5) m/s2 in its axes.
         table.stream = DVec3::new(2.0, 0.0, 0.0);
-        let load = table.load(&WingFrame {
-            rotation: DMat3::IDENTITY,
-            velocity: DVec3::new(7.0, 0.0, 0.0),
-            rate: DVec3::new(0.0, 0.5, 0.0),
+        let load = table.load(&BodyMotion {
+            r: DMat3::IDENTITY,
+            v: DVec3::new(7.0, 0.0, 0.0),
+            w: DVec3::new(0.0, 0.5, 0.0),
+            ..BodyMotion::REST
         });
         assert_eq!(load.force, DVec3::new(0.0, 0.0, -7.5));
     }

@@ -63,4 +63,4 @@ pub use lag::{Lag, StripMemory, StripTrial, WingMemory};
 pub use settings::{AddedMass, BladeSettings, CentreOfPressure, Rotation, ViscousMoment};
 pub use strip::{PlacedStrip, Strip};
 pub use wind::{Calm, LocalWind};
-pub use wing::{BladeWing, FrameAcceleration, Load, WingFrame};
+pub use wing::BladeWing;

@@ -16,7 +16,7 @@
 
 use wingbeat_math::{DMat3, DVec3};
 
-use crate::motion::{BodyAcceleration, BodyMotion, Wrench};
+use wingbeat_math::{BodyAcceleration, BodyMotion, Wrench};
 
 /// Six numbers: a force and a moment, or two accelerations.
 pub type Six = [f64; 6];

@@ -1,7 +1,7 @@
 //! The mathematics every other crate of wingbeat stands on.
 //!
-//! What is here: rotations that move in time, Euler-angle sequences, the algebra of mass
-//! properties, dense linear solves, Newton iteration, least squares of passes and time integrators.
+//! What is here: rotations that move in time, Euler-angle sequences, motions of bodies and loads on them, the algebra
+//! of mass properties, dense linear solves, Newton iteration, least squares of passes and time integrators.
 //! What this crate does not know: animals, air, joints, files.
 //!
 //! Vectors and 3 x 3 matrices are [`glam`]'s `f64` types, re-exported here.
@@ -28,6 +28,7 @@ mod secants;
 pub mod series;
 mod small_lu;
 mod smoothstep;
+mod spatial;
 mod split_mix;
 mod statistics;
 
@@ -46,5 +47,6 @@ pub use secants::{Secants, Shown};
 pub use series::{DriftingFourier, interpolate, with_harmonics};
 pub use small_lu::{SingularMatrix, SmallLu, solve_small};
 pub use smoothstep::{smoothstep, smoothstep7};
+pub use spatial::{BodyAcceleration, BodyMotion, Wrench};
 pub use split_mix::SplitMix64;
 pub use statistics::{median, root_mean_square, to_twelve_digits};

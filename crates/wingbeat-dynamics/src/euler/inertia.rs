@@ -6,7 +6,7 @@ use wingbeat_math::{DMat3, DVec3, tilde};
 use super::coordinates::BodyKinematics;
 use super::forces::generalized_wrench;
 use crate::body::{Body, weight_wrench};
-use crate::motion::Wrench;
+use wingbeat_math::Wrench;
 
 /// Blocks of the symmetric mass matrix of one body (seed eq. 18), or of its rate.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

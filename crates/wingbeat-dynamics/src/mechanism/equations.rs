@@ -6,8 +6,8 @@ use super::joint::{JointKinematics, Row};
 use super::structure::Mechanism;
 use crate::error::DynamicsError;
 use crate::joint::Joint;
-use crate::motion::{BodyAcceleration, BodyMotion, Wrench};
 use crate::solution::HingeReaction;
+use wingbeat_math::{BodyAcceleration, BodyMotion, Wrench};
 
 /// Intermediate results, and what was solved for last.
 #[derive(Clone, Debug)]

@@ -11,7 +11,7 @@ use wingbeat_math::{DMat3, DVec3, rotation_vector_of_matrix};
 
 use crate::joint::Joint;
 use crate::joint_model::JointType;
-use crate::motion::BodyMotion;
+use wingbeat_math::BodyMotion;
 
 /// One scalar constraint.
 #[derive(Clone, Copy, Debug)]

@@ -7,9 +7,9 @@ use crate::body::{Body, NaturalUnits};
 use crate::check::{check_finite, check_positive};
 use crate::error::DynamicsError;
 use crate::joint::{Joint, check_joint};
-use crate::motion::BodyMotion;
 use crate::offsets::start;
 use crate::system::System;
+use wingbeat_math::BodyMotion;
 
 /// Bodies and joints.
 #[derive(Clone, Debug)]

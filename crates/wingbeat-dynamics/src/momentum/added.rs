@@ -10,11 +10,11 @@ use wingbeat_math::DVec3;
 use super::whole::whole_load;
 use crate::added_mass::{AddedMass, Factors, Six, six, wrench};
 use crate::configuration::Composite;
-use crate::motion::Wrench;
 use crate::placement::Placement;
 use crate::prescribed::Carried;
 use crate::system::System;
 use crate::workspace::Workspace;
+use wingbeat_math::Wrench;
 
 /// How the whole accelerates, root components.
 pub(super) struct Moving {

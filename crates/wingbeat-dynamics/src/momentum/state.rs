@@ -5,8 +5,8 @@ use wingbeat_math::{DMat3, DQuat, DVec3};
 use crate::check::check_state;
 use crate::configuration::Composite;
 use crate::error::DynamicsError;
-use crate::motion::{BodyMotion, Wrench};
 use crate::workspace::MOMENTUM_STATE;
+use wingbeat_math::{BodyMotion, Wrench};
 
 /// The state vector, taken apart.
 pub(super) struct State {

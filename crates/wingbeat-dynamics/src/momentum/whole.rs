@@ -4,8 +4,8 @@ use wingbeat_math::{DMat3, DVec3};
 
 use crate::body::inertia_wrench;
 use crate::configuration::Configuration;
-use crate::motion::{BodyAcceleration, BodyMotion, Wrench};
 use crate::system::System;
+use wingbeat_math::{BodyAcceleration, BodyMotion, Wrench};
 
 /// Sum of all external forces and of their moments about the mass centre `x_c`, N components.
 pub(super) fn total_load(
