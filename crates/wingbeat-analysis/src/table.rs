@@ -3,7 +3,7 @@
 
 use wingbeat_blade::DerivativeTable;
 use wingbeat_flight::{AirModel, FlightSetup};
-use wingbeat_math::{BodyMotion, DMat3, DVec3, Wrench, tilde};
+use wingbeat_math::{BodyMotion, DMat3, DVec3, Wrench, six_by_six, tilde};
 
 use crate::AnalysisError;
 use crate::eigen::eigen;
@@ -76,7 +76,7 @@ fn load(table: &DerivativeTable, velocity: DVec3, rate: DVec3) -> Wrench {
     let (v, w) = (table.to_body * velocity, table.to_body * rate);
     let still = DerivativeTable {
         stream: DVec3::ZERO,
-        added_mass: [[0.0; 6]; 6],
+        added_mass: six_by_six::ZERO,
         ..*table
     };
     let load = still.load(&BodyMotion {

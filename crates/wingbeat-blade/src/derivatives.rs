@@ -8,7 +8,8 @@
 //! the mass centre, as flight dynamicists write them. Measured, from computed flow, or from the
 //! cycle means of this program: the table does not say. It knows neither wings nor wingbeats.
 
-use wingbeat_math::{BodyMotion, DMat3, DVec3, Wrench};
+use wingbeat_math::six_by_six::{from_entries, symmetric_part, unit};
+use wingbeat_math::{BodyMotion, DMat3, DVec3, Six, SixBySix, Wrench, six};
 
 /// A table of stability derivatives, SI.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -20,12 +21,12 @@ pub struct DerivativeTable {
     /// Reference velocity (u0, v0, w0), axes of the table [m/s].
     pub velocity: DVec3,
     /// Loads in the reference flight: X, Y, Z \[N\], L, M, N [N m].
-    pub reference: [f64; 6],
+    pub reference: Six,
     /// Rows X, Y, Z, L, M, N; columns u, v, w [m/s], p, q, r [rad/s].
-    pub derivatives: [[f64; 6]; 6],
+    pub derivatives: SixBySix,
     /// Added mass of the air A: the load is smaller by A times the rates of (u, v, w) through the air and of
     /// (p, q, r), symmetric [kg, kg m, kg m2].
-    pub added_mass: [[f64; 6]; 6],
+    pub added_mass: SixBySix,
     /// Velocity of the undisturbed air, N components [m/s].
     pub stream: DVec3,
 }
@@ -38,7 +39,7 @@ impl DerivativeTable {
         let here = air + body.w.cross(self.point);
         let v = self.to_body.transpose() * here - self.velocity;
         let w = self.to_body.transpose() * body.w;
-        let x = [v.x, v.y, v.z, w.x, w.y, w.z];
+        let x = six(v, w);
         // Where the origin does not accelerate, its velocity through the air turns against the axes.
         let turning = -w.cross(self.to_body.transpose() * air);
         let turning = turning.to_array();
@@ -57,34 +58,26 @@ impl DerivativeTable {
     }
 
     /// Added mass about the body's origin, body components; none if it is zero.
-    pub fn added_mass_of_body(&self) -> Option<[[f64; 6]; 6]> {
+    pub fn added_mass_of_body(&self) -> Option<SixBySix> {
         let is_zero = self.added_mass.as_flattened().iter().all(|x| *x == 0.0);
         if is_zero {
             return None;
         }
         // Rates at the reference point in the table's axes from those at the origin in the body's.
-        let column = |k: usize| -> [f64; 6] {
-            let unit = |of: usize| {
-                if k / 3 == of {
-                    DVec3::AXES[k % 3]
-                } else {
-                    DVec3::ZERO
-                }
-            };
-            let (linear, angular) = (unit(0), unit(1));
+        let column = |k: usize| {
+            let [linear, angular] = unit(k);
             let v = self.to_body.transpose() * (linear + angular.cross(self.point));
             let w = self.to_body.transpose() * angular;
-            [v.x, v.y, v.z, w.x, w.y, w.z]
+            six(v, w)
         };
-        let columns: [[f64; 6]; 6] = std::array::from_fn(column);
+        let columns: SixBySix = std::array::from_fn(column);
         let entry = |j: usize, k: usize| -> f64 {
             let rows = self.added_mass.iter().zip(&columns[j]);
             rows.map(|(row, x)| x * row.iter().zip(&columns[k]).map(|(a, y)| a * y).sum::<f64>())
                 .sum()
         };
         // Exactly symmetric, as energy asks.
-        let mean = |j: usize, k: usize| 0.5 * (entry(j, k) + entry(k, j));
-        Some(std::array::from_fn(|j| std::array::from_fn(|k| mean(j, k))))
+        Some(symmetric_part(&from_entries(entry)))
     }
 }
 
@@ -106,7 +99,7 @@ pub struct ReferenceSizes {
 
 impl ReferenceSizes {
     /// Dimensional derivatives from dimensionless ones.
-    pub fn dimensional(&self, plus: &[[f64; 6]; 6]) -> [[f64; 6]; 6] {
+    pub fn dimensional(&self, plus: &SixBySix) -> SixBySix {
         let force = 0.5 * self.density * self.speed * self.speed * self.area;
         let rows = [1.0, 1.0, 1.0, self.chord, self.chord, self.chord].map(|x| x * force);
         let by_speed = 1.0 / self.speed;
@@ -118,7 +111,7 @@ impl ReferenceSizes {
             self.period,
             self.period,
         ];
-        std::array::from_fn(|i| std::array::from_fn(|j| plus[i][j] * rows[i] * columns[j]))
+        from_entries(|i, j| plus[i][j] * rows[i] * columns[j])
     }
 }
 

@@ -79,7 +79,7 @@ mod system;
 mod tether;
 mod workspace;
 
-pub use added_mass::{AddedMass, Six};
+pub use added_mass::AddedMass;
 pub use baumgarte::Baumgarte;
 pub use body::{
     Body, NaturalUnits, angular_momentum, kinetic_energy, linear_momentum, weight_wrench,
@@ -106,5 +106,5 @@ pub use shape::ShapeMass;
 pub use solution::{Budget, HingeReaction, Solution, Violation};
 pub use system::System;
 pub use tether::{RootMotion, tethered, tethered_motions};
-pub use wingbeat_math::{BodyAcceleration, BodyMotion, Wrench};
+pub use wingbeat_math::{BodyAcceleration, BodyMotion, Six, Wrench};
 pub use workspace::Workspace;

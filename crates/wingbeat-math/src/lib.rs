@@ -26,6 +26,7 @@ pub mod rotation;
 pub mod rotation_jacobian;
 mod secants;
 pub mod series;
+pub mod six_by_six;
 mod small_lu;
 mod smoothstep;
 mod spatial;
@@ -45,6 +46,7 @@ pub use rotation::{
 };
 pub use secants::{Secants, Shown};
 pub use series::{DriftingFourier, interpolate, with_harmonics};
+pub use six_by_six::{Six, SixBySix, six};
 pub use small_lu::{SingularMatrix, SmallLu, solve_small};
 pub use smoothstep::{smoothstep, smoothstep7};
 pub use spatial::{BodyAcceleration, BodyMotion, Wrench};

@@ -9,7 +9,8 @@ use wingbeat_blade::{
     BladeError, BladeWing, BodyDrag, Calm, Lag, LocalWind, StripTrial, WingMemory,
 };
 use wingbeat_dynamics::{AddedMass, BodyAcceleration, BodyMotion, Wrench};
-use wingbeat_math::DVec3;
+use wingbeat_math::six_by_six::{from_entries, symmetric_part, unit};
+use wingbeat_math::{DVec3, SixBySix, six};
 use wingbeat_model::{Animal, Wing};
 
 use super::bent::{BentStrips, refuse_measured_surfaces};
@@ -162,22 +163,15 @@ impl BladeAir {
 
     /// The added mass of wing `i`, read off its loads under unit accelerations; none if it has none.
     fn added_to(&self, i: usize, t: f64) -> Option<AddedMass> {
-        let load = |linear: DVec3, angular: DVec3| {
+        let load = |[linear, angular]: [DVec3; 2]| {
             let acc = BodyAcceleration { linear, angular };
             let (load, _) = self.acceleration_load(i, t, &BodyMotion::REST, &acc);
-            let (f, m) = (load.force, load.moment);
-            [f.x, f.y, f.z, m.x, m.y, m.z]
+            six(load.force, load.moment)
         };
-        let still = load(DVec3::ZERO, DVec3::ZERO);
-        let unit = |k: usize| match k {
-            0..3 => load(DVec3::AXES[k], DVec3::ZERO),
-            _ => load(DVec3::ZERO, DVec3::AXES[k - 3]),
-        };
-        let columns: [[f64; 6]; 6] = std::array::from_fn(unit);
+        let still = load([DVec3::ZERO; 2]);
+        let columns: SixBySix = std::array::from_fn(|k| load(unit(k)));
         // Exactly symmetric, as energy asks: the two halves differ by roundings.
-        let entry = |j: usize, k: usize| still[j] - columns[k][j];
-        let mean = |j: usize, k: usize| 0.5 * (entry(j, k) + entry(k, j));
-        let matrix: [[f64; 6]; 6] = std::array::from_fn(|j| std::array::from_fn(|k| mean(j, k)));
+        let matrix = symmetric_part(&from_entries(|j, k| still[j] - columns[k][j]));
         let felt = matrix.iter().flatten().any(|x| *x != 0.0);
         felt.then(|| AddedMass::new(i + 1, matrix))
     }

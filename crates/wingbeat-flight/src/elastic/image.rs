@@ -6,6 +6,7 @@
 //! `Q^T`.
 
 use wingbeat_dynamics::{AddedMass, Wrench};
+use wingbeat_math::six_by_six::from_entries;
 use wingbeat_math::{DMat3, DQuat, DVec3};
 use wingbeat_model::mesh::mirror;
 use wingbeat_structure::{Configuration, NODE, State};
@@ -79,9 +80,5 @@ pub(super) fn reflected(load: &Wrench, from: DMat3, to: DMat3) -> Wrench {
 /// The image of an added mass as that of another `body`.
 pub(super) fn reflected_mass(mass: &AddedMass, body: usize) -> AddedMass {
     let of = mass.matrix();
-    let part = |i: usize, j: usize| SIGNS[i] * SIGNS[j] * of[i][j];
-    AddedMass::new(
-        body,
-        std::array::from_fn(|i| std::array::from_fn(|j| part(i, j))),
-    )
+    AddedMass::new(body, from_entries(|i, j| SIGNS[i] * SIGNS[j] * of[i][j]))
 }
