@@ -20,6 +20,7 @@ mod iterative;
 pub mod lu;
 pub mod mass;
 mod matrix;
+mod mirror;
 pub mod newton;
 pub mod ode;
 pub mod rotation;
@@ -40,6 +41,7 @@ pub use iterative::{BiCgStab, Product};
 pub use lu::{DenseLu, LuError};
 pub use mass::{MassError, MassProperties};
 pub use matrix::{outer, trace};
+pub use mirror::{mirrored, mirrored_axial};
 pub use rotation::{
     MovingRotation, RotationLaw, r1, r2, r3, rotation_about, rotation_vector,
     rotation_vector_of_matrix, tilde, untilde,

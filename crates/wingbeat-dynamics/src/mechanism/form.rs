@@ -10,7 +10,7 @@
 //! `[[m I, -R tilde(S)], [tilde(S) R^T, J]]`. Coordinates are scaled by
 //! `1/sqrt(M_ii)`, multipliers by `1/sqrt((B M^-1 B^T)_kk)`.
 
-use wingbeat_math::{DMat3, DQuat, DVec3};
+use wingbeat_math::{DMat3, DQuat, DVec3, mirrored_axial};
 
 pub use super::equations::AbsoluteScratch;
 use super::equations::{eliminate, put_bodies, put_constraints, put_efforts, read, step};
@@ -204,11 +204,11 @@ impl AbsoluteForm {
             let sign = mirror.attitude(attitude(y, a)).dot(attitude(y, b)).signum();
             let [p, v] = [0, 7].map(|k| mirror.vector(vector(dy, a + k)));
             let turn = mirror.attitude(attitude(dy, a)) * sign;
-            let w = vector(dy, a + 10);
+            let w = mirrored_axial(vector(dy, a + 10));
             p.write_to_slice(&mut dy[b..]);
             turn.write_to_slice(&mut dy[b + 3..]);
             v.write_to_slice(&mut dy[b + 7..]);
-            DVec3::new(-w.x, w.y, -w.z).write_to_slice(&mut dy[b + 10..]);
+            w.write_to_slice(&mut dy[b + 10..]);
         }
     }
 
