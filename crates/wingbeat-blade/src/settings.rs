@@ -2,6 +2,8 @@
 
 use std::f64::consts::PI;
 
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 use wingbeat_math::DVec3;
 
 use crate::coefficients::{Translation, find_set};
@@ -30,9 +32,7 @@ pub struct BladeSettings {
 }
 
 /// Place of the translational and rotational force along the chord.
-#[derive(
-    Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize, schemars::JsonSchema,
-)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum CentreOfPressure {
     /// At this part of the chord behind the edge that meets the air: `centre_of_pressure.fixed = 0.25`, say.
@@ -62,9 +62,7 @@ pub enum Rotation {
 }
 
 /// The added mass `m = rho pi/4 c^2 dr` of a strip; v is the normal velocity of mid chord.
-#[derive(
-    Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize, schemars::JsonSchema,
-)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum AddedMass {
     /// Left out.

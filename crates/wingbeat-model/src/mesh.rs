@@ -1,14 +1,14 @@
 //! Meshes of four-node quadrilaterals: flat wing grids and closed surfaces (seed sec. 2).
 
 use crate::error::{ModelError, in_row, require_count};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
 use wingbeat_math::{DVec3, mirrored};
 
 /// Left or right wing.
-#[derive(
-    Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize, schemars::JsonSchema,
-)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Side {
     /// Spans along -axis 2 of the wing frame.
@@ -36,9 +36,7 @@ impl Side {
 }
 
 /// Spacing of grid lines between 0 and 1.
-#[derive(
-    Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize, schemars::JsonSchema,
-)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Spacing {
     /// Equal.
