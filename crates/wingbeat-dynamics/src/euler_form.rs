@@ -7,7 +7,7 @@
 //! nothing at 200 Hz; a > 2.7 makes Runge-Kutta unstable. A stabilization tied to the step lowers a
 //! fourth-order integrator to second order, a fixed one keeps its order.
 
-use wingbeat_math::DVec3;
+use wingbeat_math::{DVec3, largest};
 
 use crate::baumgarte::Baumgarte;
 use crate::budget::{budget, load_power};
@@ -123,12 +123,13 @@ impl EulerForm {
 
 /// Largest constraint of each kind.
 fn violation(hinges: &[HingeKinematics]) -> Violation {
-    let mut v = Violation::default();
-    for h in hinges {
-        v.position = v.position.max(h.connection().abs().max_element());
-        v.orientation = v.orientation.max(h.orientation().abs().max_element());
+    let size = |of: fn(&HingeKinematics) -> DVec3| {
+        largest(hinges.iter().flat_map(|h| of(h).abs().to_array()))
+    };
+    Violation {
+        position: size(HingeKinematics::connection),
+        orientation: size(HingeKinematics::orientation),
     }
-    v
 }
 
 impl Formulation for EulerForm {

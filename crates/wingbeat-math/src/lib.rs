@@ -35,7 +35,7 @@ mod split_mix;
 mod statistics;
 
 pub use euler::{EulerMatrices, EulerSequence};
-pub use extremes::{larger, smaller};
+pub use extremes::{larger, largest, smaller};
 pub use glam::{DMat3, DQuat, DVec2, DVec3};
 pub use iterative::{BiCgStab, Product};
 pub use lu::{DenseLu, LuError};

@@ -10,7 +10,7 @@
 //! `[[m I, -R tilde(S)], [tilde(S) R^T, J]]`. Coordinates are scaled by
 //! `1/sqrt(M_ii)`, multipliers by `1/sqrt((B M^-1 B^T)_kk)`.
 
-use wingbeat_math::{DMat3, DQuat, DVec3, mirrored_axial};
+use wingbeat_math::{DMat3, DQuat, DVec3, larger, mirrored_axial};
 
 pub use super::equations::AbsoluteScratch;
 use super::equations::{eliminate, put_bodies, put_constraints, put_efforts, read, step};
@@ -273,7 +273,7 @@ impl AbsoluteForm {
         }
         for (_, r) in &s.rows {
             let worst = &mut s.violation[usize::from(!r.is_length)];
-            *worst = worst.max(r.value.abs());
+            *worst = larger(*worst, r.value.abs());
         }
     }
 
