@@ -240,7 +240,7 @@ fn agrees_massless_wings_with_a_rigid_body_of_its_own() {
     // axes, under the same strips; added mass left out so that loads need no accelerations.
     let mut setup = fly();
     if let AirModel::BladeElement(options) = &mut setup.air {
-        options.blade.added_mass = wingbeat_blade::AddedMass::None;
+        options.blade.added_mass = wingbeat_blade::AddedMassModel::None;
     }
     for wing in &mut setup.animal.wings {
         wing.mass = wing.mass.scaled(0.0);

@@ -19,7 +19,7 @@ use wingbeat_math::{BodyAcceleration, BodyMotion, DMat3, DVec2, DVec3, Wrench};
 
 use crate::lag::{Lag, StripWind};
 use crate::pair::{PairMotion, StripPair};
-use crate::settings::AddedMass;
+use crate::settings::AddedMassModel;
 use crate::slowed::slowed_forces;
 use crate::strip::{PlacedStrip, Strip};
 use crate::wind::LocalWind;
@@ -219,10 +219,10 @@ impl BladeWing {
         sum: &mut DeformingLoad,
     ) {
         let add = match self.settings().added_mass {
-            AddedMass::Section if self.has_suction() => return,
-            AddedMass::None | AddedMass::Normal => return,
-            AddedMass::Section => Self::add_chordwise,
-            AddedMass::Impulse => Self::add_turning_strip,
+            AddedMassModel::Section if self.has_suction() => return,
+            AddedMassModel::None | AddedMassModel::Normal => return,
+            AddedMassModel::Section => Self::add_chordwise,
+            AddedMassModel::Impulse => Self::add_turning_strip,
         };
         for (k, strip) in self.strips().iter().enumerate() {
             let s = section(k);
@@ -241,7 +241,7 @@ impl BladeWing {
         wind: impl LocalWind,
     ) -> DeformingLoad {
         let mut sum = DeformingLoad::default();
-        if self.settings().added_mass == AddedMass::None {
+        if self.settings().added_mass == AddedMassModel::None {
             return sum;
         }
         let hinge = self.velocity_through_air(motion);

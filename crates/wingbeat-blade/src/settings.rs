@@ -24,7 +24,7 @@ pub struct BladeSettings {
     /// Force of feathering while sweeping.
     pub rotation: Rotation,
     /// Added mass.
-    pub added_mass: AddedMass,
+    pub added_mass: AddedMassModel,
     /// Viscous moment against feathering.
     pub viscous: Option<ViscousMoment>,
     /// How the circulation lags behind the motion; none: quasi-steady.
@@ -64,7 +64,7 @@ pub enum Rotation {
 /// The added mass `m = rho pi/4 c^2 dr` of a strip; v is the normal velocity of mid chord.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
-pub enum AddedMass {
+pub enum AddedMassModel {
     /// Left out.
     None,
     /// The rate of the momentum `m v` along the normal that the strip gives the air,
@@ -92,7 +92,7 @@ pub struct ViscousMoment {
     pub quadratic: f64,
 }
 
-impl AddedMass {
+impl AddedMassModel {
     /// Whether the section's added moment of inertia belongs to it.
     pub(crate) fn has_inertia(self) -> bool {
         matches!(self, Self::Impulse | Self::Section)
@@ -114,7 +114,7 @@ impl BladeSettings {
             translation: find_set("dickson-2008").expect("a shipped set").law,
             centre_of_pressure: CentreOfPressure::Cosine,
             rotation: Rotation::Circulation,
-            added_mass: AddedMass::Impulse,
+            added_mass: AddedMassModel::Impulse,
             viscous: None,
             unsteady: None,
         }
@@ -129,7 +129,7 @@ impl BladeSettings {
                 .expect("a shipped set")
                 .law,
             rotation: Rotation::Coefficient(0.5 * PI),
-            added_mass: AddedMass::Section,
+            added_mass: AddedMassModel::Section,
             viscous: Some(ViscousMoment {
                 linear: 0.2 * frequency,
                 quadratic: 0.2,

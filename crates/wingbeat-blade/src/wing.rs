@@ -6,7 +6,7 @@ use wingbeat_math::{BodyAcceleration, BodyMotion, DVec2, DVec3, Wrench};
 use crate::error::BladeError;
 use crate::lag::{Lag, Lags, StripTrial, StripWind, WingMemory};
 use crate::pair::{PairMotion, StripPair};
-use crate::settings::{AddedMass, BladeSettings};
+use crate::settings::{AddedMassModel, BladeSettings};
 use crate::slowed::{Gust, Slowed, slowed_forces};
 use crate::strip::Strip;
 use crate::wind::{Calm, LocalWind};
@@ -37,7 +37,7 @@ struct AddedMoments {
 impl AddedMoments {
     fn of(strips: &[Strip], settings: &BladeSettings) -> Self {
         let mut a = Self::default();
-        if settings.added_mass == AddedMass::None {
+        if settings.added_mass == AddedMassModel::None {
             return a;
         }
         for s in strips {
@@ -96,7 +96,7 @@ impl BladeWing {
 
     /// Whether it carries air along.
     pub fn has_added_mass(&self) -> bool {
-        self.settings.added_mass != AddedMass::None
+        self.settings.added_mass != AddedMassModel::None
     }
 
     /// Everything that depends on velocities alone: translation, rotation, viscous moment, and
@@ -123,10 +123,10 @@ impl BladeWing {
             return sum + self.turning_load_in(motion, |p| v - wind.velocity(p));
         }
         match self.settings.added_mass {
-            AddedMass::Section if self.has_suction() => {}
-            AddedMass::None | AddedMass::Normal => {}
-            AddedMass::Section => self.add_chordwise_added_mass(v, motion.w, &mut sum),
-            AddedMass::Impulse => self.add_turning_impulse(v, motion.w, &mut sum),
+            AddedMassModel::Section if self.has_suction() => {}
+            AddedMassModel::None | AddedMassModel::Normal => {}
+            AddedMassModel::Section => self.add_chordwise_added_mass(v, motion.w, &mut sum),
+            AddedMassModel::Impulse => self.add_turning_impulse(v, motion.w, &mut sum),
         }
         sum
     }
@@ -266,7 +266,7 @@ impl BladeWing {
     /// What changes the impulse of the air while its components in the wing frame stay: force
     /// `-w x P`, moment `-w x L - v x P` about the hinge, P and L the air's momentum and angular
     /// momentum about the hinge (Kirchhoff's equations). About the span that is Munk's couple alone,
-    /// `sum m w u`, and left out: the law of the centre of pressure has it ([`AddedMass::Impulse`]).
+    /// `sum m w u`, and left out: the law of the centre of pressure has it ([`AddedMassModel::Impulse`]).
     fn add_turning_impulse(&self, v: DVec3, rate: DVec3, sum: &mut Wrench) {
         let a = &self.added;
         let p = DVec3::new(0.0, 0.0, a.m * v.z + a.my * rate.x - a.mx * rate.y);

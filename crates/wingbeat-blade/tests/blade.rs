@@ -48,7 +48,7 @@ fn only_translation(law: Translation) -> BladeSettings {
     BladeSettings {
         translation: law,
         rotation: Rotation::None,
-        added_mass: AddedMass::None,
+        added_mass: AddedMassModel::None,
         ..BladeSettings::insect(RHO)
     }
 }
@@ -100,7 +100,7 @@ fn exact_rotational_force_of_thin_airfoil_theory() {
         for u in [2.0, -2.0] {
             let settings = BladeSettings {
                 rotation,
-                added_mass: AddedMass::None,
+                added_mass: AddedMassModel::None,
                 ..BladeSettings::insect(RHO)
             };
             let load = wing(settings, 3, 1.0)
@@ -116,7 +116,7 @@ fn exact_added_mass_of_a_plate() {
     // A plate accelerated along its normal: pi/4 rho c^2 per unit span; spun up about mid chord:
     // no force, and the moment pi/128 rho c^4 of the section alone.
     let settings = BladeSettings {
-        added_mass: AddedMass::Impulse,
+        added_mass: AddedMassModel::Impulse,
         ..BladeSettings::insect(RHO)
     };
     let plate = BladeWing::new(Strip::rectangle(1, [-0.5, 0.5], 0.4, 0.2, 1.0), settings).unwrap();
@@ -145,18 +145,18 @@ fn exact_added_mass_of_a_plate() {
 #[test]
 fn balances_added_mass_returns_its_energy() {
     // Power of the added-mass load = -dE/dt of the air it moves, in any motion.
-    for form in [AddedMass::Normal, AddedMass::Impulse] {
+    for form in [AddedMassModel::Normal, AddedMassModel::Impulse] {
         returns_its_energy(form);
     }
 }
 
-fn returns_its_energy(form: AddedMass) {
+fn returns_its_energy(form: AddedMassModel) {
     let with = |added_mass| BladeSettings {
         added_mass,
         ..BladeSettings::insect(RHO)
     };
     let (without, wing) = (
-        wing(with(AddedMass::None), 7, 1.0),
+        wing(with(AddedMassModel::None), 7, 1.0),
         wing(with(form), 7, 1.0),
     );
     for (k, m) in motions().enumerate() {
@@ -167,7 +167,7 @@ fn returns_its_energy(form: AddedMass) {
         let v = m.r.transpose() * m.v;
         let power_of = |load: Wrench| load.force.dot(v) + load.moment.dot(m.w);
         let mut power = power_of(wing.load(&m, &acc)) - power_of(without.load(&m, &acc));
-        if form == AddedMass::Impulse {
+        if form == AddedMassModel::Impulse {
             power += munk(&wing, &m) * m.w.y;
         }
         // E is quadratic in the velocity components: its central difference is exact.
@@ -188,7 +188,7 @@ fn returns_its_energy(form: AddedMass) {
 /// Energy of the air that the added mass moves, `sum m w^2/2` of the normal velocities w at mid chord, with
 /// `J q^2/2` of the sections' own turning where the added mass has it \[J\].
 fn added_energy(wing: &BladeWing, m: &BodyMotion) -> f64 {
-    let has_inertia = wing.settings().added_mass == AddedMass::Impulse;
+    let has_inertia = wing.settings().added_mass == AddedMassModel::Impulse;
     let v = m.r.transpose() * m.v;
     let energy = |s: &Strip| {
         let w = (v + m.w.cross(DVec3::new(s.x_mid(), s.y, 0.0))).z;
@@ -258,8 +258,8 @@ fn balances_added_mass_by_impulse_has_no_mean_load_over_a_beat() {
             -1.0,
         )
     };
-    let without = with(AddedMass::None);
-    let mean = |form: AddedMass| {
+    let without = with(AddedMassModel::None);
+    let mean = |form: AddedMassModel| {
         let (wing, mut sums, mut size) = (with(form), [DVec3::ZERO; 2], [0.0_f64; 2]);
         for k in 0..200 {
             let (p, m, acc) = beating(f64::from(k) / 200.0);
@@ -274,11 +274,11 @@ fn balances_added_mass_by_impulse_has_no_mean_load_over_a_beat() {
         }
         [0, 1].map(|i| sums[i].length() / size[i])
     };
-    let [force, moment] = mean(AddedMass::Impulse);
+    let [force, moment] = mean(AddedMassModel::Impulse);
     println!("means over largest: force {force:.1e}, moment {moment:.1e}");
     assert!(force < 1e-15 && moment < 1e-15); // roundings of 200 terms
     // The form that looks at the normal alone does push: that is what the impulse is for.
-    assert!(mean(AddedMass::Normal)[0] > 1e-2);
+    assert!(mean(AddedMassModel::Normal)[0] > 1e-2);
 }
 
 #[test]

@@ -4,14 +4,14 @@ use wingbeat_blade::*;
 use wingbeat_math::{BodyAcceleration, BodyMotion, DMat3, DVec3, Wrench, r1, r2, r3};
 
 const RHO: f64 = 1.2;
-const LAWS: [AddedMass; 4] = [
-    AddedMass::None,
-    AddedMass::Impulse,
-    AddedMass::Normal,
-    AddedMass::Section,
+const LAWS: [AddedMassModel; 4] = [
+    AddedMassModel::None,
+    AddedMassModel::Impulse,
+    AddedMassModel::Normal,
+    AddedMassModel::Section,
 ];
 
-fn settings(added_mass: AddedMass) -> BladeSettings {
+fn settings(added_mass: AddedMassModel) -> BladeSettings {
     BladeSettings {
         added_mass,
         ..BladeSettings::insect(RHO)
@@ -60,7 +60,7 @@ fn placed(turn: DMat3, side: f64) -> Vec<PlacedStrip> {
     (0..5).map(strip).collect()
 }
 
-fn wing(placed: &[PlacedStrip], law: AddedMass) -> BladeWing {
+fn wing(placed: &[PlacedStrip], law: AddedMassModel) -> BladeWing {
     BladeWing::new(placed.iter().map(|p| p.strip).collect(), settings(law)).unwrap()
 }
 

@@ -14,12 +14,12 @@ struct Bent {
     sections: Vec<Section>,
 }
 
-fn bent(added_mass: AddedMass, side: f64) -> Bent {
+fn bent(added_mass: AddedMassModel, side: f64) -> Bent {
     turned(added_mass, side, DMat3::IDENTITY)
 }
 
 /// The same with its mesh turned about the hinge.
-fn turned(added_mass: AddedMass, side: f64, turn: DMat3) -> Bent {
+fn turned(added_mass: AddedMassModel, side: f64, turn: DMat3) -> Bent {
     let y = |j: usize| 0.1 + 0.2 * j as f64;
     let lead = |y: f64| 0.075 - 0.03 * y * y;
     let chord = |y: f64| 0.3 - 0.1 * y;
@@ -50,11 +50,11 @@ fn turned(added_mass: AddedMass, side: f64, turn: DMat3) -> Bent {
     }
 }
 
-const LAWS: [AddedMass; 4] = [
-    AddedMass::None,
-    AddedMass::Impulse,
-    AddedMass::Normal,
-    AddedMass::Section,
+const LAWS: [AddedMassModel; 4] = [
+    AddedMassModel::None,
+    AddedMassModel::Impulse,
+    AddedMassModel::Normal,
+    AddedMassModel::Section,
 ];
 
 impl Bent {
@@ -217,7 +217,7 @@ fn agrees_with_sections_whose_twist_is_prescribed_in_force_moment_and_power() {
 #[test]
 fn agrees_answers_of_sections_with_differences_of_their_forces() {
     // Bent and twisted, moving; each node in turn a little faster, accelerating a little more.
-    let bent = bent(AddedMass::Impulse, 1.0);
+    let bent = bent(AddedMassModel::Impulse, 1.0);
     let r: Vec<DVec3> = (bent.nodes.iter())
         .map(|r| *r + DVec3::new(0.0, 0.0, 0.1 * r.y * r.y + 0.2 * r.x * r.y))
         .collect();

@@ -352,7 +352,7 @@ fn behaves_smoothly_where_a_strip_turns_back() {
 fn wing_of_insect() -> BladeWing {
     let settings = BladeSettings {
         unsteady: Some(Unsteady::Jones),
-        added_mass: AddedMass::None,
+        added_mass: AddedMassModel::None,
         ..BladeSettings::insect(1.0)
     };
     BladeWing::new(section(0.0, None).strips().to_vec(), settings).unwrap()

@@ -83,7 +83,7 @@ impl Oscillation {
     }
 
     /// The same of the strip, flown until its wake is that of the motion for ever.
-    fn flown(&self, theory: Unsteady, added_mass: AddedMass) -> Means {
+    fn flown(&self, theory: Unsteady, added_mass: AddedMassModel) -> Means {
         let per = 400;
         let periods = (250.0 * self.k / TAU).ceil() as usize + 2;
         let wing = section(self.a, Some(theory));
@@ -157,7 +157,7 @@ fn exact_thrust_and_power_of_plunge_and_pitch_are_garricks() {
         (Unsteady::Jones, 0.02),
         (Unsteady::Peters { states: 8 }, 0.01),
     ] {
-        for added_mass in [AddedMass::Impulse, AddedMass::Section] {
+        for added_mass in [AddedMassModel::Impulse, AddedMassModel::Section] {
             for o in oscillations() {
                 let found = o.flown(theory, added_mass);
                 let own = theory.indicial().answer(o.k);
@@ -180,7 +180,7 @@ fn exact_thrust_and_power_of_plunge_and_pitch_are_garricks() {
 fn balances_power_that_is_not_thrust_stays_in_the_wake() {
     let theory = Unsteady::Peters { states: 8 };
     for o in oscillations() {
-        let found = o.flown(theory, AddedMass::Impulse);
+        let found = o.flown(theory, AddedMassModel::Impulse);
         // rho Gamma u lambda = 2 pi rho b u C Q (1 - C) Q [Garrick 1936, his E].
         let [h1, _, alpha, alpha_1, _] = o.amplitudes();
         let wash = sum([(1.0, h1), (1.0, alpha), (0.5 - o.a, alpha_1)]);
@@ -209,7 +209,11 @@ fn agrees_suction_of_a_flat_wing_with_that_of_its_sections() {
         w: DVec3::new(0.7, -1.3, 0.4),
         ..BodyMotion::REST
     };
-    for added_mass in [AddedMass::None, AddedMass::Section, AddedMass::Impulse] {
+    for added_mass in [
+        AddedMassModel::None,
+        AddedMassModel::Section,
+        AddedMassModel::Impulse,
+    ] {
         let settings = BladeSettings {
             added_mass,
             unsteady: Some(Unsteady::Jones),

@@ -5,11 +5,11 @@ use std::f64::consts::{PI, TAU};
 use wingbeat_blade::*;
 use wingbeat_math::{BodyAcceleration, BodyMotion, DMat3, DVec3, Wrench, r1, r2, r3};
 
-const LAWS: [AddedMass; 4] = [
-    AddedMass::None,
-    AddedMass::Impulse,
-    AddedMass::Normal,
-    AddedMass::Section,
+const LAWS: [AddedMassModel; 4] = [
+    AddedMassModel::None,
+    AddedMassModel::Impulse,
+    AddedMassModel::Normal,
+    AddedMassModel::Section,
 ];
 
 /// Velocity `u + s x` at a point x of N and its rate where the point stands still, on a wing that moves like
@@ -65,7 +65,7 @@ fn plus(a: Wrench, b: Wrench) -> Wrench {
 }
 
 /// Added mass alone.
-fn massive(law: AddedMass) -> BladeSettings {
+fn massive(law: AddedMassModel) -> BladeSettings {
     BladeSettings {
         translation: Translation::DoubleAngle {
             lift: 0.0,
@@ -235,7 +235,7 @@ fn at(t: f64) -> (BodyMotion, BodyAcceleration, Field) {
 fn agrees_force_in_a_changing_wind_with_the_rate_of_the_airs_impulse() {
     // By the law of the impulse the force is the rate at which the momentum m (w n) that strips have given to
     // the air at their mid chords falls.
-    let w = wing(massive(AddedMass::Impulse), 4, 1.0);
+    let w = wing(massive(AddedMassModel::Impulse), 4, 1.0);
     let impulse = |t: f64| {
         let (m, _, wind) = at(t);
         let n = m.r.z_axis;
