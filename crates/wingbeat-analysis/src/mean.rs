@@ -52,9 +52,10 @@ impl Beat {
         sum / (2 * self.steps()) as f64
     }
 
-    /// Mean air load, components of the level frame, its moment about the mean mass centre, when the mean mass centre moves with `velocity` [m/s] and the body turns with `rate`
-    /// [rad/s], the rate and the velocity through the air steady in the level frame that turns with the body.
-    /// Equal weights over the beat: spectrally accurate for a periodic motion.
+    /// Mean air load when the mean mass centre moves with `velocity` [m/s] and the body turns with `rate`
+    /// [rad/s], the rate and the velocity through the air steady in the level frame that turns with the body:
+    /// components of that frame, the moment about the mean mass centre. Equal weights over the beat: spectrally
+    /// accurate for a periodic motion.
     ///
     /// # Errors
     /// Free joints, whose motion is not known beforehand; what the air reports.

@@ -1,8 +1,6 @@
 //! A rigid body: its mass properties, momentum, weight and energy.
 
-use wingbeat_math::{DVec3, EulerSequence, MassProperties};
-
-use wingbeat_math::{BodyAcceleration, BodyMotion, Wrench};
+use wingbeat_math::{BodyAcceleration, BodyMotion, DVec3, EulerSequence, MassProperties, Wrench};
 
 /// A rigid body.
 #[derive(Clone, Debug)]

@@ -1,7 +1,8 @@
 //! The mathematics every other crate of wingbeat stands on.
 //!
-//! What is here: rotations that move in time, Euler-angle sequences, motions of bodies and loads on them, the algebra
-//! of mass properties, dense linear solves, Newton iteration, least squares of passes and time integrators.
+//! What is here: rotations that move in time, Euler-angle sequences, motions of bodies and loads on them, the
+//! algebra of mass properties, dense linear solves, Newton iteration, least squares of passes and time
+//! integrators.
 //! What this crate does not know: animals, air, joints, files.
 //!
 //! Vectors and 3 x 3 matrices are [`glam`]'s `f64` types, re-exported here.

@@ -1,5 +1,6 @@
-//! Six numbers of two vectors, and six by six matrices of such: masses, stiffnesses and derivatives of loads of rigid
-//! bodies. Rows and columns stand as place and attitude, velocity and angular velocity, or force and moment.
+//! Six numbers of two vectors, and six by six matrices of such: masses, stiffnesses and derivatives of loads of
+//! rigid bodies. Rows and columns stand as place and attitude, velocity and angular velocity, or force and
+//! moment.
 
 use crate::{DMat3, DVec3};
 

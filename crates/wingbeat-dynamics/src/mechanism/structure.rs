@@ -1,6 +1,6 @@
 //! Bodies and what joins them.
 
-use wingbeat_math::DVec3;
+use wingbeat_math::{BodyMotion, DVec3};
 
 use super::joint::kinematics;
 use crate::body::{Body, NaturalUnits};
@@ -9,7 +9,6 @@ use crate::error::DynamicsError;
 use crate::joint::{Joint, check_joint};
 use crate::offsets::start;
 use crate::system::System;
-use wingbeat_math::BodyMotion;
 
 /// Bodies and joints.
 #[derive(Clone, Debug)]

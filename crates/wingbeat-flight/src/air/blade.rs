@@ -86,7 +86,8 @@ impl BladeAir {
             .is_some_and(MovingStrips::is_deformed)
     }
 
-    /// Force and moment of the added mass of a wing that moves like `m` and accelerates like `acc`, wing components.
+    /// Force and moment of the added mass of a wing that moves like `m` and accelerates like `acc`, wing
+    /// components.
     fn acceleration_load(
         &self,
         i: usize,
@@ -106,8 +107,8 @@ impl BladeAir {
         }
     }
 
-    /// Force and moment on a wing by its velocities and the wakes that `lag` tells of, wing components, and the power
-    /// that deforms it.
+    /// Force and moment on a wing by its velocities and the wakes that `lag` tells of, wing components, and the
+    /// power that deforms it.
     fn velocity_load(
         &self,
         i: usize,

@@ -61,8 +61,8 @@ const CUTICLE_YOUNG: f64 = 3e9;
 
 impl WingShell {
     /// A solid sheet of one material, as stiff in bending as in stretching, clamped at the root, the wing's
-    /// mass spread evenly over it: Young's modulus along span and chord \[Pa\], Poisson's ratio \[1\], thickness
-    /// \[m\] over r/R.
+    /// mass spread evenly over it: Young's modulus along span and chord \[Pa\], Poisson's ratio \[1\],
+    /// thickness \[m\] over r/R.
     pub fn solid(young: [f64; 2], poisson: f64, thickness: SpanLaw) -> Self {
         Self {
             young,
