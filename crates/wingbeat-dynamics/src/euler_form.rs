@@ -7,7 +7,7 @@
 //! nothing at 200 Hz; a > 2.7 makes Runge-Kutta unstable. A stabilization tied to the step lowers a
 //! fourth-order integrator to second order, a fixed one keeps its order.
 
-use wingbeat_math::{DVec3, largest};
+use wingbeat_math::{BodyAcceleration, BodyMotion, DVec3, Wrench, largest};
 
 use crate::baumgarte::Baumgarte;
 use crate::budget::{budget, load_power};
@@ -17,10 +17,7 @@ use crate::euler::assembly::{consistent_coordinates, consistent_rates};
 use crate::euler::constraint::HingeKinematics;
 use crate::euler::coordinates::{BodyKinematics, COORDINATES, write};
 use crate::euler::scratch::EulerScratch;
-use crate::{
-    BodyAcceleration, BodyMotion, DynamicsError, Formulation, HingeReaction, Solution, System,
-    Violation, Workspace, Wrench,
-};
+use crate::{DynamicsError, Formulation, HingeReaction, Solution, System, Violation, Workspace};
 
 /// The seed's form of a [`System`].
 #[derive(Clone, Debug)]

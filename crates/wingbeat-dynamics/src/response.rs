@@ -1,9 +1,9 @@
 //! Added masses in any formulation: the added loads from its response to unit loads.
 
-use wingbeat_math::{largest, solve_small};
+use wingbeat_math::{BodyMotion, Wrench, largest, solve_small};
 
 use crate::added_mass::{seen, wrench};
-use crate::{AddedMass, BodyMotion, DynamicsError, Solution, Wrench};
+use crate::{AddedMass, DynamicsError, Solution};
 
 /// Accelerations of all bodies under loads.
 pub(crate) type Accelerate<'a> =

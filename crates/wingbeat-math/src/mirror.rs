@@ -1,6 +1,6 @@
 //! Mirror images in the 1-3 plane, which bring the left and the right side of an animal to each other.
 
-use crate::DVec3;
+use glam::DVec3;
 
 /// Mirror image of a polar vector: a place, velocity, acceleration or force.
 ///

@@ -2,7 +2,7 @@
 //! rigid bodies. Rows and columns stand as place and attitude, velocity and angular velocity, or force and
 //! moment.
 
-use crate::{DMat3, DVec3};
+use glam::{DMat3, DVec3};
 
 /// Six numbers of two vectors: a force and a moment, or two velocities or accelerations.
 pub type Six = [f64; 6];

@@ -1,6 +1,6 @@
 //! Motion of a body and loads on it: what dynamics, blade elements and analysis hand each other.
 
-use crate::{DMat3, DVec3};
+use glam::{DMat3, DVec3};
 
 /// Where a body is and how it moves.
 #[derive(Clone, Copy, Debug, PartialEq)]

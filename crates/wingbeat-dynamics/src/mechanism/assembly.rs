@@ -1,13 +1,13 @@
 //! Consistent starts: positions by Newton's iteration with line search on automatically chosen
 //! dependent coordinates, velocities by one linear solve; and what the joints ask twice.
 
-use wingbeat_math::{DMat3, DQuat, DVec3, largest};
+use wingbeat_math::{BodyMotion, DMat3, DQuat, DVec3, largest};
 
 use super::form::{AbsoluteForm, AbsoluteScratch};
 use super::given::Given;
 use super::partition::{Dependent, NEARLY_SINGULAR, Partition, RANK_TOLERANCE, partition};
+use crate::DynamicsError;
 use crate::error::quoted_once;
-use crate::{BodyMotion, DynamicsError};
 
 /// Scaled constraint values allowed at the start.
 const TOLERANCE: f64 = 1e-13;

@@ -10,7 +10,9 @@
 //! `[[m I, -R tilde(S)], [tilde(S) R^T, J]]`. Coordinates are scaled by
 //! `1/sqrt(M_ii)`, multipliers by `1/sqrt((B M^-1 B^T)_kk)`.
 
-use wingbeat_math::{DMat3, DQuat, DVec3, larger, mirrored_axial};
+use wingbeat_math::{
+    BodyAcceleration, BodyMotion, DMat3, DQuat, DVec3, Wrench, larger, mirrored_axial,
+};
 
 pub use super::equations::AbsoluteScratch;
 use super::equations::{eliminate, put_bodies, put_constraints, put_efforts, read, step};
@@ -19,7 +21,7 @@ use super::structure::Mechanism;
 use crate::check::check_state;
 use crate::joint::Joint;
 use crate::mirror::MirrorSymmetry;
-use crate::{Baumgarte, BodyAcceleration, BodyMotion, DynamicsError, HingeReaction, Wrench};
+use crate::{Baumgarte, DynamicsError, HingeReaction};
 
 /// Numbers per body in the state.
 pub(crate) const STATE_NUMBERS: usize = 13;
