@@ -1,18 +1,11 @@
 //! The edges of a wing, and which of them shed wakes.
 
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
 /// Which edge of a wing a shedding segment belongs to.
 #[derive(
-    Clone,
-    Copy,
-    Debug,
-    PartialEq,
-    Eq,
-    Hash,
-    PartialOrd,
-    Ord,
-    serde::Serialize,
-    serde::Deserialize,
-    schemars::JsonSchema,
+    Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize, JsonSchema,
 )]
 #[serde(rename_all = "snake_case")]
 pub enum EdgeKind {

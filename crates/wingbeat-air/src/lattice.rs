@@ -11,7 +11,7 @@ use crate::images::{Mirror, mirrors};
 use crate::settings::AirSettings;
 use std::ops::Range;
 use std::sync::Arc;
-use wingbeat_math::DVec3;
+use wingbeat_math::{DVec3, largest};
 
 /// How far behind a plane a node may be that touches it, over the distance of the farthest one: far above round-off.
 const TOUCHING: f64 = 1e-7;
@@ -140,17 +140,15 @@ impl Lattice {
     pub(crate) fn check_sides(&self, position: &[DVec3], step: u64) -> Result<(), AirError> {
         for plane in &self.settings.images {
             let heights = || position.iter().map(|x| plane.height(*x));
-            let largest = |sign: f64| heights().map(|h| sign * h).fold(0.0, f64::max);
-            let side = if largest(1.0) < largest(-1.0) {
-                -1.0
-            } else {
-                1.0
-            };
-            let [far, depth] = [side, -side].map(largest);
+            let most = |sign: f64| largest(heights().map(|h| sign * h));
+            let side = if most(1.0) < most(-1.0) { -1.0 } else { 1.0 };
+            let [far, depth] = [side, -side].map(most);
             if depth <= TOUCHING * far {
                 continue;
             }
-            let node = heights().position(|h| -side * h == depth).unwrap_or(0);
+            let node = heights()
+                .position(|h| h.is_nan() || -side * h == depth)
+                .unwrap_or(0);
             let (surface, node) = self.topology.locate_node(node);
             return Err(AirError::ThroughPlane {
                 step,

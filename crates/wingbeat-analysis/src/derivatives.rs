@@ -1,13 +1,12 @@
 //! Control derivatives: mean loads by the means of steering, wing by wing.
 
 use wingbeat_flight::FlightSetup;
-use wingbeat_math::{DMat3, DVec3};
+use wingbeat_math::{DMat3, DVec3, Wrench};
 use wingbeat_model::{AngleLaw, Wing};
 
 use crate::AnalysisError;
 use crate::beat::Beat;
 use crate::level::Level;
-use crate::mean::MeanLoad;
 use crate::progress;
 use crate::unknown::{Unknown, adjusted};
 
@@ -80,7 +79,7 @@ pub struct ControlDerivative {
     pub wing: String,
     /// Derivatives of force \[N\] and moment [N m] about the mean mass centre, level frame, per unit
     /// of the control.
-    pub derivative: MeanLoad,
+    pub derivative: Wrench,
 }
 
 /// Control derivatives about steady flight with the attitude `rotation` (root to N) and the
@@ -106,7 +105,7 @@ pub fn control_derivatives(
             .map(Some)
             .filter(|_| control != Control::FREQUENCY);
         for chosen in single.chain([None]) {
-            let at = |x: f64| -> Result<MeanLoad, AnalysisError> {
+            let at = |x: f64| -> Result<Wrench, AnalysisError> {
                 let level = Level::new(rotation, setup.gravity);
                 let beat = Beat::new(&control.steered(setup, chosen, x), steps)?;
                 beat.mean_load(&level, velocity, DVec3::ZERO)
@@ -115,7 +114,7 @@ pub fn control_derivatives(
             list.push(ControlDerivative {
                 control: name,
                 wing: chosen.map_or("all".into(), |k| setup.animal.wings[k].name.clone()),
-                derivative: MeanLoad {
+                derivative: Wrench {
                     force: (plus.force - minus.force) / (2.0 * STEP),
                     moment: (plus.moment - minus.moment) / (2.0 * STEP),
                 },

@@ -2,7 +2,7 @@
 //!
 //! The chapter in order: [`Beat`] is one wingbeat of free flight as a map of the state; [`trim()`] finds steady
 //! flight as a periodic orbit of that map (Newton's method, shooting over one beat), [`sweep()`] over a range
-//! of speeds; [`MeanLoad`] averages loads over a beat of steadily moving body; [`linear_model`] linearises: the
+//! of speeds; [`Beat::mean_load`] averages loads over a beat of steadily moving body; [`linear_model`] linearises: the
 //! cycle-averaged rigid-body model with its derivatives; [`floquet`] has Floquet's multipliers of the periodic
 //! orbit from the monodromy matrix ([`orbit_monodromy`]); [`ModeSet`] names what comes out;
 //! [`control_derivatives`] are the controls; [`power()`] is what it takes; [`control`] holds a flyer on its
@@ -84,7 +84,6 @@ pub use jacobian::jacobian;
 pub use least_power::trim_within;
 pub use level::{Level, Perturbation, STATE};
 pub use lost::{Lost, Way};
-pub use mean::MeanLoad;
 pub use modes::{Mode, ModeSet, Plane, Scales};
 pub use plausibility::{
     Estimate, KeptWake, WingEstimate, doubtful_reynolds_numbers, estimate, jumping_rotation,

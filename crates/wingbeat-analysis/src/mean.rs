@@ -1,20 +1,11 @@
 //! Loads averaged over a beat while the body moves steadily.
 
-use wingbeat_dynamics::{BodyAcceleration, BodyMotion};
+use wingbeat_dynamics::{BodyAcceleration, BodyMotion, Wrench};
 use wingbeat_math::{DMat3, DQuat, DVec3};
 
 use crate::AnalysisError;
 use crate::beat::Beat;
 use crate::level::{Level, Perturbation};
-
-/// Mean force and moment of the air over a beat, components of the level frame.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct MeanLoad {
-    /// Force X, Y, Z \[N\].
-    pub force: DVec3,
-    /// Moment L, M, N about the mean mass centre [N m].
-    pub moment: DVec3,
-}
 
 impl Beat {
     /// Mean mass centre over the beat, root components [m].
@@ -62,8 +53,9 @@ impl Beat {
     }
 
     /// Mean air load when the mean mass centre moves with `velocity` [m/s] and the body turns with `rate`
-    /// [rad/s], the rate and the velocity through the air steady in the level frame that turns with the body.
-    /// Equal weights over the beat: spectrally accurate for a periodic motion.
+    /// [rad/s], the rate and the velocity through the air steady in the level frame that turns with the body:
+    /// components of that frame, the moment about the mean mass centre. Equal weights over the beat: spectrally
+    /// accurate for a periodic motion.
     ///
     /// # Errors
     /// Free joints, whose motion is not known beforehand; what the air reports.
@@ -72,7 +64,7 @@ impl Beat {
         level: &Level,
         velocity: DVec3,
         rate: DVec3,
-    ) -> Result<MeanLoad, AnalysisError> {
+    ) -> Result<Wrench, AnalysisError> {
         let state = Perturbation {
             velocity,
             rate,
@@ -89,7 +81,7 @@ impl Beat {
         level: &Level,
         state: &Perturbation,
         rates: [DVec3; 2],
-    ) -> Result<MeanLoad, AnalysisError> {
+    ) -> Result<Wrench, AnalysisError> {
         self.check_averaged()?;
         let system = self.flight().system();
         let centre = self.mean_centre();
@@ -125,7 +117,7 @@ impl Beat {
         }
         let n = (2 * self.steps()) as f64;
         let to_level = tilted.transpose() / n;
-        Ok(MeanLoad {
+        Ok(Wrench {
             force: to_level * force,
             moment: to_level * moment,
         })

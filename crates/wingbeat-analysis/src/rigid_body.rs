@@ -1,12 +1,12 @@
 //! The rigid body of the averaged model: Newton's and Euler's laws with the added mass of the air and the
 //! angular momentum of the beating wings.
 
-use wingbeat_math::{DMat3, DQuat, DVec3, solve_small};
+use wingbeat_math::six_by_six::symmetric_part;
+use wingbeat_math::{DMat3, DQuat, DVec3, SixBySix, Wrench, six, solve_small};
 
 use crate::AnalysisError;
 use crate::beat::Beat;
 use crate::level::{Level, Perturbation};
-use crate::mean::MeanLoad;
 
 /// What the equations of a rigid aircraft need; axes fixed in the body, level in the reference attitude.
 #[derive(Clone, Copy, Debug)]
@@ -22,7 +22,7 @@ pub(crate) struct RigidBody {
     pub(crate) momentum: DVec3,
     /// Force and moment that the air takes for rates of the velocity through it and of the angular velocity,
     /// SI, 6 x 6 by rows.
-    pub(crate) added_mass: [[f64; 6]; 6],
+    pub(crate) added_mass: SixBySix,
     /// By which forces and moments are compared [m].
     pub(crate) length: f64,
 }
@@ -55,7 +55,7 @@ impl RigidBody {
     pub(crate) fn rates(
         &self,
         x: &[f64],
-        load: impl Fn(&Perturbation) -> Result<MeanLoad, AnalysisError>,
+        load: impl Fn(&Perturbation) -> Result<Wrench, AnalysisError>,
     ) -> Result<[f64; 9], AnalysisError> {
         let state = Perturbation::from_array(x.try_into().expect("nine components"));
         let (w, j) = (state.rate, self.inertia);
@@ -63,7 +63,7 @@ impl RigidBody {
         // What changes is the velocity through the air; the stream turns against the body.
         let stream = back * self.stream;
         let load = load(&state)?;
-        let [through, rate] = self.accelerations(&MeanLoad {
+        let [through, rate] = self.accelerations(&Wrench {
             force: load.force
                 + self.mass * (back * self.gravity - w.cross(state.velocity - stream)),
             moment: load.moment - w.cross(j * w + self.momentum),
@@ -81,7 +81,7 @@ impl RigidBody {
     ///
     /// # Errors
     /// Masses that are none.
-    pub(crate) fn accelerations(&self, load: &MeanLoad) -> Result<[DVec3; 2], AnalysisError> {
+    pub(crate) fn accelerations(&self, load: &Wrench) -> Result<[DVec3; 2], AnalysisError> {
         // Moments and angles by the length: all numbers are of one size.
         let scale = |i: usize| if i < 3 { 1.0 } else { self.length };
         let own = |i: usize, j: usize| match (i < 3, j < 3) {
@@ -94,8 +94,7 @@ impl RigidBody {
             (own(i, j) + self.added_mass[i][j]) / (scale(i) * scale(j))
         };
         let mut a: [f64; 36] = std::array::from_fn(entry);
-        let (f, m) = (load.force, load.moment / self.length);
-        let mut x = [f.x, f.y, f.z, m.x, m.y, m.z];
+        let mut x = six(load.force, load.moment / self.length);
         solve_small(&mut a, &mut x).map_err(|e| AnalysisError::Numbers(e.to_string()))?;
         Ok([
             DVec3::from_slice(&x),
@@ -109,7 +108,7 @@ fn added_mass(
     beat: &Beat,
     level: &Level,
     reference: &Perturbation,
-) -> Result<[[f64; 6]; 6], AnalysisError> {
+) -> Result<SixBySix, AnalysisError> {
     let load = |rates: [DVec3; 2]| beat.changing_load(level, reference, rates);
     let still = load([DVec3::ZERO; 2])?;
     // Loads are linear in accelerations: any step will do that rounding does not see.
@@ -126,6 +125,5 @@ fn added_mass(
         }
     }
     // Symmetric but for rounding, as energy asks.
-    let mean = |j: usize, k: usize| 0.5 * (mass[j][k] + mass[k][j]);
-    Ok(std::array::from_fn(|j| std::array::from_fn(|k| mean(j, k))))
+    Ok(symmetric_part(&mass))
 }

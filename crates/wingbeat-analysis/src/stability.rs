@@ -1,6 +1,7 @@
 //! Linear models of flight: averaged over the beat, and Floquet's.
 
-use wingbeat_math::{DVec3, r3};
+use wingbeat_math::six_by_six::from_entries;
+use wingbeat_math::{DVec3, SixBySix, r3, six};
 
 use crate::AnalysisError;
 use crate::beat::{Beat, JOINTS, State};
@@ -22,10 +23,10 @@ pub struct LinearModel {
     /// Rates of (u, v, w, p, q, r, phi, theta, psi), 9 x 9 by rows [SI: m, s, rad].
     pub matrix: Vec<f64>,
     /// Derivatives of (X, Y, Z, L, M, N) by (u, v, w, p, q, r), 6 x 6 by rows [SI: N, m, s, rad].
-    pub derivatives: [[f64; 6]; 6],
+    pub derivatives: SixBySix,
     /// Added mass of the air: derivatives of (X, Y, Z, L, M, N), reversed, by the rates of (u, v, w, p, q, r)
     /// through the air, 6 x 6 by rows [SI: N, m, s, rad].
-    pub added_mass: [[f64; 6]; 6],
+    pub added_mass: SixBySix,
     /// Mean angular momentum of the beating wings seen from the body, level frame [kg m2/s].
     pub momentum: DVec3,
     /// What the mean loads of the steady body lack to balance: force over the weight, moment over the weight
@@ -141,16 +142,13 @@ fn load_derivatives(
     level: &Level,
     reference: &Perturbation,
     steps: &[f64; 9],
-) -> Result<[[f64; 6]; 6], AnalysisError> {
+) -> Result<SixBySix, AnalysisError> {
     let f = |x: &[f64]| -> Result<Vec<f64>, AnalysisError> {
         let load = beat.mean_load(level, DVec3::from_slice(x), DVec3::from_slice(&x[3..]))?;
-        let (f, m) = (load.force, load.moment);
-        Ok(vec![f.x, f.y, f.z, m.x, m.y, m.z])
+        Ok(six(load.force, load.moment).to_vec())
     };
     let d = jacobian(f, &reference.to_array()[..6], &steps[..6])?;
-    Ok(std::array::from_fn(|i| {
-        std::array::from_fn(|j| d[6 * i + j])
-    }))
+    Ok(from_entries(|i, j| d[6 * i + j]))
 }
 
 /// The monodromy matrix of the periodic orbit through `state`: the nine components of

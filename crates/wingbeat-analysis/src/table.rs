@@ -2,14 +2,12 @@
 //! from the cycle means of a flapping one.
 
 use wingbeat_blade::DerivativeTable;
-use wingbeat_blade::WingFrame;
 use wingbeat_flight::{AirModel, FlightSetup};
-use wingbeat_math::{DMat3, DVec3, tilde};
+use wingbeat_math::{BodyMotion, DMat3, DVec3, Wrench, six_by_six, tilde};
 
 use crate::AnalysisError;
 use crate::eigen::eigen;
 use crate::jacobian::jacobian;
-use crate::mean::MeanLoad;
 use crate::modes::{ModeSet, Scales};
 use crate::rigid_body::RigidBody;
 use crate::stability::{LinearModel, reference};
@@ -74,20 +72,21 @@ pub fn table_model(setup: &FlightSetup) -> Result<LinearModel, AnalysisError> {
 
 /// Loads about the mass centre, axes of the table, when the body stands in its reference
 /// attitude and its velocities do not change in these axes.
-fn load(table: &DerivativeTable, velocity: DVec3, rate: DVec3) -> MeanLoad {
+fn load(table: &DerivativeTable, velocity: DVec3, rate: DVec3) -> Wrench {
     let (v, w) = (table.to_body * velocity, table.to_body * rate);
     let still = DerivativeTable {
         stream: DVec3::ZERO,
-        added_mass: [[0.0; 6]; 6],
+        added_mass: six_by_six::ZERO,
         ..*table
     };
-    let load = still.load(&WingFrame {
-        rotation: DMat3::IDENTITY,
-        velocity: v - w.cross(table.point),
-        rate: w,
+    let load = still.load(&BodyMotion {
+        r: DMat3::IDENTITY,
+        v: v - w.cross(table.point),
+        w,
+        ..BodyMotion::REST
     });
     let to_table = table.to_body.transpose();
-    MeanLoad {
+    Wrench {
         force: to_table * load.force,
         moment: to_table * (load.moment - table.point.cross(load.force)),
     }

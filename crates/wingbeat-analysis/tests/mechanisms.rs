@@ -38,13 +38,7 @@ fn bar(name: String, origin: DVec3, end: DVec3) -> Segment {
 /// The drive turns by this much about its axis.
 fn drive(axis: DVec3, frequency: f64, factor: f64) -> Arc<dyn RotationLaw> {
     let [mean, cosine, sine] = STROKE.map(|x| factor * x);
-    let angle = DriftingFourier {
-        constant: mean,
-        rate: 0.0,
-        frequency,
-        cosine: vec![cosine],
-        sine: vec![sine],
-    };
+    let angle = DriftingFourier::periodic(mean, frequency, [vec![cosine], vec![sine]]);
     Arc::new(AxisTurn { axis, angle })
 }
 

@@ -105,13 +105,8 @@ fn nodding(amplitude: f64, phase: f64) -> FlightSetup {
         parts: vec![],
     });
     let (sin, cos) = (std::f64::consts::TAU * phase).sin_cos();
-    let angle = DriftingFourier {
-        constant: 0.0,
-        rate: 0.0,
-        frequency: setup.animal.wings[0].motion.frequency,
-        cosine: vec![amplitude * sin],
-        sine: vec![amplitude * cos],
-    };
+    let frequency = setup.animal.wings[0].motion.frequency;
+    let angle = DriftingFourier::periodic(0.0, frequency, [sin, cos].map(|x| vec![amplitude * x]));
     setup.joints.push(Joint {
         law: Some(Arc::new(AxisTurn {
             axis: DVec3::Y,

@@ -240,7 +240,7 @@ fn agrees_massless_wings_with_a_rigid_body_of_its_own() {
     // axes, under the same strips; added mass left out so that loads need no accelerations.
     let mut setup = fly();
     if let AirModel::BladeElement(options) = &mut setup.air {
-        options.blade.added_mass = wingbeat_blade::AddedMass::None;
+        options.blade.added_mass = wingbeat_blade::AddedMassModel::None;
     }
     for wing in &mut setup.animal.wings {
         wing.mass = wing.mass.scaled(0.0);
@@ -264,7 +264,7 @@ fn rigid_body_beat(
     v0: DVec3,
     w0: DVec3,
 ) -> (DVec3, DVec3) {
-    use wingbeat_blade::WingFrame;
+    use wingbeat_dynamics::BodyMotion;
     use wingbeat_math::{DQuat, RotationLaw};
     let AirModel::BladeElement(options) = &setup.air else {
         unreachable!("blade elements")
@@ -280,10 +280,11 @@ fn rigid_body_beat(
         let (mut force, mut moment) = (q.inverse() * (m * setup.gravity), DVec3::ZERO);
         for (wing, strips) in setup.animal.wings.iter().zip(side.wings()) {
             let law = wing.motion.at(t);
-            let load = strips.velocity_load(&WingFrame {
-                rotation: law.c,
-                velocity: v + w.cross(wing.hinge_b),
-                rate: law.c.transpose() * w + law.w,
+            let load = strips.velocity_load(&BodyMotion {
+                r: law.c,
+                v: v + w.cross(wing.hinge_b),
+                w: law.c.transpose() * w + law.w,
+                ..BodyMotion::REST
             });
             let push = law.c * load.force;
             force += push;

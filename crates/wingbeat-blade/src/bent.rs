@@ -16,7 +16,7 @@ use wingbeat_math::{DMat3, DVec2, DVec3};
 
 use crate::lag::{Lag, StripWind};
 use crate::pair::{PairMotion, StripPair};
-use crate::settings::AddedMass;
+use crate::settings::AddedMassModel;
 use crate::slowed::{front, slowed_forces};
 use crate::strip::Strip;
 use crate::wind::LocalWind;
@@ -308,10 +308,10 @@ impl BladeWing {
         let mut force = -mass * s.normal_velocity_rate(x) * s.e[2];
         let mut couple = DVec3::new(0.0, -inertia * s.q_rate, 0.0);
         match law {
-            AddedMass::Section if self.has_suction() => {}
-            AddedMass::None | AddedMass::Normal => {}
-            AddedMass::Section => force -= impulse * s.turn.y * s.e[0],
-            AddedMass::Impulse => {
+            AddedMassModel::Section if self.has_suction() => {}
+            AddedMassModel::None | AddedMassModel::Normal => {}
+            AddedMassModel::Section => force -= impulse * s.turn.y * s.e[0],
+            AddedMassModel::Impulse => {
                 force -= impulse * self.normal_rate_felt(s);
                 couple.x -= impulse * v.dot(s.e[1]);
                 couple -= inertia * s.turn.y * s.turn.cross(DVec3::Y);

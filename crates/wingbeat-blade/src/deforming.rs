@@ -13,17 +13,17 @@
 //! | tau | `twist` | turn of a section about axis 2 of the wing frame | rad |
 //! | theta | `tilt` | turn of a section about its chord | rad |
 //! | s | `spin` | angular velocity of a section in the wing frame, wing components | rad/s |
-//! | w | `motion.rate` | angular velocity of the wing frame, wing components | rad/s |
+//! | w | `motion.w` | angular velocity of the wing frame, wing components | rad/s |
 
-use wingbeat_math::{DMat3, DVec2, DVec3};
+use wingbeat_math::{BodyAcceleration, BodyMotion, DMat3, DVec2, DVec3, Wrench};
 
 use crate::lag::{Lag, StripWind};
 use crate::pair::{PairMotion, StripPair};
-use crate::settings::AddedMass;
+use crate::settings::AddedMassModel;
 use crate::slowed::slowed_forces;
 use crate::strip::{PlacedStrip, Strip};
 use crate::wind::LocalWind;
-use crate::wing::{BladeWing, FrameAcceleration, Load, WingFrame};
+use crate::wing::BladeWing;
 
 /// How a section lies and moves in the wing frame, wing components.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -133,8 +133,8 @@ fn angle([a, a1, a2]: [f64; 3], [b, b1, b2]: [f64; 3]) -> [f64; 3] {
 /// Loads on a wing, and what deforming it takes.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct DeformingLoad {
-    /// Force and moment about the hinge.
-    pub load: Load,
+    /// Force and moment about the hinge, wing components.
+    pub load: Wrench,
     /// Power needed to deform the wing against this load [W].
     pub power: f64,
 }
@@ -162,7 +162,7 @@ impl BladeWing {
     /// As [`BladeWing::lagging_load`], strip `k` lying and moving like `section(k)`.
     pub fn deforming_velocity_load(
         &self,
-        motion: &WingFrame,
+        motion: &BodyMotion,
         section: impl Fn(usize) -> SectionMotion,
         wind: impl LocalWind,
         mut lag: Option<Lag<'_>>,
@@ -173,8 +173,8 @@ impl BladeWing {
         let moves = |k: usize| {
             let s = section(k.min(last));
             let ([e1, e2, n], [p, p1, _]) = (s.axes(), s.axis);
-            let here = v - wind.velocity(p) + motion.rate.cross(p) + p1;
-            [here.dot(e1), here.dot(n), s.turning(motion.rate).dot(e2)]
+            let here = v - wind.velocity(p) + motion.w.cross(p) + p1;
+            [here.dot(e1), here.dot(n), s.turning(motion.w).dot(e2)]
         };
         let pair_moves = |k: usize, _: &StripPair| {
             let (a, b) = (moves(2 * k), moves(2 * k + 1));
@@ -185,13 +185,13 @@ impl BladeWing {
             let (s, strip) = (section(k), &self.strips()[k]);
             let [e1, _, n] = s.axes();
             let ahead = 0.5 * strip.chord * front;
-            let at = |x: f64| motion.rotation * wind.velocity(s.axis[0] + x * e1);
+            let at = |x: f64| motion.r * wind.velocity(s.axis[0] + x * e1);
             StripWind {
                 at_axis: wind.velocity(s.axis[0]).dot(n),
                 at_front: at(strip.x_mid() + ahead),
                 at_rear: at(strip.x_mid() - ahead),
-                at_once: motion.rotation * wind.at_once()[0],
-                normal: motion.rotation * n,
+                at_once: motion.r * wind.at_once()[0],
+                normal: motion.r * n,
             }
         };
         let mut slowed = self.slowed(lag.as_mut(), &gust);
@@ -213,16 +213,16 @@ impl BladeWing {
     /// of the hinge through the air that is at `p`.
     fn add_turning(
         &self,
-        motion: &WingFrame,
+        motion: &BodyMotion,
         section: impl Fn(usize) -> SectionMotion,
         through: impl Fn(DVec3) -> DVec3,
         sum: &mut DeformingLoad,
     ) {
         let add = match self.settings().added_mass {
-            AddedMass::Section if self.has_suction() => return,
-            AddedMass::None | AddedMass::Normal => return,
-            AddedMass::Section => Self::add_chordwise,
-            AddedMass::Impulse => Self::add_turning_strip,
+            AddedMassModel::Section if self.has_suction() => return,
+            AddedMassModel::None | AddedMassModel::Normal => return,
+            AddedMassModel::Section => Self::add_chordwise,
+            AddedMassModel::Impulse => Self::add_turning_strip,
         };
         for (k, strip) in self.strips().iter().enumerate() {
             let s = section(k);
@@ -235,28 +235,28 @@ impl BladeWing {
     /// accelerations and the rate of the wind at mid chord are included.
     pub fn deforming_acceleration_load(
         &self,
-        motion: &WingFrame,
-        acc: &FrameAcceleration,
+        motion: &BodyMotion,
+        acc: &BodyAcceleration,
         section: impl Fn(usize) -> SectionMotion,
         wind: impl LocalWind,
     ) -> DeformingLoad {
         let mut sum = DeformingLoad::default();
-        if self.settings().added_mass == AddedMass::None {
+        if self.settings().added_mass == AddedMassModel::None {
             return sum;
         }
         let hinge = self.velocity_through_air(motion);
-        let linear = motion.rotation.transpose() * acc.linear;
+        let linear = motion.r.transpose() * acc.linear;
         for (k, strip) in self.strips().iter().enumerate() {
             let s = section(k);
             let ([_, e2, n], x) = (s.axes(), strip.x_mid());
             let [p, p1, p2] = s.point(x);
-            let moved = hinge + motion.rate.cross(p) + p1;
+            let moved = hinge + motion.w.cross(p) + p1;
             let blows = self.wind_rate(&wind, p, moved);
             let hinge = hinge - wind.velocity(p);
             let through = Through {
                 hinge,
-                hinge_rate: linear - motion.rate.cross(hinge) - blows,
-                w: motion.rate,
+                hinge_rate: linear - motion.w.cross(hinge) - blows,
+                w: motion.w,
                 turn: acc.angular,
             };
             let v = through.hinge + through.w.cross(p) + p1;
@@ -280,10 +280,10 @@ impl BladeWing {
     /// As [`Self::acceleration_load`] in `wind`, of which each strip sees velocity and rate at its mid chord.
     pub fn acceleration_load_in(
         &self,
-        motion: &WingFrame,
-        acc: &FrameAcceleration,
+        motion: &BodyMotion,
+        acc: &BodyAcceleration,
         wind: impl LocalWind,
-    ) -> Load {
+    ) -> Wrench {
         match wind.is_calm() {
             true => self.acceleration_load(motion, acc),
             false => {
@@ -297,9 +297,9 @@ impl BladeWing {
     /// at each: `through(p)` is the velocity of the hinge through the air that is at `p`, wing components.
     pub(crate) fn turning_load_in(
         &self,
-        motion: &WingFrame,
+        motion: &BodyMotion,
         through: impl Fn(DVec3) -> DVec3,
-    ) -> Load {
+    ) -> Wrench {
         let mut sum = DeformingLoad::default();
         self.add_turning(motion, |k| self.flat(k), through, &mut sum);
         sum.load
@@ -320,13 +320,13 @@ impl BladeWing {
         &self,
         strip: &Strip,
         s: &SectionMotion,
-        motion: &WingFrame,
+        motion: &BodyMotion,
         v: DVec3,
         sum: &mut DeformingLoad,
     ) {
         let ([e1, e2, n], [p, p1, _]) = (s.axes(), s.point(strip.x_mid()));
-        let normal = (v + motion.rate.cross(p) + p1).dot(n);
-        let q = s.turning(motion.rate).dot(e2);
+        let normal = (v + motion.w.cross(p) + p1).dot(n);
+        let q = s.turning(motion.w).dot(e2);
         let mass = strip.added_mass(self.settings().density);
         sum.add(s, -mass * q * normal * e1, DVec3::ZERO);
     }
@@ -338,12 +338,12 @@ impl BladeWing {
         &self,
         strip: &Strip,
         s: &SectionMotion,
-        motion: &WingFrame,
+        motion: &BodyMotion,
         v: DVec3,
         sum: &mut DeformingLoad,
     ) {
         let ([e1, e2, n], [p, p1, _]) = (s.axes(), s.point(strip.x_mid()));
-        let (w, rho) = (motion.rate, self.settings().density);
+        let (w, rho) = (motion.w, self.settings().density);
         let (here, turning) = (v + w.cross(p) + p1, s.turning(w));
         let impulse = strip.added_mass(rho) * here.dot(n);
         let mut normal_rate = turning.cross(n);

@@ -8,9 +8,8 @@
 //! the mass centre, as flight dynamicists write them. Measured, from computed flow, or from the
 //! cycle means of this program: the table does not say. It knows neither wings nor wingbeats.
 
-use wingbeat_math::{DMat3, DVec3};
-
-use crate::wing::{Load, WingFrame};
+use wingbeat_math::six_by_six::{from_entries, symmetric_part, unit};
+use wingbeat_math::{BodyMotion, DMat3, DVec3, Six, SixBySix, Wrench, six};
 
 /// A table of stability derivatives, SI.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -22,12 +21,12 @@ pub struct DerivativeTable {
     /// Reference velocity (u0, v0, w0), axes of the table [m/s].
     pub velocity: DVec3,
     /// Loads in the reference flight: X, Y, Z \[N\], L, M, N [N m].
-    pub reference: [f64; 6],
+    pub reference: Six,
     /// Rows X, Y, Z, L, M, N; columns u, v, w [m/s], p, q, r [rad/s].
-    pub derivatives: [[f64; 6]; 6],
+    pub derivatives: SixBySix,
     /// Added mass of the air A: the load is smaller by A times the rates of (u, v, w) through the air and of
     /// (p, q, r), symmetric [kg, kg m, kg m2].
-    pub added_mass: [[f64; 6]; 6],
+    pub added_mass: SixBySix,
     /// Velocity of the undisturbed air, N components [m/s].
     pub stream: DVec3,
 }
@@ -35,12 +34,12 @@ pub struct DerivativeTable {
 impl DerivativeTable {
     /// Force and moment about the body's origin, body components, but for what follows its acceleration over the ground
     /// ([`Self::added_mass_of_body`]).
-    pub fn load(&self, body: &WingFrame) -> Load {
-        let air = body.rotation.transpose() * (body.velocity - self.stream);
-        let here = air + body.rate.cross(self.point);
+    pub fn load(&self, body: &BodyMotion) -> Wrench {
+        let air = body.r.transpose() * (body.v - self.stream);
+        let here = air + body.w.cross(self.point);
         let v = self.to_body.transpose() * here - self.velocity;
-        let w = self.to_body.transpose() * body.rate;
-        let x = [v.x, v.y, v.z, w.x, w.y, w.z];
+        let w = self.to_body.transpose() * body.w;
+        let x = six(v, w);
         // Where the origin does not accelerate, its velocity through the air turns against the axes.
         let turning = -w.cross(self.to_body.transpose() * air);
         let turning = turning.to_array();
@@ -52,41 +51,33 @@ impl DerivativeTable {
         };
         let force = self.to_body * DVec3::new(row(0), row(1), row(2));
         let moment = self.to_body * DVec3::new(row(3), row(4), row(5));
-        Load {
+        Wrench {
             force,
             moment: moment + self.point.cross(force),
         }
     }
 
     /// Added mass about the body's origin, body components; none if it is zero.
-    pub fn added_mass_of_body(&self) -> Option<[[f64; 6]; 6]> {
+    pub fn added_mass_of_body(&self) -> Option<SixBySix> {
         let is_zero = self.added_mass.as_flattened().iter().all(|x| *x == 0.0);
         if is_zero {
             return None;
         }
         // Rates at the reference point in the table's axes from those at the origin in the body's.
-        let column = |k: usize| -> [f64; 6] {
-            let unit = |of: usize| {
-                if k / 3 == of {
-                    DVec3::AXES[k % 3]
-                } else {
-                    DVec3::ZERO
-                }
-            };
-            let (linear, angular) = (unit(0), unit(1));
+        let column = |k: usize| {
+            let [linear, angular] = unit(k);
             let v = self.to_body.transpose() * (linear + angular.cross(self.point));
             let w = self.to_body.transpose() * angular;
-            [v.x, v.y, v.z, w.x, w.y, w.z]
+            six(v, w)
         };
-        let columns: [[f64; 6]; 6] = std::array::from_fn(column);
+        let columns: SixBySix = std::array::from_fn(column);
         let entry = |j: usize, k: usize| -> f64 {
             let rows = self.added_mass.iter().zip(&columns[j]);
             rows.map(|(row, x)| x * row.iter().zip(&columns[k]).map(|(a, y)| a * y).sum::<f64>())
                 .sum()
         };
         // Exactly symmetric, as energy asks.
-        let mean = |j: usize, k: usize| 0.5 * (entry(j, k) + entry(k, j));
-        Some(std::array::from_fn(|j| std::array::from_fn(|k| mean(j, k))))
+        Some(symmetric_part(&from_entries(entry)))
     }
 }
 
@@ -108,7 +99,7 @@ pub struct ReferenceSizes {
 
 impl ReferenceSizes {
     /// Dimensional derivatives from dimensionless ones.
-    pub fn dimensional(&self, plus: &[[f64; 6]; 6]) -> [[f64; 6]; 6] {
+    pub fn dimensional(&self, plus: &SixBySix) -> SixBySix {
         let force = 0.5 * self.density * self.speed * self.speed * self.area;
         let rows = [1.0, 1.0, 1.0, self.chord, self.chord, self.chord].map(|x| x * force);
         let by_speed = 1.0 / self.speed;
@@ -120,7 +111,7 @@ impl ReferenceSizes {
             self.period,
             self.period,
         ];
-        std::array::from_fn(|i| std::array::from_fn(|j| plus[i][j] * rows[i] * columns[j]))
+        from_entries(|i, j| plus[i][j] * rows[i] * columns[j])
     }
 }
 
@@ -145,10 +136,11 @@ mod tests {
             added_mass: [[0.0; 6]; 6],
             stream: DVec3::ZERO,
         };
-        let load = table.load(&WingFrame {
-            rotation: wingbeat_math::r2(std::f64::consts::FRAC_PI_2),
-            velocity: DVec3::new(0.0, 0.0, -4.0),
-            rate: DVec3::new(0.0, 0.5, 0.0),
+        let load = table.load(&BodyMotion {
+            r: wingbeat_math::r2(std::f64::consts::FRAC_PI_2),
+            v: DVec3::new(0.0, 0.0, -4.0),
+            w: DVec3::new(0.0, 0.5, 0.0),
+            ..BodyMotion::REST
         });
         // u = 4, w at the point = -0.5 * 2 = -1: X = 10 - 3 (4 - 1) = 1, Z = 7 / 2,
         // M = -5 about the point, less 2 Z at the origin.
@@ -178,10 +170,11 @@ mod tests {
         // A body that goes ahead by 7 m/s through air of 2 m/s, without acceleration, and turns nose up by 0.5
         // rad/s: its velocity of 5 m/s through the air changes by -w x v = (0, 0, 2.5) m/s2 in its axes.
         table.stream = DVec3::new(2.0, 0.0, 0.0);
-        let load = table.load(&WingFrame {
-            rotation: DMat3::IDENTITY,
-            velocity: DVec3::new(7.0, 0.0, 0.0),
-            rate: DVec3::new(0.0, 0.5, 0.0),
+        let load = table.load(&BodyMotion {
+            r: DMat3::IDENTITY,
+            v: DVec3::new(7.0, 0.0, 0.0),
+            w: DVec3::new(0.0, 0.5, 0.0),
+            ..BodyMotion::REST
         });
         assert_eq!(load.force, DVec3::new(0.0, 0.0, -7.5));
     }

@@ -7,7 +7,7 @@
 //! 2. the rotational force of a wing that feathers while it sweeps, `rho U Gamma_rot`
 //!    [Sane & Dickinson 2002], or [Berman & Wang 2007] with its viscous moment;
 //! 3. the added mass, the rate of the momentum `rho pi/4 c^2 w` that the strip gives the air at mid
-//!    chord, or other published forms ([`AddedMass`]). What is linear in the accelerations is kept
+//!    chord, or other published forms ([`AddedMassModel`]). What is linear in the accelerations is kept
 //!    apart: whoever integrates the motion can put it on the left-hand side.
 //!
 //! With [`Unsteady`] the circulation of a strip lags behind its motion ([`Indicial`], Wagner's function): the
@@ -60,7 +60,7 @@ pub use derivatives::{DerivativeTable, ReferenceSizes};
 pub use error::BladeError;
 pub use indicial::{Indicial, MAX_STATES, Pole, Unsteady};
 pub use lag::{Lag, StripMemory, StripTrial, WingMemory};
-pub use settings::{AddedMass, BladeSettings, CentreOfPressure, Rotation, ViscousMoment};
+pub use settings::{AddedMassModel, BladeSettings, CentreOfPressure, Rotation, ViscousMoment};
 pub use strip::{PlacedStrip, Strip};
 pub use wind::{Calm, LocalWind};
-pub use wing::{BladeWing, FrameAcceleration, Load, WingFrame};
+pub use wing::BladeWing;

@@ -2,6 +2,8 @@
 
 use std::f64::consts::PI;
 
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 use wingbeat_math::DVec3;
 
 use crate::coefficients::{Translation, find_set};
@@ -22,7 +24,7 @@ pub struct BladeSettings {
     /// Force of feathering while sweeping.
     pub rotation: Rotation,
     /// Added mass.
-    pub added_mass: AddedMass,
+    pub added_mass: AddedMassModel,
     /// Viscous moment against feathering.
     pub viscous: Option<ViscousMoment>,
     /// How the circulation lags behind the motion; none: quasi-steady.
@@ -30,9 +32,7 @@ pub struct BladeSettings {
 }
 
 /// Place of the translational and rotational force along the chord.
-#[derive(
-    Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize, schemars::JsonSchema,
-)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum CentreOfPressure {
     /// At this part of the chord behind the edge that meets the air: `centre_of_pressure.fixed = 0.25`, say.
@@ -62,11 +62,9 @@ pub enum Rotation {
 }
 
 /// The added mass `m = rho pi/4 c^2 dr` of a strip; v is the normal velocity of mid chord.
-#[derive(
-    Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize, schemars::JsonSchema,
-)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
-pub enum AddedMass {
+pub enum AddedMassModel {
     /// Left out.
     None,
     /// The rate of the momentum `m v` along the normal that the strip gives the air,
@@ -94,7 +92,7 @@ pub struct ViscousMoment {
     pub quadratic: f64,
 }
 
-impl AddedMass {
+impl AddedMassModel {
     /// Whether the section's added moment of inertia belongs to it.
     pub(crate) fn has_inertia(self) -> bool {
         matches!(self, Self::Impulse | Self::Section)
@@ -116,7 +114,7 @@ impl BladeSettings {
             translation: find_set("dickson-2008").expect("a shipped set").law,
             centre_of_pressure: CentreOfPressure::Cosine,
             rotation: Rotation::Circulation,
-            added_mass: AddedMass::Impulse,
+            added_mass: AddedMassModel::Impulse,
             viscous: None,
             unsteady: None,
         }
@@ -131,7 +129,7 @@ impl BladeSettings {
                 .expect("a shipped set")
                 .law,
             rotation: Rotation::Coefficient(0.5 * PI),
-            added_mass: AddedMass::Section,
+            added_mass: AddedMassModel::Section,
             viscous: Some(ViscousMoment {
                 linear: 0.2 * frequency,
                 quadratic: 0.2,

@@ -1,43 +1,15 @@
-//! Loads on one wing from the motion of its frame.
+//! Loads on one wing from the motion of its frame, whose origin is the hinge: force and moment about it, wing
+//! components.
 
-use wingbeat_math::{DMat3, DVec2, DVec3};
+use wingbeat_math::{BodyAcceleration, BodyMotion, DVec2, DVec3, Wrench};
 
 use crate::error::BladeError;
 use crate::lag::{Lag, Lags, StripTrial, StripWind, WingMemory};
 use crate::pair::{PairMotion, StripPair};
-use crate::settings::{AddedMass, BladeSettings};
+use crate::settings::{AddedMassModel, BladeSettings};
 use crate::slowed::{Gust, Slowed, slowed_forces};
 use crate::strip::Strip;
 use crate::wind::{Calm, LocalWind};
-
-/// How the frame of a wing moves.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct WingFrame {
-    /// Rotation: wing components to N components.
-    pub rotation: DMat3,
-    /// Velocity of the frame origin (the hinge), N components [m/s].
-    pub velocity: DVec3,
-    /// Angular velocity, wing components [rad/s].
-    pub rate: DVec3,
-}
-
-/// How it accelerates.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct FrameAcceleration {
-    /// Acceleration of the frame origin, N components [m/s2].
-    pub linear: DVec3,
-    /// Angular acceleration, wing components [rad/s2].
-    pub angular: DVec3,
-}
-
-/// Force and moment about the hinge, wing components.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Load {
-    /// Force \[N\].
-    pub force: DVec3,
-    /// Moment about the origin of the wing frame [N m].
-    pub moment: DVec3,
-}
 
 /// A wing made of strips.
 #[derive(Clone, Debug, PartialEq)]
@@ -65,7 +37,7 @@ struct AddedMoments {
 impl AddedMoments {
     fn of(strips: &[Strip], settings: &BladeSettings) -> Self {
         let mut a = Self::default();
-        if settings.added_mass == AddedMass::None {
+        if settings.added_mass == AddedMassModel::None {
             return a;
         }
         for s in strips {
@@ -124,55 +96,52 @@ impl BladeWing {
 
     /// Whether it carries air along.
     pub fn has_added_mass(&self) -> bool {
-        self.settings.added_mass != AddedMass::None
+        self.settings.added_mass != AddedMassModel::None
     }
 
     /// Everything that depends on velocities alone: translation, rotation, viscous moment, and
-    /// the part of the added mass that is no acceleration.
-    pub fn velocity_load(&self, motion: &WingFrame) -> Load {
+    /// the part of the added mass that is no acceleration; wing components.
+    pub fn velocity_load(&self, motion: &BodyMotion) -> Wrench {
         self.velocity_load_in(motion, Calm)
     }
 
     /// As [`Self::velocity_load`], `wind` being added to the free stream.
-    pub fn velocity_load_in(&self, motion: &WingFrame, wind: impl LocalWind) -> Load {
+    pub fn velocity_load_in(&self, motion: &BodyMotion, wind: impl LocalWind) -> Wrench {
         self.lagging_load(motion, wind, None)
     }
 
     /// As [`Self::velocity_load_in`], the circulation of the strips lagging behind as `lag` says.
     pub fn lagging_load(
         &self,
-        motion: &WingFrame,
+        motion: &BodyMotion,
         wind: impl LocalWind,
         lag: Option<Lag<'_>>,
-    ) -> Load {
+    ) -> Wrench {
         let v = self.velocity_through_air(motion);
         let mut sum = self.strip_load(v, motion, &wind, lag);
         if !wind.is_calm() {
-            let turning = self.turning_load_in(motion, |p| v - wind.velocity(p));
-            sum.force += turning.force;
-            sum.moment += turning.moment;
-            return sum;
+            return sum + self.turning_load_in(motion, |p| v - wind.velocity(p));
         }
         match self.settings.added_mass {
-            AddedMass::Section if self.has_suction() => {}
-            AddedMass::None | AddedMass::Normal => {}
-            AddedMass::Section => self.add_chordwise_added_mass(v, motion.rate, &mut sum),
-            AddedMass::Impulse => self.add_turning_impulse(v, motion.rate, &mut sum),
+            AddedMassModel::Section if self.has_suction() => {}
+            AddedMassModel::None | AddedMassModel::Normal => {}
+            AddedMassModel::Section => self.add_chordwise_added_mass(v, motion.w, &mut sum),
+            AddedMassModel::Impulse => self.add_turning_impulse(v, motion.w, &mut sum),
         }
         sum
     }
 
-    /// The added mass: linear in the rates of the velocity components in the wing frame.
-    pub fn acceleration_load(&self, motion: &WingFrame, acc: &FrameAcceleration) -> Load {
+    /// The added mass: linear in the rates of the velocity components in the wing frame; wing components.
+    pub fn acceleration_load(&self, motion: &BodyMotion, acc: &BodyAcceleration) -> Wrench {
         let v = self.velocity_through_air(motion);
         // Rate of the components in the turning frame.
-        let rate = motion.rotation.transpose() * acc.linear - motion.rate.cross(v);
+        let rate = motion.r.transpose() * acc.linear - motion.w.cross(v);
         let (a, turn) = (&self.added, acc.angular);
         // Normal velocity of the point (x, y): v3 + w1 y - w2 x.
         let force = -(a.m * rate.z + a.my * turn.x - a.mx * turn.y);
         let about_1 = -(a.my * rate.z + a.myy * turn.x - a.mxy * turn.y);
         let about_2 = a.mx * rate.z + a.mxy * turn.x - a.mxx * turn.y;
-        Load {
+        Wrench {
             force: DVec3::new(0.0, 0.0, force),
             moment: DVec3::new(about_1, about_2 - a.inertia * turn.y, 0.0),
         }
@@ -188,21 +157,14 @@ impl BladeWing {
         }
     }
 
-    /// Both together in uniform air, for motions whose accelerations are known.
-    pub fn load(&self, motion: &WingFrame, acc: &FrameAcceleration) -> Load {
-        let (a, b) = (
-            self.velocity_load(motion),
-            self.acceleration_load(motion, acc),
-        );
-        Load {
-            force: a.force + b.force,
-            moment: a.moment + b.moment,
-        }
+    /// Both together in uniform air, for motions whose accelerations are known; wing components.
+    pub fn load(&self, motion: &BodyMotion, acc: &BodyAcceleration) -> Wrench {
+        self.velocity_load(motion) + self.acceleration_load(motion, acc)
     }
 
     /// Velocity of the hinge through the undisturbed air, wing components.
-    pub(crate) fn velocity_through_air(&self, motion: &WingFrame) -> DVec3 {
-        motion.rotation.transpose() * (motion.velocity - self.settings.free_stream)
+    pub(crate) fn velocity_through_air(&self, motion: &BodyMotion) -> DVec3 {
+        motion.r.transpose() * (motion.v - self.settings.free_stream)
     }
 
     /// Translation, rotation and viscous moment of all strips; the hinge moves with `v` through air
@@ -210,11 +172,11 @@ impl BladeWing {
     fn strip_load(
         &self,
         v: DVec3,
-        frame: &WingFrame,
+        frame: &BodyMotion,
         wind: &impl LocalWind,
         mut lag: Option<Lag<'_>>,
-    ) -> Load {
-        let rate = frame.rate;
+    ) -> Wrench {
+        let rate = frame.w;
         let motion = |_: usize, pair: &StripPair| {
             let [a, b] = [pair.y.x, pair.y.y].map(|y| v - wind.velocity(DVec3::new(0.0, y, 0.0)));
             // Velocity of the points on the feathering axis, v + rate x (0, y, 0).
@@ -229,10 +191,10 @@ impl BladeWing {
             let at = |x: f64| wind.velocity(DVec3::new(x, s.y, 0.0));
             StripWind {
                 at_axis: at(0.0).z,
-                at_front: frame.rotation * at(s.x_mid() + 0.5 * s.chord * front),
-                at_rear: frame.rotation * at(s.x_mid() - 0.5 * s.chord * front),
-                at_once: frame.rotation * wind.at_once()[0],
-                normal: frame.rotation.z_axis,
+                at_front: frame.r * at(s.x_mid() + 0.5 * s.chord * front),
+                at_rear: frame.r * at(s.x_mid() - 0.5 * s.chord * front),
+                at_once: frame.r * wind.at_once()[0],
+                normal: frame.r.z_axis,
             }
         };
         let mut slowed = self.slowed(lag.as_mut(), &gust);
@@ -247,7 +209,7 @@ impl BladeWing {
             sums[4] -= y * f.along;
         });
         let [along, normal, about_1, about_2, about_3] = sums.map(|s| s.x + s.y);
-        Load {
+        Wrench {
             force: DVec3::new(along, 0.0, normal),
             moment: DVec3::new(about_1, about_2, about_3),
         }
@@ -304,8 +266,8 @@ impl BladeWing {
     /// What changes the impulse of the air while its components in the wing frame stay: force
     /// `-w x P`, moment `-w x L - v x P` about the hinge, P and L the air's momentum and angular
     /// momentum about the hinge (Kirchhoff's equations). About the span that is Munk's couple alone,
-    /// `sum m w u`, and left out: the law of the centre of pressure has it ([`AddedMass::Impulse`]).
-    fn add_turning_impulse(&self, v: DVec3, rate: DVec3, sum: &mut Load) {
+    /// `sum m w u`, and left out: the law of the centre of pressure has it ([`AddedMassModel::Impulse`]).
+    fn add_turning_impulse(&self, v: DVec3, rate: DVec3, sum: &mut Wrench) {
         let a = &self.added;
         let p = DVec3::new(0.0, 0.0, a.m * v.z + a.my * rate.x - a.mx * rate.y);
         let about_1 = a.my * v.z + a.myy * rate.x - a.mxy * rate.y;
@@ -321,7 +283,7 @@ impl BladeWing {
     }
 
     /// Force `-m q w` along the chord, w at mid chord, with its moment.
-    fn add_chordwise_added_mass(&self, v: DVec3, rate: DVec3, sum: &mut Load) {
+    fn add_chordwise_added_mass(&self, v: DVec3, rate: DVec3, sum: &mut Wrench) {
         let a = &self.added;
         let momentum = a.m * v.z + a.my * rate.x - a.mx * rate.y;
         let moment = a.my * v.z + a.myy * rate.x - a.mxy * rate.y; // sum of y times momentum

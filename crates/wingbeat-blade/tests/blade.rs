@@ -3,7 +3,9 @@
 use std::f64::consts::PI;
 
 use wingbeat_blade::*;
-use wingbeat_math::{DMat3, DVec3, MovingRotation, r1, r2, r3};
+use wingbeat_math::{
+    BodyAcceleration, BodyMotion, DMat3, DVec3, MovingRotation, Wrench, r1, r2, r3,
+};
 
 #[path = "bent/mod.rs"]
 mod bent;
@@ -20,22 +22,24 @@ fn wing(settings: BladeSettings, count: usize, side: f64) -> BladeWing {
 }
 
 /// A motion without rotation of the frame against N.
-fn motion(velocity: DVec3, rate: DVec3) -> WingFrame {
-    WingFrame {
-        rotation: DMat3::IDENTITY,
-        velocity,
-        rate,
+fn motion(velocity: DVec3, rate: DVec3) -> BodyMotion {
+    BodyMotion {
+        r: DMat3::IDENTITY,
+        v: velocity,
+        w: rate,
+        ..BodyMotion::REST
     }
 }
 
 /// Some motions of all kinds: (velocity, rate), small integers spread over both signs.
-fn motions() -> impl Iterator<Item = WingFrame> {
+fn motions() -> impl Iterator<Item = BodyMotion> {
     (0..60).map(|k: i32| {
         let n = |m: i32| f64::from((k * m + m) % 13 - 6) * 0.4;
-        WingFrame {
-            rotation: r2(n(3)) * r3(n(5)) * r1(n(7)),
-            velocity: DVec3::new(n(2), n(9), n(4)),
-            rate: DVec3::new(n(6), n(8), n(11)),
+        BodyMotion {
+            r: r2(n(3)) * r3(n(5)) * r1(n(7)),
+            v: DVec3::new(n(2), n(9), n(4)),
+            w: DVec3::new(n(6), n(8), n(11)),
+            ..BodyMotion::REST
         }
     })
 }
@@ -44,7 +48,7 @@ fn only_translation(law: Translation) -> BladeSettings {
     BladeSettings {
         translation: law,
         rotation: Rotation::None,
-        added_mass: AddedMass::None,
+        added_mass: AddedMassModel::None,
         ..BladeSettings::insect(RHO)
     }
 }
@@ -96,7 +100,7 @@ fn exact_rotational_force_of_thin_airfoil_theory() {
         for u in [2.0, -2.0] {
             let settings = BladeSettings {
                 rotation,
-                added_mass: AddedMass::None,
+                added_mass: AddedMassModel::None,
                 ..BladeSettings::insect(RHO)
             };
             let load = wing(settings, 3, 1.0)
@@ -112,14 +116,14 @@ fn exact_added_mass_of_a_plate() {
     // A plate accelerated along its normal: pi/4 rho c^2 per unit span; spun up about mid chord:
     // no force, and the moment pi/128 rho c^4 of the section alone.
     let settings = BladeSettings {
-        added_mass: AddedMass::Impulse,
+        added_mass: AddedMassModel::Impulse,
         ..BladeSettings::insect(RHO)
     };
     let plate = BladeWing::new(Strip::rectangle(1, [-0.5, 0.5], 0.4, 0.2, 1.0), settings).unwrap();
     let rest = motion(DVec3::ZERO, DVec3::ZERO);
     let lifted = plate.acceleration_load(
         &rest,
-        &FrameAcceleration {
+        &BodyAcceleration {
             linear: DVec3::new(1.0, 2.0, 3.0),
             angular: DVec3::ZERO,
         },
@@ -128,7 +132,7 @@ fn exact_added_mass_of_a_plate() {
     assert!((lifted.force - DVec3::new(0.0, 0.0, -3.0 * m)).length() < 1e-15);
     let spun = plate.acceleration_load(
         &rest,
-        &FrameAcceleration {
+        &BodyAcceleration {
             linear: DVec3::ZERO,
             angular: DVec3::new(0.0, 5.0, 0.0),
         },
@@ -141,37 +145,37 @@ fn exact_added_mass_of_a_plate() {
 #[test]
 fn balances_added_mass_returns_its_energy() {
     // Power of the added-mass load = -dE/dt of the air it moves, in any motion.
-    for form in [AddedMass::Normal, AddedMass::Impulse] {
+    for form in [AddedMassModel::Normal, AddedMassModel::Impulse] {
         returns_its_energy(form);
     }
 }
 
-fn returns_its_energy(form: AddedMass) {
+fn returns_its_energy(form: AddedMassModel) {
     let with = |added_mass| BladeSettings {
         added_mass,
         ..BladeSettings::insect(RHO)
     };
     let (without, wing) = (
-        wing(with(AddedMass::None), 7, 1.0),
+        wing(with(AddedMassModel::None), 7, 1.0),
         wing(with(form), 7, 1.0),
     );
     for (k, m) in motions().enumerate() {
-        let acc = FrameAcceleration {
+        let acc = BodyAcceleration {
             linear: DVec3::new(1.0, -2.0, 0.1 * k as f64),
             angular: DVec3::new(-1.5, 0.3, 2.0),
         };
-        let v = m.rotation.transpose() * m.velocity;
-        let power_of = |load: Load| load.force.dot(v) + load.moment.dot(m.rate);
+        let v = m.r.transpose() * m.v;
+        let power_of = |load: Wrench| load.force.dot(v) + load.moment.dot(m.w);
         let mut power = power_of(wing.load(&m, &acc)) - power_of(without.load(&m, &acc));
-        if form == AddedMass::Impulse {
-            power += munk(&wing, &m) * m.rate.y;
+        if form == AddedMassModel::Impulse {
+            power += munk(&wing, &m) * m.w.y;
         }
         // E is quadratic in the velocity components: its central difference is exact.
-        let rate = m.rotation.transpose() * acc.linear - m.rate.cross(v);
+        let rate = m.r.transpose() * acc.linear - m.w.cross(v);
         let h = 1e-3;
-        let moved = |s: f64| WingFrame {
-            velocity: m.rotation * (v + s * h * rate),
-            rate: m.rate + s * h * acc.angular,
+        let moved = |s: f64| BodyMotion {
+            v: m.r * (v + s * h * rate),
+            w: m.w + s * h * acc.angular,
             ..m
         };
         let energy = |s: f64| added_energy(&wing, &moved(s));
@@ -183,16 +187,16 @@ fn returns_its_energy(form: AddedMass) {
 
 /// Energy of the air that the added mass moves, `sum m w^2/2` of the normal velocities w at mid chord, with
 /// `J q^2/2` of the sections' own turning where the added mass has it \[J\].
-fn added_energy(wing: &BladeWing, m: &WingFrame) -> f64 {
-    let has_inertia = wing.settings().added_mass == AddedMass::Impulse;
-    let v = m.rotation.transpose() * m.velocity;
+fn added_energy(wing: &BladeWing, m: &BodyMotion) -> f64 {
+    let has_inertia = wing.settings().added_mass == AddedMassModel::Impulse;
+    let v = m.r.transpose() * m.v;
     let energy = |s: &Strip| {
-        let w = (v + m.rate.cross(DVec3::new(s.x_mid(), s.y, 0.0))).z;
+        let w = (v + m.w.cross(DVec3::new(s.x_mid(), s.y, 0.0))).z;
         let mass = PI / 4.0 * RHO * s.chord.powi(2) * s.width;
         let inertia = PI / 128.0 * RHO * s.chord.powi(4) * s.width;
         0.5 * mass * w * w
             + if has_inertia {
-                0.5 * inertia * m.rate.y.powi(2)
+                0.5 * inertia * m.w.y.powi(2)
             } else {
                 0.0
             }
@@ -201,17 +205,17 @@ fn added_energy(wing: &BladeWing, m: &WingFrame) -> f64 {
 }
 
 /// Munk's couple about the span, `sum m w u`, which the centre of pressure has in it.
-fn munk(wing: &BladeWing, m: &WingFrame) -> f64 {
-    let v = m.rotation.transpose() * m.velocity;
+fn munk(wing: &BladeWing, m: &BodyMotion) -> f64 {
+    let v = m.r.transpose() * m.v;
     let couple = |s: &Strip| {
-        let at_mid = v + m.rate.cross(DVec3::new(s.x_mid(), s.y, 0.0));
+        let at_mid = v + m.w.cross(DVec3::new(s.x_mid(), s.y, 0.0));
         PI / 4.0 * RHO * s.chord * s.chord * s.width * at_mid.z * at_mid.x
     };
     wing.strips().iter().map(couple).sum()
 }
 
 /// A wing on a moving hinge at the phase x of its beat: where the hinge is, motion, acceleration.
-fn beating(x: f64) -> (DVec3, WingFrame, FrameAcceleration) {
+fn beating(x: f64) -> (DVec3, BodyMotion, BodyAcceleration) {
     let wave = |k: f64, a: f64, shift: f64| {
         let (s, c) = (2.0 * PI * k * x + shift).sin_cos();
         [a * s, 2.0 * PI * k * a * c, -4.0 * PI * PI * k * k * a * s]
@@ -226,12 +230,13 @@ fn beating(x: f64) -> (DVec3, WingFrame, FrameAcceleration) {
         wave(1.0, 0.2, 1.0),
     ];
     let at = |k: usize| DVec3::new(place[0][k], place[1][k], place[2][k]);
-    let motion = WingFrame {
-        rotation: turned.c,
-        velocity: at(1),
-        rate: turned.w,
+    let motion = BodyMotion {
+        r: turned.c,
+        v: at(1),
+        w: turned.w,
+        ..BodyMotion::REST
     };
-    let acc = FrameAcceleration {
+    let acc = BodyAcceleration {
         linear: at(2),
         angular: turned.w_dot,
     };
@@ -253,15 +258,15 @@ fn balances_added_mass_by_impulse_has_no_mean_load_over_a_beat() {
             -1.0,
         )
     };
-    let without = with(AddedMass::None);
-    let mean = |form: AddedMass| {
+    let without = with(AddedMassModel::None);
+    let mean = |form: AddedMassModel| {
         let (wing, mut sums, mut size) = (with(form), [DVec3::ZERO; 2], [0.0_f64; 2]);
         for k in 0..200 {
             let (p, m, acc) = beating(f64::from(k) / 200.0);
             let (a, b) = (wing.load(&m, &acc), without.load(&m, &acc));
-            let force = m.rotation * (a.force - b.force);
+            let force = m.r * (a.force - b.force);
             let couple = DVec3::Y * munk(&wing, &m);
-            let moment = m.rotation * (a.moment - b.moment + couple) + p.cross(force);
+            let moment = m.r * (a.moment - b.moment + couple) + p.cross(force);
             for (i, load) in [force, moment].into_iter().enumerate() {
                 sums[i] += load / 200.0;
                 size[i] = size[i].max(load.length());
@@ -269,11 +274,11 @@ fn balances_added_mass_by_impulse_has_no_mean_load_over_a_beat() {
         }
         [0, 1].map(|i| sums[i].length() / size[i])
     };
-    let [force, moment] = mean(AddedMass::Impulse);
+    let [force, moment] = mean(AddedMassModel::Impulse);
     println!("means over largest: force {force:.1e}, moment {moment:.1e}");
     assert!(force < 1e-15 && moment < 1e-15); // roundings of 200 terms
     // The form that looks at the normal alone does push: that is what the impulse is for.
-    assert!(mean(AddedMass::Normal)[0] > 1e-2);
+    assert!(mean(AddedMassModel::Normal)[0] > 1e-2);
 }
 
 #[test]
@@ -284,10 +289,10 @@ fn balances_translation_only_takes_energy() {
         let wing = wing(settings, 5, 1.0);
         for m in motions() {
             let load = wing.velocity_load(&m);
-            let v = m.rotation.transpose() * m.velocity;
+            let v = m.r.transpose() * m.v;
             // Moment about the span is left out: the model's force is placed at the centre of
             // pressure but felt at the axis velocity.
-            let rate = DVec3::new(m.rate.x, 0.0, m.rate.z);
+            let rate = DVec3::new(m.w.x, 0.0, m.w.z);
             let power = load.force.dot(v) + load.moment.dot(rate);
             assert!(power <= 1e-12, "{}: {power}", set.name);
         }
@@ -303,16 +308,17 @@ fn invariant_mirror_gives_the_mirrored_load() {
     ] {
         let (right, left) = (wing(settings, 6, 1.0), wing(settings, 6, -1.0));
         for m in motions() {
-            let acc = FrameAcceleration {
+            let acc = BodyAcceleration {
                 linear: DVec3::new(0.3, -1.0, 2.0),
                 angular: DVec3::new(1.0, 2.0, -0.7),
             };
-            let mirrored = WingFrame {
-                rotation: flip * m.rotation * flip,
-                velocity: flip * m.velocity,
-                rate: -(flip * m.rate), // an axial vector
+            let mirrored = BodyMotion {
+                r: flip * m.r * flip,
+                v: flip * m.v,
+                w: -(flip * m.w), // an axial vector
+                ..BodyMotion::REST
             };
-            let mirrored_acc = FrameAcceleration {
+            let mirrored_acc = BodyAcceleration {
                 linear: flip * acc.linear,
                 angular: -(flip * acc.angular),
             };
@@ -339,13 +345,13 @@ fn invariant_galilean_and_rotated_frames() {
     let turn = r3(0.4) * r1(-1.2);
     for m in motions() {
         let a = still.velocity_load(&m);
-        let b = windy.velocity_load(&WingFrame {
-            velocity: m.velocity + stream,
+        let b = windy.velocity_load(&BodyMotion {
+            v: m.v + stream,
             ..m
         });
-        let c = still.velocity_load(&WingFrame {
-            rotation: turn * m.rotation,
-            velocity: turn * m.velocity,
+        let c = still.velocity_load(&BodyMotion {
+            r: turn * m.r,
+            v: turn * m.v,
             ..m
         });
         for other in [b, c] {
@@ -360,9 +366,9 @@ fn invariant_galilean_and_rotated_frames() {
 fn limit_still_wing_in_still_air_feels_nothing() {
     let load = wing(BladeSettings::insect(RHO), 4, 1.0).load(
         &motion(DVec3::ZERO, DVec3::ZERO),
-        &FrameAcceleration::default(),
+        &BodyAcceleration::default(),
     );
-    assert_eq!(load, Load::default());
+    assert_eq!(load, Wrench::default());
 }
 
 #[test]

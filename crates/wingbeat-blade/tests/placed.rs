@@ -1,17 +1,17 @@
 //! Strips of wings that are not flat, against flat wings whose frames are turned.
 
 use wingbeat_blade::*;
-use wingbeat_math::{DMat3, DVec3, r1, r2, r3};
+use wingbeat_math::{BodyAcceleration, BodyMotion, DMat3, DVec3, Wrench, r1, r2, r3};
 
 const RHO: f64 = 1.2;
-const LAWS: [AddedMass; 4] = [
-    AddedMass::None,
-    AddedMass::Impulse,
-    AddedMass::Normal,
-    AddedMass::Section,
+const LAWS: [AddedMassModel; 4] = [
+    AddedMassModel::None,
+    AddedMassModel::Impulse,
+    AddedMassModel::Normal,
+    AddedMassModel::Section,
 ];
 
-fn settings(added_mass: AddedMass) -> BladeSettings {
+fn settings(added_mass: AddedMassModel) -> BladeSettings {
     BladeSettings {
         added_mass,
         ..BladeSettings::insect(RHO)
@@ -19,15 +19,16 @@ fn settings(added_mass: AddedMass) -> BladeSettings {
 }
 
 /// Some motions of all kinds.
-fn motions() -> impl Iterator<Item = (WingFrame, FrameAcceleration)> {
+fn motions() -> impl Iterator<Item = (BodyMotion, BodyAcceleration)> {
     (0..40).map(|k: i32| {
         let n = |m: i32| f64::from((k * m + m) % 13 - 6) * 0.4;
-        let motion = WingFrame {
-            rotation: r2(n(3)) * r3(n(5)) * r1(n(7)),
-            velocity: DVec3::new(n(2), n(9), n(4)),
-            rate: DVec3::new(n(6), n(8), n(11)),
+        let motion = BodyMotion {
+            r: r2(n(3)) * r3(n(5)) * r1(n(7)),
+            v: DVec3::new(n(2), n(9), n(4)),
+            w: DVec3::new(n(6), n(8), n(11)),
+            ..BodyMotion::REST
         };
-        let acc = FrameAcceleration {
+        let acc = BodyAcceleration {
             linear: DVec3::new(n(5), n(4), n(10)),
             angular: DVec3::new(n(7), n(3), n(2)),
         };
@@ -40,7 +41,7 @@ fn wind(r: DVec3) -> DVec3 {
     DVec3::new(0.3 - r.y, 0.2 + r.x, 0.5 * r.y - 0.1 * r.z)
 }
 
-fn assert_same(a: &Load, b: &Load) {
+fn assert_same(a: &Wrench, b: &Wrench) {
     let apart = (a.force - b.force).length() + (a.moment - b.moment).length();
     let size = b.force.length() + b.moment.length();
     assert!(apart <= 1e-12 * size.max(1e-3), "{a:?} {b:?}");
@@ -59,7 +60,7 @@ fn placed(turn: DMat3, side: f64) -> Vec<PlacedStrip> {
     (0..5).map(strip).collect()
 }
 
-fn wing(placed: &[PlacedStrip], law: AddedMass) -> BladeWing {
+fn wing(placed: &[PlacedStrip], law: AddedMassModel) -> BladeWing {
     BladeWing::new(placed.iter().map(|p| p.strip).collect(), settings(law)).unwrap()
 }
 
@@ -82,17 +83,18 @@ fn invariant_a_mesh_turned_about_the_hinge_is_a_frame_turned_about_it() {
             let turned = wing(&strips, law);
             let section = |k: usize| SectionMotion::fixed(&strips[k]);
             for (m, acc) in motions() {
-                let own = WingFrame {
-                    rotation: m.rotation * q,
-                    velocity: m.velocity,
-                    rate: q.transpose() * m.rate,
+                let own = BodyMotion {
+                    r: m.r * q,
+                    v: m.v,
+                    w: q.transpose() * m.w,
+                    ..BodyMotion::REST
                 };
-                let own_acc = FrameAcceleration {
+                let own_acc = BodyAcceleration {
                     linear: acc.linear,
                     angular: q.transpose() * acc.angular,
                 };
                 let local = |r: DVec3| q.transpose() * wind(q * r);
-                let back = |load: Load| Load {
+                let back = |load: Wrench| Wrench {
                     force: q * load.force,
                     moment: q * load.moment,
                 };
@@ -172,20 +174,21 @@ fn agrees_twist_of_a_section_with_dihedral_with_a_frame_that_turns() {
         let section = |_: usize| s;
         let (q, [p, p1, p2], [spin, spin_rate]) = (s.turn, axis, s.spin);
         for (m, acc) in motions() {
-            let (r, w) = (m.rotation, m.rate);
+            let (r, w) = (m.r, m.w);
             let turning = acc.angular.cross(p) + w.cross(w.cross(p) + 2.0 * p1) + p2;
-            let own = WingFrame {
-                rotation: r * q,
-                velocity: m.velocity + r * (w.cross(p) + p1),
-                rate: q.transpose() * (w + spin),
+            let own = BodyMotion {
+                r: r * q,
+                v: m.v + r * (w.cross(p) + p1),
+                w: q.transpose() * (w + spin),
+                ..BodyMotion::REST
             };
-            let own_acc = FrameAcceleration {
+            let own_acc = BodyAcceleration {
                 linear: acc.linear + r * turning,
                 angular: q.transpose() * (acc.angular + spin_rate + w.cross(spin)),
             };
-            let check = |got: DeformingLoad, flat: Load| {
+            let check = |got: DeformingLoad, flat: Wrench| {
                 let [force, moment] = [flat.force, flat.moment].map(|x| s.stretch * (q * x));
-                let expected = Load {
+                let expected = Wrench {
                     force,
                     moment: moment + p.cross(force),
                 };

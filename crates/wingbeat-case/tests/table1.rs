@@ -2,7 +2,7 @@
 //! and modes were published, the modes follow from the derivatives.
 
 use wingbeat_analysis::{Mode, Plane, table_model};
-use wingbeat_blade::{AddedMass, Rotation};
+use wingbeat_blade::{AddedMassModel, Rotation};
 use wingbeat_case::LoadedCase;
 use wingbeat_flight::{AirModel, FlightSetup};
 use wingbeat_model::{AngleLaw, Wing};
@@ -74,7 +74,7 @@ fn air(setup: &FlightSetup) -> Air {
         AirModel::BladeElement(options) => {
             let blade = &options.blade;
             let of_circulation = matches!(blade.rotation, Rotation::Coefficient(_));
-            let is_theirs = of_circulation && blade.added_mass == AddedMass::Section;
+            let is_theirs = of_circulation && blade.added_mass == AddedMassModel::Section;
             match is_theirs && blade.viscous.is_some() {
                 true => Air::BermanWang,
                 false => Air::BladeElement,

@@ -14,19 +14,14 @@
 //!
 //! [`MomentumForm`]: crate::MomentumForm
 
-use wingbeat_math::{DMat3, DVec3};
-
-use crate::motion::{BodyAcceleration, BodyMotion, Wrench};
-
-/// Six numbers: a force and a moment, or two accelerations.
-pub type Six = [f64; 6];
+use wingbeat_math::{BodyAcceleration, BodyMotion, DMat3, DVec3, Six, SixBySix, Wrench, six};
 
 /// Air that a body carries along: force and moment about the body's origin are
 /// `-A (a, alpha)`, all in body components.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AddedMass {
     body: usize,
-    matrix: [Six; 6],
+    matrix: SixBySix,
     /// Directions along which it is felt, the first `felt` of them.
     directions: [usize; 6],
     felt: usize,
@@ -35,7 +30,7 @@ pub struct AddedMass {
 impl AddedMass {
     /// The symmetric `matrix` A of body number `body`: rows force and moment, columns acceleration
     /// of the origin and angular acceleration [kg, kg m, kg m2].
-    pub fn new(body: usize, matrix: [Six; 6]) -> Self {
+    pub fn new(body: usize, matrix: SixBySix) -> Self {
         let (mut directions, mut felt) = ([0; 6], 0);
         for (k, row) in matrix.iter().enumerate() {
             if row.iter().any(|x| *x != 0.0) {
@@ -57,7 +52,7 @@ impl AddedMass {
     }
 
     /// A.
-    pub fn matrix(&self) -> &[Six; 6] {
+    pub fn matrix(&self) -> &SixBySix {
         &self.matrix
     }
 
@@ -89,10 +84,6 @@ pub(crate) fn seen(m: &BodyMotion, a: &BodyAcceleration) -> Six {
     six(linear, a.angular)
 }
 
-pub(crate) fn six(a: DVec3, b: DVec3) -> Six {
-    [a.x, a.y, a.z, b.x, b.y, b.z]
-}
-
 /// The load of six body components on a body of the attitude `r`.
 pub(crate) fn wrench(r: DMat3, load: &Six) -> Wrench {
     Wrench {
@@ -105,14 +96,14 @@ pub(crate) fn wrench(r: DMat3, load: &Six) -> Wrench {
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Factors {
     /// Row k of the upper half: column k of L.
-    columns: [Six; 6],
+    columns: SixBySix,
     /// 1 / D.
     inverse: Six,
 }
 
 impl Factors {
     /// Of the matrix `a`, of which only the lower half is read.
-    pub fn of(mut a: [Six; 6]) -> Self {
+    pub fn of(mut a: SixBySix) -> Self {
         let mut inverse = [0.0; 6];
         for k in 0..6 {
             inverse[k] = 1.0 / a[k][k];

@@ -1,8 +1,6 @@
 //! A rigid body: its mass properties, momentum, weight and energy.
 
-use wingbeat_math::{DVec3, EulerSequence, MassProperties};
-
-use crate::motion::{BodyAcceleration, BodyMotion, Wrench};
+use wingbeat_math::{BodyAcceleration, BodyMotion, DVec3, EulerSequence, MassProperties, Wrench};
 
 /// A rigid body.
 #[derive(Clone, Debug)]
@@ -40,13 +38,9 @@ pub(crate) fn inertia_wrench(body: &Body, m: &BodyMotion, acc: &BodyAcceleration
 /// Weight of a body and its moment about the body's frame origin (seed eq. 10, with the moment
 /// for every body).
 pub fn weight_wrench(body: &Body, m: &BodyMotion, gravity: DVec3) -> Wrench {
-    Wrench::at(gravity, m.r * body.mass.first_moment).with_force(body.mass.mass * gravity)
-}
-
-impl Wrench {
-    /// The same moment with another force: a weight's moment is that of the first moment of mass.
-    fn with_force(self, force: DVec3) -> Self {
-        Self { force, ..self }
+    Wrench {
+        force: body.mass.mass * gravity,
+        moment: (m.r * body.mass.first_moment).cross(gravity),
     }
 }
 

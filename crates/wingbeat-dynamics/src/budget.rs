@@ -1,9 +1,9 @@
 //! Energies and momenta of the system, from the motions of its bodies alone.
 
-use wingbeat_math::DVec3;
+use wingbeat_math::{BodyAcceleration, BodyMotion, DVec3, Wrench};
 
 use crate::body::{angular_momentum, inertia_wrench, kinetic_energy, linear_momentum};
-use crate::{BodyAcceleration, BodyMotion, Budget, System, Wrench};
+use crate::{Budget, System};
 
 /// Mass centre of the system \[m\], N components.
 pub fn mass_centre(system: &System, motions: &[BodyMotion]) -> DVec3 {

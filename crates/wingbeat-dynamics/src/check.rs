@@ -1,13 +1,13 @@
 //! Checks of numbers, rotations and states that users give or integrators make.
 
-use wingbeat_math::{DMat3, DVec3};
+use wingbeat_math::{DMat3, DVec3, largest};
 
 use crate::error::DynamicsError;
 
 /// Largest deviation of `r^T r` from the identity.
 pub(crate) fn orthogonality_error(r: DMat3) -> f64 {
     let e = r.transpose() * r - DMat3::IDENTITY;
-    e.to_cols_array().iter().fold(0.0, |a, x| a.max(x.abs()))
+    largest(e.to_cols_array().map(f64::abs))
 }
 
 /// An error if `r` is not a rotation to 1e-9 (round-off of a long chain of products is below

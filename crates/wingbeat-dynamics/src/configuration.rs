@@ -1,13 +1,13 @@
 //! The bodies as seen from the root: a function of time and of the free joint coordinates.
 
-use wingbeat_math::{DMat3, DVec3, MovingRotation, tilde, trace};
+use wingbeat_math::{BodyAcceleration, BodyMotion, DMat3, DVec3, MovingRotation, tilde, trace};
 
 use crate::check::check_rotation;
 use crate::cycle::Cycle;
 use crate::placement::Placement;
 use crate::placement::carry;
 use crate::shape::ShapeMass;
-use crate::{BodyAcceleration, BodyMotion, DynamicsError, System};
+use crate::{DynamicsError, System};
 
 /// Mass properties of the whole system and the momentum of its parts relative to the root.
 #[derive(Clone, Copy, Debug, Default)]

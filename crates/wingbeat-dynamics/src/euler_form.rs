@@ -7,7 +7,7 @@
 //! nothing at 200 Hz; a > 2.7 makes Runge-Kutta unstable. A stabilization tied to the step lowers a
 //! fourth-order integrator to second order, a fixed one keeps its order.
 
-use wingbeat_math::DVec3;
+use wingbeat_math::{BodyAcceleration, BodyMotion, DVec3, Wrench, largest};
 
 use crate::baumgarte::Baumgarte;
 use crate::budget::{budget, load_power};
@@ -17,10 +17,7 @@ use crate::euler::assembly::{consistent_coordinates, consistent_rates};
 use crate::euler::constraint::HingeKinematics;
 use crate::euler::coordinates::{BodyKinematics, COORDINATES, write};
 use crate::euler::scratch::EulerScratch;
-use crate::{
-    BodyAcceleration, BodyMotion, DynamicsError, Formulation, HingeReaction, Solution, System,
-    Violation, Workspace, Wrench,
-};
+use crate::{DynamicsError, Formulation, HingeReaction, Solution, System, Violation, Workspace};
 
 /// The seed's form of a [`System`].
 #[derive(Clone, Debug)]
@@ -123,12 +120,13 @@ impl EulerForm {
 
 /// Largest constraint of each kind.
 fn violation(hinges: &[HingeKinematics]) -> Violation {
-    let mut v = Violation::default();
-    for h in hinges {
-        v.position = v.position.max(h.connection().abs().max_element());
-        v.orientation = v.orientation.max(h.orientation().abs().max_element());
+    let size = |of: fn(&HingeKinematics) -> DVec3| {
+        largest(hinges.iter().flat_map(|h| of(h).abs().to_array()))
+    };
+    Violation {
+        position: size(HingeKinematics::connection),
+        orientation: size(HingeKinematics::orientation),
     }
-    v
 }
 
 impl Formulation for EulerForm {

@@ -1,10 +1,12 @@
 //! The interface between a mechanical system and a time integrator.
 
+use wingbeat_math::{BodyMotion, Wrench};
+
 use std::fmt;
 
 use crate::mirror::MirrorSymmetry;
 use crate::shape::ShapeMass;
-use crate::{AddedMass, BodyMotion, DynamicsError, Solution, System, Workspace, Wrench};
+use crate::{AddedMass, DynamicsError, Solution, System, Workspace};
 
 /// A way to write the motion of a [`System`] as `y' = f(t, y)`.
 ///

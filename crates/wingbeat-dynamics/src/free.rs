@@ -13,11 +13,11 @@
 //!
 //! F, N the sum of all demands and of their moments about the mass centre. All in root components.
 
-use wingbeat_math::{DMat3, DQuat, DVec3, SingularMatrix, rotation_vector, solve_small};
+use wingbeat_math::{DMat3, DQuat, DVec3, SingularMatrix, Wrench, rotation_vector, solve_small};
 
 use crate::configuration::Composite;
 use crate::placement::Placement;
-use crate::{JointType, System, Wrench};
+use crate::{JointType, System};
 
 /// Rates of a joint's coordinates.
 pub(crate) fn coordinate_rates(freedom: JointType, q: &[f64], u: &[f64], out: &mut [f64]) {

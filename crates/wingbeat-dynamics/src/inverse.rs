@@ -1,11 +1,13 @@
 //! Inverse dynamics: what the hinges (and a support of the root) must do so that the bodies
 //! accelerate as they do. Newton and Euler for every body, summed from the tips to the root.
 
+use wingbeat_math::{BodyAcceleration, BodyMotion, Wrench};
+
+use crate::System;
 use crate::body::inertia_wrench;
 use crate::body::weight_wrench;
 use crate::solution::{HingeReaction, Solution};
 use crate::workspace::Workspace;
-use crate::{BodyAcceleration, BodyMotion, System, Wrench};
 
 /// Reactions of all hinges and of the support of the root, from the motions in `ws` and the
 /// accelerations in `out`.

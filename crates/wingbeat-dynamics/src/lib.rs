@@ -68,7 +68,6 @@ mod mechanism;
 mod mirror;
 mod mobility;
 mod momentum;
-mod motion;
 mod offsets;
 mod placement;
 mod prescribed;
@@ -80,7 +79,7 @@ mod system;
 mod tether;
 mod workspace;
 
-pub use added_mass::{AddedMass, Six};
+pub use added_mass::AddedMass;
 pub use baumgarte::Baumgarte;
 pub use body::{
     Body, NaturalUnits, angular_momentum, kinetic_energy, linear_momentum, weight_wrench,
@@ -100,7 +99,6 @@ pub use mechanism::form::{AbsoluteForm, AbsoluteScratch, Stabilization};
 pub use mirror::MirrorSymmetry;
 pub use mobility::mobilities;
 pub use momentum::MomentumForm;
-pub use motion::{BodyAcceleration, BodyMotion, Wrench};
 pub use offsets::JointOffsets;
 pub use placement::Placement;
 pub use quaternion::QuaternionForm;
@@ -108,4 +106,5 @@ pub use shape::ShapeMass;
 pub use solution::{Budget, HingeReaction, Solution, Violation};
 pub use system::System;
 pub use tether::{RootMotion, tethered, tethered_motions};
+pub use wingbeat_math::{BodyAcceleration, BodyMotion, Six, Wrench};
 pub use workspace::Workspace;

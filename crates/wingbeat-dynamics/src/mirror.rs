@@ -8,7 +8,7 @@
 //! With the normal n of the plane in N and e the axis 2 of the bodies, as quaternions without real part, the
 //! image of the attitude q is `n q e`, up to its sign.
 
-use wingbeat_math::{DQuat, DVec3};
+use wingbeat_math::{DQuat, DVec3, mirrored, mirrored_axial};
 
 use crate::joint::Joint;
 use crate::joint_model::JointType;
@@ -91,17 +91,16 @@ impl MirrorSymmetry {
 /// By what the coordinates and speeds of a joint become those of its image; none where the axes of both are no
 /// images of each other.
 fn signs(joint: &Joint, image: &Joint) -> Option<[f64; 4]> {
-    let mirrored = |v: DVec3| DVec3::new(v.x, -v.y, v.z);
     let sign = |a: DVec3, b: DVec3| {
         let along = a.dot(b);
         (along.abs() > 1.0 - 1e-9).then_some(along.signum())
     };
     match (joint.model.kind, image.model.kind) {
         (JointType::Revolute { axis: a }, JointType::Revolute { axis: b }) => {
-            Some([sign(-mirrored(a), b)?, 1.0, 1.0, 1.0])
+            Some([sign(mirrored_axial(a), b)?, 1.0, 1.0, 1.0])
         }
         (JointType::Universal { axes: a }, JointType::Universal { axes: b }) => {
-            let [first, second] = [0, 1].map(|k| sign(-mirrored(a[k]), b[k]));
+            let [first, second] = [0, 1].map(|k| sign(mirrored_axial(a[k]), b[k]));
             Some([first?, second?, 1.0, 1.0])
         }
         (JointType::Prismatic { axis: a }, JointType::Prismatic { axis: b }) => {

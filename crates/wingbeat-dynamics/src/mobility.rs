@@ -1,8 +1,8 @@
 //! How readily joints give way: accelerations along free directions per effort along them, all that is free moving.
 
 use crate::mechanism::joint::{JointKinematics, kinematics};
-use crate::motion::BodyMotion;
-use crate::{DynamicsError, Formulation, Solution, Wrench};
+use crate::{DynamicsError, Formulation, Solution};
+use wingbeat_math::{BodyMotion, Wrench};
 
 /// Acceleration along each of `directions` (number of a hinge of the system, free direction of it) in the state `y`
 /// of a `form` at time `t` \[s\], per effort along that direction \[1/(kg m2) or 1/kg\]: one over the inertia that the

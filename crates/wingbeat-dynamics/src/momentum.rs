@@ -22,7 +22,7 @@ mod whole;
 
 use std::sync::Arc;
 
-use wingbeat_math::{DMat3, DQuat, DVec3};
+use wingbeat_math::{BodyAcceleration, BodyMotion, DMat3, DQuat, DVec3, Wrench};
 
 use self::joints::{move_joints, write_joint_rates};
 use self::state::{State, component};
@@ -38,8 +38,7 @@ use crate::prescribed::Turning;
 use crate::shape::ShapeMass;
 use crate::workspace::MOMENTUM_STATE;
 use crate::{
-    AddedMass, BodyAcceleration, BodyMotion, DynamicsError, Formulation, JointType, Solution,
-    System, Violation, Workspace, Wrench,
+    AddedMass, DynamicsError, Formulation, JointType, Solution, System, Violation, Workspace,
 };
 
 /// Length of the state vector without free joint coordinates.

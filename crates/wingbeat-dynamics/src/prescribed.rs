@@ -1,8 +1,8 @@
 //! What depends on time alone where no joint is free: evaluated once, asked for by every state at that time.
 
-use wingbeat_math::{DMat3, DVec3};
+use wingbeat_math::{DMat3, DVec3, Six, SixBySix};
 
-use crate::added_mass::{AddedMass, Factors, Six};
+use crate::added_mass::{AddedMass, Factors};
 use crate::error::DynamicsError;
 
 /// The inverse of the inertia I of the whole, by Cramer's rule.
@@ -49,7 +49,7 @@ pub(crate) struct Carried {
     pub added: Vec<AddedMass>,
     /// J of each: row by row the acceleration of its body by that of the mass centre and the root's angular one; zero
     /// where nothing is felt.
-    pub rows: Vec<[Six; 6]>,
+    pub rows: Vec<SixBySix>,
     /// `diag(m, I) + sum J^T A J`.
     pub inertia: Factors,
     /// s0 of the bodies in the state last asked for.

@@ -3,7 +3,7 @@
 
 use std::sync::Arc;
 
-use wingbeat_math::RotationLaw;
+use wingbeat_math::{BodyMotion, RotationLaw, Wrench};
 
 use crate::budget::{budget, load_power};
 use crate::check::{check_rotation, check_state};
@@ -15,8 +15,7 @@ use crate::mechanism::form::component;
 use crate::mechanism::form::{AbsoluteForm, AbsoluteScratch, Stabilization};
 use crate::mirror::MirrorSymmetry;
 use crate::{
-    BodyMotion, DynamicsError, Formulation, JointType, Solution, System, TravelLaw, Violation,
-    Workspace, Wrench,
+    DynamicsError, Formulation, JointType, Solution, System, TravelLaw, Violation, Workspace,
 };
 
 /// The quaternion form of a [`System`].

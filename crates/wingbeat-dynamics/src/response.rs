@@ -1,9 +1,9 @@
 //! Added masses in any formulation: the added loads from its response to unit loads.
 
-use wingbeat_math::solve_small;
+use wingbeat_math::{BodyMotion, Wrench, largest, solve_small};
 
 use crate::added_mass::{seen, wrench};
-use crate::{AddedMass, BodyMotion, DynamicsError, Solution, Wrench};
+use crate::{AddedMass, DynamicsError, Solution};
 
 /// Accelerations of all bodies under loads.
 pub(crate) type Accelerate<'a> =
@@ -72,7 +72,7 @@ impl Response {
         answer(self)?;
         self.at_rest.clone_from(&self.answer);
         // Any size of the trial loads serves a linear map; theirs own keeps the digits.
-        let size = self.at_rest.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+        let size = largest(self.at_rest.iter().map(|x| x.abs()));
         if size == 0.0 {
             return Ok(false);
         }

@@ -1,8 +1,8 @@
 //! What the equations of motion answer at one instant.
 
-use wingbeat_math::DVec3;
+use wingbeat_math::{BodyAcceleration, DVec3, Wrench};
 
-use crate::{BodyAcceleration, System, Wrench};
+use crate::System;
 
 /// What a hinge does to its child.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

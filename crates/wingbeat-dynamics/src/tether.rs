@@ -1,8 +1,10 @@
 //! Tethered: the root is moved by a support, and the support's load on it is what is asked for.
 
+use wingbeat_math::{BodyAcceleration, BodyMotion, Wrench};
+
 use crate::budget::{budget, load_power};
 use crate::inverse::{multipliers, reactions};
-use crate::{BodyAcceleration, BodyMotion, Solution, System, Violation, Workspace, Wrench};
+use crate::{Solution, System, Violation, Workspace};
 
 /// Prescribed motion of the root at one instant.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,5 +1,8 @@
 //! Scratch room of the equations of motion.
 
+use wingbeat_math::{BodyAcceleration, BodyMotion, Wrench};
+
+use crate::System;
 use crate::configuration::{Composite, CompositeRates, Configuration};
 use crate::euler::scratch::EulerScratch;
 use crate::free::FreeScratch;
@@ -7,7 +10,6 @@ use crate::mechanism::form::AbsoluteScratch;
 use crate::prescribed::{Carried, Turning};
 use crate::response::Response;
 use crate::shape::ShapeMass;
-use crate::{BodyAcceleration, BodyMotion, System, Wrench};
 
 /// Intermediate results, kept between calls so that nothing is allocated. Holds no state: any
 /// workspace of the same system serves any call of it.

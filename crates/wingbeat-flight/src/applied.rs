@@ -1,13 +1,13 @@
 //! Forces and couples on bodies beside those of joints and air: loads fixed in a body or in space,
 //! Fourier-modulated, and springs between points of two bodies.
 
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 use wingbeat_dynamics::{BodyMotion, Wrench};
 use wingbeat_math::{DVec3, DriftingFourier};
 
 /// Frame in which an applied load keeps its direction.
-#[derive(
-    Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize, schemars::JsonSchema,
-)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum LoadFrame {
     /// Fixed in the body.

@@ -9,7 +9,8 @@
 //! wings that bend as they are at rest.
 
 use wingbeat_dynamics::{BodyMotion, System, Workspace, Wrench, tethered_motions};
-use wingbeat_math::{DVec3, MassProperties, tilde};
+use wingbeat_math::six_by_six::{ZERO, from_quarters, unit};
+use wingbeat_math::{DMat3, DVec3, MassProperties, SixBySix, six, tilde};
 use wingbeat_model::WingMotion;
 
 use crate::error::FlightError;
@@ -23,8 +24,6 @@ const LIMIT: f64 = 0.3;
 /// Phases of the wingbeat at which the posture is looked at: between neighbours strokes of 90 deg turn by 35
 /// deg at most.
 const PHASES: usize = 8;
-
-type Matrix = [[f64; 6]; 6];
 
 /// Directions of the root (origin, then turn) in which a flyer moves: those of symmetric flight where one half
 /// is computed.
@@ -77,7 +76,7 @@ fn is_light_at(
     air.place(&at, &mut s)?;
     let memory = air.initial(&s);
     air.loads(&at, memory.as_ref(), &mut s, &mut loads)?;
-    let mut left = [[0.0; 6]; 6];
+    let mut left = ZERO;
     for (body, m) in system.bodies().iter().zip(&motions) {
         add_moved(&rigid_mass(&body.mass), LIMIT, [m, &motions[0]], &mut left);
     }
@@ -99,34 +98,24 @@ fn is_light_at(
 
 /// Force and moment about the origin of a body by accelerations of the origin and angular accelerations, body
 /// components.
-pub fn rigid_mass(of: &MassProperties) -> Matrix {
-    let (m, s) = (of.mass, tilde(of.first_moment));
-    let entry = |i: usize, j: usize| match (i < 3, j < 3) {
-        (true, true) => f64::from(i == j) * m,
-        (true, false) => -s.col(j - 3)[i],
-        (false, true) => s.col(j)[i - 3],
-        (false, false) => of.inertia.col(j - 3)[i - 3],
-    };
-    std::array::from_fn(|i| std::array::from_fn(|j| entry(i, j)))
+pub fn rigid_mass(of: &MassProperties) -> SixBySix {
+    let s = tilde(of.first_moment);
+    let mass = DMat3::from_diagonal(DVec3::splat(of.mass));
+    from_quarters([[mass, -s], [s, of.inertia]])
 }
 
 /// Adds `factor J^T A J` to `out`: `of` in components of the body that moves like `m`, `out` in those of the root.
-fn add_moved(of: &Matrix, factor: f64, [m, root]: [&BodyMotion; 2], out: &mut Matrix) {
+fn add_moved(of: &SixBySix, factor: f64, [m, root]: [&BodyMotion; 2], out: &mut SixBySix) {
     let (turn, arm) = (
         m.r.transpose() * root.r,
         root.r.transpose() * (m.p - root.p),
     );
     // Column k of J: what the body's origin and axes accelerate at where the root does in direction k.
-    let column = |k: usize| -> [f64; 6] {
-        let axis = DVec3::AXES[k % 3];
-        let (a, alpha) = match k < 3 {
-            true => (axis, DVec3::ZERO),
-            false => (axis.cross(arm), axis),
-        };
-        let (a, alpha) = (turn * a, turn * alpha);
-        [a.x, a.y, a.z, alpha.x, alpha.y, alpha.z]
+    let column = |k: usize| {
+        let [a, alpha] = unit(k);
+        six(turn * (a + alpha.cross(arm)), turn * alpha)
     };
-    let columns: [[f64; 6]; 6] = std::array::from_fn(column);
+    let columns: SixBySix = std::array::from_fn(column);
     for (k, l) in (0..36).map(|n| (n / 6, n % 6)) {
         let entries = (0..36).map(|n| (n / 6, n % 6));
         let sum = entries.map(|(i, j)| columns[k][i] * of[i][j] * columns[l][j]);
@@ -136,7 +125,7 @@ fn add_moved(of: &Matrix, factor: f64, [m, root]: [&BodyMotion; 2], out: &mut Ma
 
 /// Whether a symmetric matrix of order `n`, at most 6, is positive definite: its pivots are.
 pub fn is_positive(n: usize, entry: impl Fn(usize, usize) -> f64) -> bool {
-    let mut a = [[0.0; 6]; 6];
+    let mut a = ZERO;
     for (i, row) in a.iter_mut().enumerate().take(n) {
         (0..n).for_each(|j| row[j] = entry(i, j));
     }

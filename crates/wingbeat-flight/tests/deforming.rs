@@ -5,7 +5,7 @@ use crate::common;
 
 use common::{FREQUENCY, Fly, fly, sine};
 use wingbeat_air::LoadMethod;
-use wingbeat_blade::{AddedMass, BladeSettings};
+use wingbeat_blade::{AddedMassModel, BladeSettings};
 use wingbeat_flight::*;
 use wingbeat_math::{DVec3, MassProperties, r2};
 use wingbeat_model::deformation::{MovingSurface, SpanLaw, Term};
@@ -43,7 +43,7 @@ fn deformed(mut setup: FlightSetup, deformation: &Deformation) -> FlightSetup {
     setup
 }
 
-fn blade(mut setup: FlightSetup, added_mass: AddedMass) -> FlightSetup {
+fn blade(mut setup: FlightSetup, added_mass: AddedMassModel) -> FlightSetup {
     setup.air = AirModel::BladeElement(BladeOptions {
         blade: BladeSettings {
             added_mass,
@@ -147,7 +147,11 @@ fn exact_strips_of_a_wing_bent_for_good_are_those_of_a_wing_of_that_shape() {
         })],
         ..Deformation::default()
     };
-    for added in [AddedMass::None, AddedMass::Section, AddedMass::Impulse] {
+    for added in [
+        AddedMassModel::None,
+        AddedMassModel::Section,
+        AddedMassModel::Impulse,
+    ] {
         let setup = blade(Fly::default().setup(40, 0.5), added);
         let mut shaped = setup.clone();
         for wing in &mut shaped.animal.wings {
@@ -223,10 +227,10 @@ fn agrees_uniform_twist_with_feathering_in_the_lattice() {
 #[test]
 fn agrees_uniform_twist_with_feathering_in_blade_elements() {
     let all = [
-        AddedMass::None,
-        AddedMass::Normal,
-        AddedMass::Section,
-        AddedMass::Impulse,
+        AddedMassModel::None,
+        AddedMassModel::Normal,
+        AddedMassModel::Section,
+        AddedMassModel::Impulse,
     ];
     for added in all {
         twist_is_feathering(blade(Fly::default().setup(40, 0.5), added));
@@ -280,7 +284,11 @@ fn bending_is_plunging(setup: FlightSetup) {
 #[test]
 fn agrees_uniform_bending_with_plunging() {
     bending_is_plunging(Fly::default().setup(40, 0.5));
-    for added in [AddedMass::None, AddedMass::Section, AddedMass::Impulse] {
+    for added in [
+        AddedMassModel::None,
+        AddedMassModel::Section,
+        AddedMassModel::Impulse,
+    ] {
         bending_is_plunging(blade(Fly::default().setup(40, 0.5), added));
     }
 }
@@ -288,7 +296,11 @@ fn agrees_uniform_bending_with_plunging() {
 #[test]
 fn invariant_strips_of_a_mesh_at_incidence_fly_as_feathered_ones() {
     let angle = 0.3;
-    for added in [AddedMass::None, AddedMass::Section, AddedMass::Impulse] {
+    for added in [
+        AddedMassModel::None,
+        AddedMassModel::Section,
+        AddedMassModel::Impulse,
+    ] {
         let feathered = blade(Fly::default().setup(40, 0.5), added);
         let mut turned = feathered.clone();
         for wing in &mut turned.animal.wings {
@@ -306,7 +318,7 @@ fn invariant_strips_of_a_mesh_at_incidence_fly_as_feathered_ones() {
 #[test]
 fn balances_free_flight_with_deforming_wings() {
     let lattice = deformed(Fly::default().setup(40, 1.0), &everything());
-    let strips = blade(lattice.clone(), AddedMass::Impulse);
+    let strips = blade(lattice.clone(), AddedMassModel::Impulse);
     for (setup, tolerance) in [(lattice, 1e-3), (strips, 1e-5)] {
         let weight = setup.animal.mass() * 9.81;
         let records = fly(setup);
@@ -404,7 +416,7 @@ fn agrees_a_measured_surface_with_the_law_it_was_measured_of() {
 fn refuses_measured_surfaces_beside_strips() {
     let setup = Fly::default().setup(40, 0.1);
     let surface = measured(&setup, &everything());
-    let strips = blade(deformed(setup, &surface), AddedMass::None);
+    let strips = blade(deformed(setup, &surface), AddedMassModel::None);
     let error = Simulation::new(strips).err().expect("refused").to_string();
     assert!(error.contains("measured surface"), "{error}");
 }

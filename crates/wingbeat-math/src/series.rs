@@ -27,6 +27,17 @@ impl DriftingFourier {
         }
     }
 
+    /// An oscillation with this `frequency` [Hz] about a constant, by its cosine and sine coefficients.
+    pub fn periodic(constant: f64, frequency: f64, [cosine, sine]: [Vec<f64>; 2]) -> Self {
+        Self {
+            constant,
+            rate: 0.0,
+            frequency,
+            cosine,
+            sine,
+        }
+    }
+
     /// Value and first two time derivatives at `t` [s].
     ///
     /// ```

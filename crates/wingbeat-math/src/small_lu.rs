@@ -89,8 +89,7 @@ impl SmallLu {
 
 /// A pivot up to here is round-off.
 fn negligible(a: &[f64], n: usize) -> f64 {
-    let largest = a.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
-    n as f64 * f64::EPSILON * largest
+    n as f64 * f64::EPSILON * crate::largest(a.iter().map(|x| x.abs()))
 }
 
 /// Brings the largest entry of column k on or below the diagonal to the diagonal; returns its row.
@@ -198,5 +197,14 @@ mod tests {
             solve_small(&mut a, &mut [1.0, 1.0]),
             Err(SingularMatrix { column: 1 })
         );
+    }
+
+    #[test]
+    fn refuses_matrices_with_entries_that_are_not_numbers() {
+        for k in 0..4 {
+            let mut a = [1.0, 0.5, 0.0, 1.0];
+            a[k] = f64::NAN;
+            assert!(solve_small(&mut a, &mut [1.0, 1.0]).is_err(), "{k}");
+        }
     }
 }

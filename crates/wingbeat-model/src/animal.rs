@@ -6,7 +6,7 @@ use crate::integrate::scaled_properties;
 use crate::mesh::{GridMesh, QuadMesh, Side};
 use crate::motion::WingMotion;
 use crate::structure::{Blank, WingStructure};
-use wingbeat_math::{DVec3, MassProperties};
+use wingbeat_math::{DVec3, MassProperties, mirrored};
 
 /// A wing: flat or cambered surface with its hinge, mass and prescribed motion.
 #[derive(Clone, Debug, PartialEq)]
@@ -36,7 +36,7 @@ impl Wing {
         Self {
             name: name.to_owned(),
             side: self.side.other(),
-            hinge_b: crate::mesh::mirror(self.hinge_b),
+            hinge_b: mirrored(self.hinge_b),
             mesh: self.mesh.mirrored(),
             mass: MassProperties {
                 mass: self.mass.mass,

@@ -1,14 +1,14 @@
 //! Meshes of four-node quadrilaterals: flat wing grids and closed surfaces (seed sec. 2).
 
 use crate::error::{ModelError, in_row, require_count};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
-use wingbeat_math::DVec3;
+use wingbeat_math::{DVec3, mirrored};
 
 /// Left or right wing.
-#[derive(
-    Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize, schemars::JsonSchema,
-)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Side {
     /// Spans along -axis 2 of the wing frame.
@@ -36,9 +36,7 @@ impl Side {
 }
 
 /// Spacing of grid lines between 0 and 1.
-#[derive(
-    Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize, schemars::JsonSchema,
-)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Spacing {
     /// Equal.
@@ -101,7 +99,7 @@ impl GridMesh {
     /// The mirror image in the 1-3 plane: axis 2 changes sign, bit for bit.
     pub fn mirrored(&self) -> Self {
         Self {
-            nodes: self.nodes.iter().map(|&x| mirror(x)).collect(),
+            nodes: self.nodes.iter().map(|&x| mirrored(x)).collect(),
             ..*self
         }
     }
@@ -136,11 +134,6 @@ impl GridMesh {
         require_count(&key, n, fits, "(rows + 1) * (cols + 1)")?;
         self.to_quads(Side::Right).check_panels(name)
     }
-}
-
-/// Mirror image in the 1-3 plane.
-pub fn mirror(x: DVec3) -> DVec3 {
-    DVec3::new(x.x, -x.y, x.z)
 }
 
 /// The name of a wing with `left` and `right` exchanged: that of its mirror image.

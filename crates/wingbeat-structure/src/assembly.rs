@@ -1,8 +1,8 @@
 //! Internal forces and tangent of all elements.
 
-use wingbeat_math::{DMat3, DVec3};
+use wingbeat_math::six_by_six::scaled;
+use wingbeat_math::{DMat3, DVec3, SixBySix};
 
-use crate::block::{Block, scaled};
 use crate::configuration::{Configuration, NODE};
 use crate::element::ElementForces;
 use crate::error::StructureError;
@@ -132,7 +132,7 @@ impl Assembly {
     }
 
     /// Adds a block of two nodes.
-    pub fn add(&mut self, structure: &Structure, [a, b]: [usize; 2], block: &Block) {
+    pub fn add(&mut self, structure: &Structure, [a, b]: [usize; 2], block: &SixBySix) {
         for (i, j) in (0..NODE * NODE).map(|k| (k / NODE, k % NODE)) {
             let (row, col) = (
                 structure.unknown[NODE * a + i],
@@ -146,7 +146,7 @@ impl Assembly {
 
     /// Adds the block of a mass midway between two nodes: half of its force is on either, and half of the increment of
     /// either is its own.
-    pub fn add_between(&mut self, structure: &Structure, nodes: [usize; 2], block: &Block) {
+    pub fn add_between(&mut self, structure: &Structure, nodes: [usize; 2], block: &SixBySix) {
         let quarter = scaled(block, 0.25);
         for pair in nodes.map(|a| nodes.map(|b| [a, b])).into_iter().flatten() {
             self.add(structure, pair, &quarter);

@@ -18,9 +18,9 @@ mod viscous;
 
 pub use section::{Section, Stiffness};
 
-use wingbeat_math::{DMat3, DQuat, DVec3, MassProperties, tilde};
+use wingbeat_math::six_by_six::{from_quarters, product, times, transpose};
+use wingbeat_math::{DMat3, DQuat, DVec3, MassProperties, SixBySix, tilde};
 
-use crate::block::{Block, block, product, times, transpose};
 use crate::configuration::{Configuration, NODE};
 use crate::element::{Element, ElementForces};
 use crate::error::StructureError;
@@ -55,7 +55,7 @@ pub struct Beam {
     /// Screw from end to end at rest.
     rest: Screw,
     /// Stiffness of the screw [N/m, N, N m].
-    stiffness: Block,
+    stiffness: SixBySix,
     /// Mass per length.
     mass: MassProperties,
 }
@@ -136,20 +136,20 @@ impl Beam {
     }
 
     /// Maps of the increments of both nodes to those of the section frames at the ends, in section components.
-    fn node_to_end(&self, rotations: &[DQuat; 2]) -> [Block; 2] {
+    fn node_to_end(&self, rotations: &[DQuat; 2]) -> [SixBySix; 2] {
         std::array::from_fn(|e| {
             let back = DMat3::from_quat(rotations[e].conjugate());
             let g = DMat3::from_quat(self.offsets[e].rotation.conjugate());
             let arm = g * tilde(-self.offsets[e].place);
-            block([[back, arm], [DMat3::ZERO, g]])
+            from_quarters([[back, arm], [DMat3::ZERO, g]])
         })
     }
 
     /// Derivative of the screw by the increments of each node.
-    fn screw_by_nodes(&self, screw: &Screw, maps: &[Block; 2]) -> [Block; 2] {
+    fn screw_by_nodes(&self, screw: &Screw, maps: &[SixBySix; 2]) -> [SixBySix; 2] {
         let full = |d: &Screw, sign: f64| {
             let [a, b] = inverse_jacobian(d).map(|m| m * sign);
-            block([[a, b], [DMat3::ZERO, a]])
+            from_quarters([[a, b], [DMat3::ZERO, a]])
         };
         [
             product(&full(&-*screw, -1.0), &maps[0]),
@@ -180,7 +180,7 @@ impl Beam {
     }
 
     /// Part of the tangent that comes with the change of the element's strains.
-    fn material(&self, by_nodes: &[Block; 2], out: &mut [f64]) {
+    fn material(&self, by_nodes: &[SixBySix; 2], out: &mut [f64]) {
         for (e, f) in (0..4).map(|k| (k / 2, k % 2)) {
             let part = product(&self.stiffness, &by_nodes[f]);
             add(out, [e, f], &product(&transpose(&by_nodes[e]), &part));
@@ -191,7 +191,7 @@ impl Beam {
     fn geometric(&self, g: &Turning<'_>, out: &mut [f64]) {
         let gradient = |d: &Screw| {
             let [n, m] = pulled_gradient(d, g.force);
-            block([[DMat3::ZERO, n], [n, m]])
+            from_quarters([[DMat3::ZERO, n], [n, m]])
         };
         let sides = [gradient(&-*g.screw), gradient(g.screw)];
         for (e, f) in (0..4).map(|k| (k / 2, k % 2)) {
@@ -204,7 +204,7 @@ impl Beam {
             let in_node = self.offsets[e].rotation * g.ends[e].u;
             let turn = DMat3::from_quat(r) * tilde(-in_node);
             let zero = DMat3::ZERO;
-            add(out, [e, e], &block([[zero, turn], [zero, zero]]));
+            add(out, [e, e], &from_quarters([[zero, turn], [zero, zero]]));
         }
     }
 }
@@ -218,8 +218,8 @@ struct Turning<'a> {
     rotations: &'a [DQuat; 2],
     /// Forces at the ends, section components.
     ends: &'a [Screw; 2],
-    maps: &'a [Block; 2],
-    by_nodes: &'a [Block; 2],
+    maps: &'a [SixBySix; 2],
+    by_nodes: &'a [SixBySix; 2],
 }
 
 /// Forces at the ends by that of the screw, section components.
@@ -228,7 +228,7 @@ fn ends(screw: &Screw, force: &Screw) -> [Screw; 2] {
 }
 
 /// Adds a block of the ends [e, f] to a 12 x 12 matrix by rows.
-fn add(out: &mut [f64], [e, f]: [usize; 2], b: &Block) {
+fn add(out: &mut [f64], [e, f]: [usize; 2], b: &SixBySix) {
     for (i, row) in b.iter().enumerate() {
         let start = (6 * e + i) * ENDS + 6 * f;
         let to = &mut out[start..start + 6];

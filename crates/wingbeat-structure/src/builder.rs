@@ -1,6 +1,6 @@
 //! How an elastic body is put together: its parts, their checks, its rest.
 
-use wingbeat_math::{DVec3, MassProperties};
+use wingbeat_math::{DVec3, MassProperties, largest};
 
 use crate::configuration::{Configuration, NODE};
 use crate::element::{Element, ElementForces};
@@ -189,8 +189,8 @@ fn relaxed(built: Structure) -> Result<Structure, StructureError> {
     let rest = equilibrium(&built, &built.rest, &FrameMotion::REST, &none, &settings)
         .map_err(|error| StructureError::Stressed(Box::new(error)))?;
     let places = rest.position.iter().zip(&built.rest.position);
-    let moved = places.map(|(a, b)| a.distance(*b)).fold(0.0, f64::max);
-    if moved > MAX_SLACK * built.size {
+    let moved = largest(places.map(|(a, b)| a.distance(*b)));
+    if moved.is_nan() || moved > MAX_SLACK * built.size {
         return Err(StructureError::Slack {
             moved,
             size: built.size,

@@ -5,9 +5,10 @@
 //! `w' = R^T w_W' - Omega x R^T w_W + Omega'`; with mass m, first moment S and inertia J about the node, `F = m
 //! a + R (w' x S + w x (w x S))`, `M = S x R^T a + J w' + w x J w`.
 
-use wingbeat_math::{DMat3, DVec3, MassProperties, tilde};
+use wingbeat_math::six_by_six::from_quarters;
+use wingbeat_math::{DMat3, DVec3, MassProperties, SixBySix, tilde};
 
-use crate::block::{Block, block, pair};
+use crate::block::pair;
 use crate::configuration::Configuration;
 use crate::frame::FrameMotion;
 
@@ -89,11 +90,11 @@ impl NodeMotion {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Tangents {
     /// By (dx in W components, dtheta in node components).
-    pub position: Block,
+    pub position: SixBySix,
     /// By (v, Omega).
-    pub velocity: Block,
+    pub velocity: SixBySix,
     /// By (v', Omega'): the mass matrix.
-    pub acceleration: Block,
+    pub acceleration: SixBySix,
 }
 
 /// What forces and tangents share.
@@ -147,7 +148,7 @@ pub(crate) fn tangents(m: &MassProperties, frame: &FrameMotion, n: &NodeMotion) 
     let carried = tilde(p.carried);
 
     let coriolis = tilde(frame.w) * 2.0;
-    let velocity = block([
+    let velocity = from_quarters([
         [coriolis * m.mass, r * (spin_force - s * carried)],
         [s * back * coriolis, j * carried + spin_moment],
     ]);
@@ -156,7 +157,7 @@ pub(crate) fn tangents(m: &MassProperties, frame: &FrameMotion, n: &NodeMotion) 
     // Derivative of w' by dtheta; that of w is `carried`.
     let w_dot = tilde(back * frame.w_dot) - tilde(n.omega) * carried;
     let turning = p.w_dot.cross(m.first_moment) + p.w.cross(p.w.cross(m.first_moment));
-    let position = block([
+    let position = from_quarters([
         [
             place * m.mass,
             r * (spin_force * carried - s * w_dot - tilde(turning)),
@@ -174,18 +175,18 @@ pub(crate) fn tangents(m: &MassProperties, frame: &FrameMotion, n: &NodeMotion) 
 }
 
 /// Derivative of the inertial force and moment by (v', Omega').
-pub(crate) fn mass_matrix(m: &MassProperties, r: DMat3) -> Block {
+pub(crate) fn mass_matrix(m: &MassProperties, r: DMat3) -> SixBySix {
     let s = tilde(m.first_moment);
     let unit = DMat3::from_diagonal(DVec3::splat(m.mass));
-    block([[unit, -(r * s)], [s * r.transpose(), m.inertia]])
+    from_quarters([[unit, -(r * s)], [s * r.transpose(), m.inertia]])
 }
 
 /// Derivative of the inertial force and moment by the acceleration and angular acceleration of W.
-pub(crate) fn by_frame_acceleration(m: &MassProperties, n: &NodeMotion) -> Block {
+pub(crate) fn by_frame_acceleration(m: &MassProperties, n: &NodeMotion) -> SixBySix {
     let back = n.r.transpose();
     let (s, u) = (tilde(m.first_moment), tilde(n.u));
     let unit = DMat3::from_diagonal(DVec3::splat(m.mass));
-    block([
+    from_quarters([
         [unit, -(u * m.mass + n.r * s * back)],
         [s * back, m.inertia * back - s * back * u],
     ])

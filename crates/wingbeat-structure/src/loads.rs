@@ -1,8 +1,9 @@
 //! Loads on nodes, dead and following.
 
-use wingbeat_math::{DMat3, DVec3, tilde};
+use wingbeat_math::six_by_six::{ZERO, from_quarters};
+use wingbeat_math::{DMat3, DVec3, SixBySix, tilde};
 
-use crate::block::{Block, ZERO, add_pair, block};
+use crate::block::add_pair;
 use crate::configuration::{Configuration, NODE};
 
 /// Loads that depend on the configuration alone.
@@ -38,20 +39,20 @@ pub struct NodeLoad {
 
 impl NodeLoad {
     /// Force in W components and moment in node components, with the derivative.
-    fn now(&self, at: &Configuration) -> ([DVec3; 2], Block) {
+    fn now(&self, at: &Configuration) -> ([DVec3; 2], SixBySix) {
         let r = DMat3::from_quat(at.rotation[self.node]);
         let zero = DMat3::ZERO;
         if self.follows {
             let turn = r * tilde(-self.force);
             (
                 [r * self.force, self.moment],
-                block([[zero, turn], [zero, zero]]),
+                from_quarters([[zero, turn], [zero, zero]]),
             )
         } else {
             let moment = r.transpose() * self.moment;
             (
                 [self.force, moment],
-                block([[zero, zero], [zero, tilde(moment)]]),
+                from_quarters([[zero, zero], [zero, tilde(moment)]]),
             )
         }
     }
@@ -65,11 +66,11 @@ impl Loading for [NodeLoad] {
         }
     }
 
-    fn tangent(&self, at: &Configuration, node: usize) -> Option<Block> {
+    fn tangent(&self, at: &Configuration, node: usize) -> Option<SixBySix> {
         let mut here = self.iter().filter(|l| l.node == node).peekable();
         here.peek()?;
         let parts = here.map(|l| l.now(at).1);
-        Some(parts.fold(ZERO, |a, b| crate::block::sum(&a, &b)))
+        Some(parts.fold(ZERO, |a, b| wingbeat_math::six_by_six::sum(&a, &b)))
     }
 }
 

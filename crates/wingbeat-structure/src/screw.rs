@@ -6,9 +6,9 @@
 //! Cardona & Bruls 2014, appendix A; Barfoot, State Estimation for Robotics, 2017, eq. 7.95).
 
 use wingbeat_math::rotation_jacobian::{Curve, inverse_right_jacobian as a};
-use wingbeat_math::{DMat3, DQuat, DVec3, rotation_vector, tilde};
+use wingbeat_math::{DMat3, DQuat, DVec3, rotation_vector, six, tilde};
 
-use crate::block::{pair, six};
+use crate::block::pair;
 
 /// A screw: translation u \[m\] and rotation theta \[rad\], both in the axes of its first frame.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

@@ -13,9 +13,9 @@
 
 use std::path::Path;
 use wingbeat_air::{AirError, AirSettings, Lattice, NodeMotion, SheddingKinds, Surface};
-use wingbeat_blade::{BladeSettings, BladeWing, FrameAcceleration, Strip, WingFrame};
+use wingbeat_blade::{BladeSettings, BladeWing, Strip};
 use wingbeat_flight::AirOptions;
-use wingbeat_math::{DMat3, DVec3, r2};
+use wingbeat_math::{BodyAcceleration, BodyMotion, DMat3, DVec3, r2};
 use wingbeat_model::planform::{Beta, ChordSize};
 use wingbeat_verify::lab::forces;
 use wingbeat_verify::lab::outline::{Spread, nodes};
@@ -119,12 +119,13 @@ impl Track {
             let wing = BladeWing::new(strips, BladeSettings::insect(DENSITY)).expect("a wing");
             let (linear, angular) = (rates(&frames.velocity), rates(&frames.spin));
             for k in 0..sum.len() {
-                let motion = WingFrame {
-                    rotation: frames.turns[k],
-                    velocity: frames.velocity[k],
-                    rate: frames.spin[k],
+                let motion = BodyMotion {
+                    r: frames.turns[k],
+                    v: frames.velocity[k],
+                    w: frames.spin[k],
+                    ..BodyMotion::REST
                 };
-                let acceleration = FrameAcceleration {
+                let acceleration = BodyAcceleration {
                     linear: linear[k],
                     angular: angular[k],
                 };

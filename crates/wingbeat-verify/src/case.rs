@@ -1,11 +1,11 @@
 //! A case of the suite.
 
+use serde::{Deserialize, Serialize};
+
 use crate::row::{Row, VerifyError};
 
 /// Which part of the report a case belongs to.
-#[derive(
-    Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, serde::Serialize, serde::Deserialize,
-)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Part {
     /// Closed forms, theory, conservation, invariance.

@@ -9,7 +9,7 @@
 use crate::error::AirError;
 use crate::geometry::topology::Topology;
 use crate::images::{Mirror, Plane};
-use wingbeat_math::DVec3;
+use wingbeat_math::{DVec3, largest};
 use wingbeat_vortex::Points;
 
 /// Largest distance of a node from the image of its partner, relative to the farthest node's from the
@@ -92,11 +92,11 @@ impl Symmetry {
     /// [`AirError::Asymmetric`] names the first node that is not where the image of its partner is.
     pub fn check(&self, position: &[DVec3], step: u64) -> Result<(), AirError> {
         let far = |x: &DVec3| self.plane.height(*x).abs();
-        let size = position.iter().map(far).fold(0.0, f64::max);
+        let allowed = TOLERANCE * largest(position.iter().map(far));
         for (node, &image) in self.node.iter().enumerate() {
             let reflected = self.mirror.point(position[image]);
             let distance = position[node].distance(reflected);
-            if distance > TOLERANCE * size {
+            if distance.is_nan() || distance > allowed {
                 return Err(AirError::Asymmetric {
                     step,
                     node,
@@ -144,4 +144,31 @@ fn first_misfit(image: &[usize], count: usize) -> Option<usize> {
         return Some(image.len().min(count));
     }
     (0..count).find(|&i| image.get(image[i]) != Some(&i))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn refuses_places_that_are_not_numbers() {
+        let (point, normal) = (DVec3::ZERO, DVec3::Y);
+        let plane = Plane { point, normal };
+        let pair = Symmetry {
+            plane,
+            mirror: Mirror::of(&plane).expect("a plane"),
+            node: vec![1, 0],
+            panel: vec![],
+            sheet: vec![],
+            computed: vec![],
+            unknown: vec![],
+        };
+        assert_eq!(pair.check(&[DVec3::Y, -DVec3::Y], 0), Ok(()));
+        for k in 0..2 {
+            let mut position = [DVec3::Y, -DVec3::Y];
+            position[k].x = f64::NAN;
+            let said = pair.check(&position, 0);
+            assert!(matches!(said, Err(AirError::Asymmetric { .. })), "{k}");
+        }
+    }
 }

@@ -1,19 +1,12 @@
 //! Choices of the method.
 
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
 use crate::settings::vortex_lift::{VortexLift, held_part};
 
 /// How the rate of change of circulation in the unsteady Bernoulli equation is formed.
-#[derive(
-    Clone,
-    Copy,
-    Debug,
-    Default,
-    PartialEq,
-    Eq,
-    serde::Serialize,
-    serde::Deserialize,
-    schemars::JsonSchema,
-)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum CirculationRate {
     /// Backward difference over the step, first order, the published benchmark's.
@@ -27,17 +20,7 @@ pub enum CirculationRate {
 }
 
 /// How wake nodes are moved with the velocities of the accepted step.
-#[derive(
-    Clone,
-    Copy,
-    Debug,
-    Default,
-    PartialEq,
-    Eq,
-    serde::Serialize,
-    serde::Deserialize,
-    schemars::JsonSchema,
-)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Convection {
     /// With the velocity of the step: explicit Euler, first order, the published benchmark's.
@@ -64,17 +47,7 @@ pub enum NewestRow {
 
 /// How forces follow from circulations. The methods differ in what they do with the suction at
 /// attached leading edges: never mix them in one comparison.
-#[derive(
-    Clone,
-    Copy,
-    Debug,
-    Default,
-    PartialEq,
-    Eq,
-    serde::Serialize,
-    serde::Deserialize,
-    schemars::JsonSchema,
-)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum LoadMethod {
     /// Unsteady Bernoulli, pressure jump times normal: no suction (the published benchmark's).

@@ -15,22 +15,14 @@
 
 use std::f64::consts::{PI, TAU};
 
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 use wingbeat_math::SplitMix64;
 
 use crate::error::{AirError, require};
 
 /// Which spectrum, and of which component.
-#[derive(
-    Clone,
-    Copy,
-    Debug,
-    Default,
-    PartialEq,
-    Eq,
-    serde::Serialize,
-    serde::Deserialize,
-    schemars::JsonSchema,
-)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Spectrum {
     /// Dryden, component along the motion.

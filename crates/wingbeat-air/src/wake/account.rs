@@ -1,17 +1,15 @@
 //! What happens to the impulse of a wake sheet within a step.
 
 use crate::images::Mirror;
-use crate::state::{AirState, WakeSheet};
+use crate::state::{AirState, ImpulseAccount, WakeSheet};
 use crate::wake::mover::Mover;
 use wingbeat_math::DVec3;
 
-/// Changes of the impulse per density [m4/s] of one sheet, N components; see [`crate::ImpulseAccount`].
+/// Changes of the impulse per density [m4/s] of one sheet, N components.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct SheetAccount {
-    pub moved: DVec3,
-    pub converted: DVec3,
-    pub cut: DVec3,
-    pub absorbed: DVec3,
+    /// Per density, and nothing created.
+    pub impulse: ImpulseAccount,
     /// What the row that left had less what the new one at the edge has: no longer that of the attached vorticity.
     pub released: DVec3,
     /// What the free rings and particles have at the end.
@@ -20,10 +18,7 @@ pub(crate) struct SheetAccount {
 
 impl std::ops::AddAssign for SheetAccount {
     fn add_assign(&mut self, other: Self) {
-        self.moved += other.moved;
-        self.converted += other.converted;
-        self.cut += other.cut;
-        self.absorbed += other.absorbed;
+        self.impulse += other.impulse;
         self.released += other.released;
         self.free += other.free;
     }
@@ -34,10 +29,7 @@ impl SheetAccount {
     pub(crate) fn reflected(&self, mirror: Mirror) -> Self {
         let of = |impulse| mirror.vector(impulse);
         Self {
-            moved: of(self.moved),
-            converted: of(self.converted),
-            cut: of(self.cut),
-            absorbed: of(self.absorbed),
+            impulse: self.impulse.map(of),
             released: of(self.released),
             free: of(self.free),
         }
@@ -65,11 +57,13 @@ impl SheetAccount {
         let (rings, particles) = (free_rings(sheet), sheet.particles.impulse());
         let taken = mover.taken_from_particles;
         Self {
-            moved: (end + absorbed - start) + (particles + taken - particles_before),
-            absorbed: absorbed + taken,
+            impulse: ImpulseAccount {
+                moved: (end + absorbed - start) + (particles + taken - particles_before),
+                absorbed: absorbed + taken,
+                ..ImpulseAccount::default()
+            },
             released: (start - rings_before) - (end - rings),
             free: rings + particles,
-            ..Self::default()
         }
     }
 }

@@ -121,7 +121,7 @@ impl WakeMotion {
             let before = impulses(lattice, state, &sheets);
             merge_joined_nodes(lattice, &mut sheets);
             let after = impulses(lattice, state, &sheets);
-            sum.moved += after[0] - before[0];
+            sum.impulse.moved += after[0] - before[0];
             sum.free += after[1] - before[1];
             sum.released -= (after[0] - after[1]) - (before[0] - before[1]);
         }
@@ -167,11 +167,7 @@ fn impulses(lattice: &Lattice, state: &AirState, sheets: &[WakeSheet]) -> [DVec3
 /// Puts what happened within a step into the account of the state.
 fn book(lattice: &Lattice, state: &mut AirState, step: &SheetAccount) {
     let density = lattice.settings().density;
-    let account = &mut state.impulse;
-    account.moved += density * step.moved;
-    account.converted += density * step.converted;
-    account.cut += density * step.cut;
-    account.absorbed += density * step.absorbed;
+    state.impulse += step.impulse.map(|x| density * x);
     state.attached_impulse -= density * step.released;
     state.free_impulse = density * step.free;
 }

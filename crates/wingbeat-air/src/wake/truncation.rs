@@ -36,8 +36,8 @@ impl Lattice {
         if settings.particles.is_some() {
             return self.make_particles(k, sheet, dropped, (state, dt), account);
         }
-        account.cut = oldest_rings(sheet, dropped);
-        account.free -= account.cut;
+        account.impulse.cut = oldest_rings(sheet, dropped);
+        account.free -= account.impulse.cut;
         sheet.keep(before - dropped);
         WakeEvents {
             dropped_rows: dropped as u64,
@@ -77,12 +77,12 @@ impl Lattice {
         let (age, far) = (self.settings().max_age, self.settings().max_distance);
         let edge = self.edge_middle(k, (state, dt));
         let before = sheet.particles.impulse();
-        account.converted = free_rings(sheet) + before - account.free;
+        account.impulse.converted = free_rings(sheet) + before - account.free;
         let dropped_particles = sheet.particles.retain(|x, shed| {
             age.is_none_or(|age| state.time - shed <= age)
                 && far.is_none_or(|far| x.distance(edge) <= far)
         });
-        account.cut = before - sheet.particles.impulse();
+        account.impulse.cut = before - sheet.particles.impulse();
         account.free = free_rings(sheet) + sheet.particles.impulse();
         WakeEvents {
             new_particles,

@@ -1,7 +1,7 @@
 //! Left and right wings that move unlike each other, as seen in a mirror: signs of one side taken for those of
 //! the other.
 
-use wingbeat_model::mesh::mirror;
+use wingbeat_math::mirrored;
 use wingbeat_model::{AngleLaw, AngleLaws, Wing, mirror_name};
 
 use super::numbers::SAMPLES;
@@ -58,7 +58,7 @@ fn is_pair(wings: &[Wing], a: &Wing, b: &Wing) -> bool {
         wings.iter().find(|w| w.name == name && w.side != of.side)
     };
     match (partner(a), partner(b)) {
-        (None, None) => a.hinge_b.distance(mirror(b.hinge_b)) <= 1e-6 * a.report().length,
+        (None, None) => a.hinge_b.distance(mirrored(b.hinge_b)) <= 1e-6 * a.report().length,
         (partner, _) => partner.is_some_and(|p| p.name == b.name),
     }
 }

@@ -2,7 +2,7 @@
 
 use super::{RHO, motions};
 use wingbeat_blade::*;
-use wingbeat_math::{DMat3, DVec3, r1, r2};
+use wingbeat_math::{BodyAcceleration, BodyMotion, DMat3, DVec3, Wrench, r1, r2};
 
 const ROWS: usize = 3;
 const COLS: usize = 7;
@@ -14,12 +14,12 @@ struct Bent {
     sections: Vec<Section>,
 }
 
-fn bent(added_mass: AddedMass, side: f64) -> Bent {
+fn bent(added_mass: AddedMassModel, side: f64) -> Bent {
     turned(added_mass, side, DMat3::IDENTITY)
 }
 
 /// The same with its mesh turned about the hinge.
-fn turned(added_mass: AddedMass, side: f64, turn: DMat3) -> Bent {
+fn turned(added_mass: AddedMassModel, side: f64, turn: DMat3) -> Bent {
     let y = |j: usize| 0.1 + 0.2 * j as f64;
     let lead = |y: f64| 0.075 - 0.03 * y * y;
     let chord = |y: f64| 0.3 - 0.1 * y;
@@ -50,11 +50,11 @@ fn turned(added_mass: AddedMass, side: f64, turn: DMat3) -> Bent {
     }
 }
 
-const LAWS: [AddedMass; 4] = [
-    AddedMass::None,
-    AddedMass::Impulse,
-    AddedMass::Normal,
-    AddedMass::Section,
+const LAWS: [AddedMassModel; 4] = [
+    AddedMassModel::None,
+    AddedMassModel::Impulse,
+    AddedMassModel::Normal,
+    AddedMassModel::Section,
 ];
 
 impl Bent {
@@ -76,23 +76,23 @@ impl Bent {
 }
 
 /// Force and moment about the hinge.
-fn sum(r: &[DVec3], forces: &[DVec3]) -> Load {
-    Load {
+fn sum(r: &[DVec3], forces: &[DVec3]) -> Wrench {
+    Wrench {
         force: forces.iter().sum(),
         moment: r.iter().zip(forces).map(|(r, f)| r.cross(*f)).sum(),
     }
 }
 
-fn assert_same(a: &Load, b: &Load, size: f64) {
+fn assert_same(a: &Wrench, b: &Wrench, size: f64) {
     let apart = (a.force - b.force).length() + (a.moment - b.moment).length();
     assert!(apart < 1e-12 * size, "{apart:e} of {size}: {a:?} {b:?}");
 }
 
 /// Some acceleration that goes with a motion.
-fn acceleration(m: &WingFrame) -> FrameAcceleration {
-    FrameAcceleration {
-        linear: 3.0 * m.velocity.cross(DVec3::new(1.0, -2.0, 0.5)),
-        angular: 2.0 * m.rate.cross(DVec3::new(0.3, 1.0, -1.0)) + m.rate,
+fn acceleration(m: &BodyMotion) -> BodyAcceleration {
+    BodyAcceleration {
+        linear: 3.0 * m.v.cross(DVec3::new(1.0, -2.0, 0.5)),
+        angular: 2.0 * m.w.cross(DVec3::new(0.3, 1.0, -1.0)) + m.w,
     }
 }
 
@@ -107,26 +107,26 @@ fn exact_nodes_that_move_as_a_rigid_wing_carry_its_loads() {
         let bent = turned(law, side, q);
         for m in motions() {
             let acc = acceleration(&m);
-            let back = m.rotation.transpose();
-            let (v0, a0) = (back * m.velocity, back * acc.linear);
-            let v = |r: &DVec3| v0 + m.rate.cross(*r);
-            let a = |r: &DVec3| a0 + acc.angular.cross(*r) + m.rate.cross(m.rate.cross(*r));
+            let back = m.r.transpose();
+            let (v0, a0) = (back * m.v, back * acc.linear);
+            let v = |r: &DVec3| v0 + m.w.cross(*r);
+            let a = |r: &DVec3| a0 + acc.angular.cross(*r) + m.w.cross(m.w.cross(*r));
             let moving: [Vec<DVec3>; 2] = [
                 bent.nodes.iter().map(v).collect(),
                 bent.nodes.iter().map(a).collect(),
             ];
             let forces = bent.forces(&bent.nodes, &moving[0], &moving[1]);
-            let own = WingFrame {
-                rotation: m.rotation * q,
-                rate: q.transpose() * m.rate,
+            let own = BodyMotion {
+                r: m.r * q,
+                w: q.transpose() * m.w,
                 ..m
             };
-            let own_acc = FrameAcceleration {
+            let own_acc = BodyAcceleration {
                 angular: q.transpose() * acc.angular,
                 ..acc
             };
             let flat = bent.wing.load(&own, &own_acc);
-            let rigid = Load {
+            let rigid = Wrench {
                 force: q * flat.force,
                 moment: q * flat.moment,
             };
@@ -184,8 +184,8 @@ fn agrees_with_sections_whose_twist_is_prescribed_in_force_moment_and_power() {
         };
         for m in motions() {
             let acc = acceleration(&m);
-            let (back, w) = (m.rotation.transpose(), m.rate);
-            let velocity = |(r, u): (&DVec3, &DVec3)| back * m.velocity + w.cross(*r) + *u;
+            let (back, w) = (m.r.transpose(), m.w);
+            let velocity = |(r, u): (&DVec3, &DVec3)| back * m.v + w.cross(*r) + *u;
             let v: Vec<DVec3> = r.iter().zip(&u).map(velocity).collect();
             let a: Vec<DVec3> = (0..r.len())
                 .map(|k| {
@@ -198,7 +198,7 @@ fn agrees_with_sections_whose_twist_is_prescribed_in_force_moment_and_power() {
             let by_mass = bent
                 .wing
                 .deforming_acceleration_load(&m, &acc, section, Calm);
-            let both = Load {
+            let both = Wrench {
                 force: by_velocity.load.force + by_mass.load.force,
                 moment: by_velocity.load.moment + by_mass.load.moment,
             };
@@ -217,7 +217,7 @@ fn agrees_with_sections_whose_twist_is_prescribed_in_force_moment_and_power() {
 #[test]
 fn agrees_answers_of_sections_with_differences_of_their_forces() {
     // Bent and twisted, moving; each node in turn a little faster, accelerating a little more.
-    let bent = bent(AddedMass::Impulse, 1.0);
+    let bent = bent(AddedMassModel::Impulse, 1.0);
     let r: Vec<DVec3> = (bent.nodes.iter())
         .map(|r| *r + DVec3::new(0.0, 0.0, 0.1 * r.y * r.y + 0.2 * r.x * r.y))
         .collect();

@@ -6,7 +6,7 @@ mod suction;
 use functions::theodorsen;
 use std::f64::consts::{PI, TAU};
 use wingbeat_blade::*;
-use wingbeat_math::{DMat3, DVec3, r2};
+use wingbeat_math::{BodyAcceleration, BodyMotion, DMat3, DVec3, Wrench, r2};
 
 /// Density, half chord and speed are 1; the axis is `a` half chords behind mid chord.
 fn section(a: f64, unsteady: Option<Unsteady>) -> BladeWing {
@@ -47,7 +47,7 @@ impl Flown {
     }
 
     /// The load by velocities at `time`, which is accepted.
-    fn load(&mut self, time: f64, m: &WingFrame, wind: impl LocalWind) -> Load {
+    fn load(&mut self, time: f64, m: &BodyMotion, wind: impl LocalWind) -> Wrench {
         let lag = Lag::Trial {
             memory: &self.memory,
             time,
@@ -59,11 +59,12 @@ impl Flown {
     }
 }
 
-fn along(velocity: DVec3) -> WingFrame {
-    WingFrame {
-        rotation: DMat3::IDENTITY,
-        velocity,
-        rate: DVec3::ZERO,
+fn along(velocity: DVec3) -> BodyMotion {
+    BodyMotion {
+        r: DMat3::IDENTITY,
+        v: velocity,
+        w: DVec3::ZERO,
+        ..BodyMotion::REST
     }
 }
 
@@ -131,21 +132,22 @@ fn flown_amplitudes(k: f64, a: f64, pitches: bool) -> [[f64; 2]; 2] {
         let [v, acc] = [-SIZE * k * sin, -SIZE * k * k * cos];
         let (m, by) = match pitches {
             true => (
-                WingFrame {
-                    rotation: r2(x),
-                    velocity: DVec3::X,
-                    rate: DVec3::new(0.0, v, 0.0),
+                BodyMotion {
+                    r: r2(x),
+                    v: DVec3::X,
+                    w: DVec3::new(0.0, v, 0.0),
+                    ..BodyMotion::REST
                 },
-                FrameAcceleration {
+                BodyAcceleration {
                     angular: DVec3::new(0.0, acc, 0.0),
-                    ..FrameAcceleration::default()
+                    ..BodyAcceleration::default()
                 },
             ),
             false => (
                 along(DVec3::new(1.0, 0.0, x)),
-                FrameAcceleration {
+                BodyAcceleration {
                     linear: DVec3::new(0.0, 0.0, v),
-                    ..FrameAcceleration::default()
+                    ..BodyAcceleration::default()
                 },
             ),
         };
@@ -235,7 +237,7 @@ fn published_lift_in_a_sharp_gust_is_kuessners_function() {
 
 /// A section that pitches and plunges up and down through air that streams, or blows as a steady wind: forces
 /// of the last period.
-fn pitching(stream: DVec3, wind: DVec3) -> Vec<Load> {
+fn pitching(stream: DVec3, wind: DVec3) -> Vec<Wrench> {
     let settings = BladeSettings {
         free_stream: stream,
         ..*section(-0.3, Some(PETERS)).settings()
@@ -247,14 +249,15 @@ fn pitching(stream: DVec3, wind: DVec3) -> Vec<Load> {
         let t = 10.0 * step as f64 / per as f64;
         let (sin, cos) = (TAU * t / 10.0).sin_cos();
         let rotation = r2(0.8 * sin);
-        let m = WingFrame {
-            rotation,
-            velocity: DVec3::new(0.0, 0.0, 0.3 * cos),
-            rate: DVec3::new(0.0, 0.8 * TAU / 10.0 * cos, 0.0),
+        let m = BodyMotion {
+            r: rotation,
+            v: DVec3::new(0.0, 0.0, 0.3 * cos),
+            w: DVec3::new(0.0, 0.8 * TAU / 10.0 * cos, 0.0),
+            ..BodyMotion::REST
         };
         flown.load(t, &m, |_| rotation.transpose() * wind)
     };
-    let all: Vec<Load> = (0..=periods * per).map(load).collect();
+    let all: Vec<Wrench> = (0..=periods * per).map(load).collect();
     all[(periods - 1) * per..].to_vec()
 }
 
@@ -293,7 +296,7 @@ fn limit_slow_motion_has_the_quasi_steady_force() {
     for theory in [Unsteady::Jones, PETERS] {
         let mut flown = Flown::new(section(-0.2, Some(theory)));
         let m = along(DVec3::new(0.9, 0.0, 0.6));
-        let mut load = Load::default();
+        let mut load = Wrench::default();
         for k in 0..3000 {
             load = flown.load(f64::from(k), &m, Calm);
         }
@@ -349,7 +352,7 @@ fn behaves_smoothly_where_a_strip_turns_back() {
 fn wing_of_insect() -> BladeWing {
     let settings = BladeSettings {
         unsteady: Some(Unsteady::Jones),
-        added_mass: AddedMass::None,
+        added_mass: AddedMassModel::None,
         ..BladeSettings::insect(1.0)
     };
     BladeWing::new(section(0.0, None).strips().to_vec(), settings).unwrap()

@@ -3,7 +3,7 @@
 use std::f64::consts::{PI, TAU};
 
 use wingbeat_blade::*;
-use wingbeat_math::{DVec3, r2};
+use wingbeat_math::{BodyAcceleration, BodyMotion, DVec3, r2};
 
 use super::functions::theodorsen;
 use super::{Flown, section};
@@ -83,7 +83,7 @@ impl Oscillation {
     }
 
     /// The same of the strip, flown until its wake is that of the motion for ever.
-    fn flown(&self, theory: Unsteady, added_mass: AddedMass) -> Means {
+    fn flown(&self, theory: Unsteady, added_mass: AddedMassModel) -> Means {
         let per = 400;
         let periods = (250.0 * self.k / TAU).ceil() as usize + 2;
         let wing = section(self.a, Some(theory));
@@ -100,18 +100,19 @@ impl Oscillation {
             let t = TAU / self.k * step as f64 / per as f64;
             let (sin, cos) = (self.k * t).sin_cos();
             let at = z.map(|z| SIZE * (z[0] * cos - z[1] * sin));
-            let m = WingFrame {
-                rotation: r2(at[2]),
-                velocity: DVec3::new(1.0, 0.0, at[0]),
-                rate: DVec3::new(0.0, at[3], 0.0),
+            let m = BodyMotion {
+                r: r2(at[2]),
+                v: DVec3::new(1.0, 0.0, at[0]),
+                w: DVec3::new(0.0, at[3], 0.0),
+                ..BodyMotion::REST
             };
-            let by = FrameAcceleration {
+            let by = BodyAcceleration {
                 linear: DVec3::new(0.0, 0.0, at[1]),
                 angular: DVec3::new(0.0, at[4], 0.0),
             };
             let load = flown.load(t, &m, Calm);
             let added = flown.wing.acceleration_load(&m, &by);
-            let force = m.rotation * (load.force + added.force);
+            let force = m.r * (load.force + added.force);
             let moment = load.moment + added.moment;
             if step > (periods - 1) * per {
                 let over = per as f64 * SIZE * SIZE;
@@ -156,7 +157,7 @@ fn exact_thrust_and_power_of_plunge_and_pitch_are_garricks() {
         (Unsteady::Jones, 0.02),
         (Unsteady::Peters { states: 8 }, 0.01),
     ] {
-        for added_mass in [AddedMass::Impulse, AddedMass::Section] {
+        for added_mass in [AddedMassModel::Impulse, AddedMassModel::Section] {
             for o in oscillations() {
                 let found = o.flown(theory, added_mass);
                 let own = theory.indicial().answer(o.k);
@@ -179,7 +180,7 @@ fn exact_thrust_and_power_of_plunge_and_pitch_are_garricks() {
 fn balances_power_that_is_not_thrust_stays_in_the_wake() {
     let theory = Unsteady::Peters { states: 8 };
     for o in oscillations() {
-        let found = o.flown(theory, AddedMass::Impulse);
+        let found = o.flown(theory, AddedMassModel::Impulse);
         // rho Gamma u lambda = 2 pi rho b u C Q (1 - C) Q [Garrick 1936, his E].
         let [h1, _, alpha, alpha_1, _] = o.amplitudes();
         let wash = sum([(1.0, h1), (1.0, alpha), (0.5 - o.a, alpha_1)]);
@@ -202,12 +203,17 @@ fn agrees_suction_of_a_flat_wing_with_that_of_its_sections() {
         axis: DVec3::new(0.0, strips[k].y, 0.0),
         turn: wingbeat_math::DMat3::IDENTITY,
     };
-    let m = WingFrame {
-        rotation: r2(0.3),
-        velocity: DVec3::new(3.0, 0.4, 0.9),
-        rate: DVec3::new(0.7, -1.3, 0.4),
+    let m = BodyMotion {
+        r: r2(0.3),
+        v: DVec3::new(3.0, 0.4, 0.9),
+        w: DVec3::new(0.7, -1.3, 0.4),
+        ..BodyMotion::REST
     };
-    for added_mass in [AddedMass::None, AddedMass::Section, AddedMass::Impulse] {
+    for added_mass in [
+        AddedMassModel::None,
+        AddedMassModel::Section,
+        AddedMassModel::Impulse,
+    ] {
         let settings = BladeSettings {
             added_mass,
             unsteady: Some(Unsteady::Jones),

@@ -3,13 +3,13 @@
 use super::{RHO, motions, wing};
 use std::f64::consts::{PI, TAU};
 use wingbeat_blade::*;
-use wingbeat_math::{DMat3, DVec3, r1, r2, r3};
+use wingbeat_math::{BodyAcceleration, BodyMotion, DMat3, DVec3, Wrench, r1, r2, r3};
 
-const LAWS: [AddedMass; 4] = [
-    AddedMass::None,
-    AddedMass::Impulse,
-    AddedMass::Normal,
-    AddedMass::Section,
+const LAWS: [AddedMassModel; 4] = [
+    AddedMassModel::None,
+    AddedMassModel::Impulse,
+    AddedMassModel::Normal,
+    AddedMassModel::Section,
 ];
 
 /// Velocity `u + s x` at a point x of N and its rate where the point stands still, on a wing that moves like
@@ -20,27 +20,27 @@ struct Field {
     rate: DVec3,
     shear: DMat3,
     change: DVec3,
-    m: WingFrame,
+    m: BodyMotion,
     p: DVec3,
 }
 
 impl LocalWind for Field {
     fn velocity(&self, r: DVec3) -> DVec3 {
-        let x = self.p + self.m.rotation * r;
-        self.m.rotation.transpose() * (self.u + self.shear * x)
+        let x = self.p + self.m.r * r;
+        self.m.r.transpose() * (self.u + self.shear * x)
     }
 
     fn rate(&self, _: DVec3, through: DVec3) -> DVec3 {
-        let v = self.m.rotation * through;
-        self.m.rotation.transpose() * (self.rate + self.shear * v)
+        let v = self.m.r * through;
+        self.m.r.transpose() * (self.rate + self.shear * v)
     }
 
     fn at_once(&self) -> [DVec3; 2] {
-        [self.change, self.rate].map(|x| self.m.rotation.transpose() * x)
+        [self.change, self.rate].map(|x| self.m.r.transpose() * x)
     }
 }
 
-fn uniform(u: DVec3, rate: DVec3, change: DVec3, m: WingFrame) -> Field {
+fn uniform(u: DVec3, rate: DVec3, change: DVec3, m: BodyMotion) -> Field {
     Field {
         u,
         rate,
@@ -51,21 +51,21 @@ fn uniform(u: DVec3, rate: DVec3, change: DVec3, m: WingFrame) -> Field {
     }
 }
 
-fn assert_close(a: Load, b: Load, tolerance: f64) {
+fn assert_close(a: Wrench, b: Wrench, tolerance: f64) {
     let apart = (a.force - b.force).length() + (a.moment - b.moment).length();
     let size = b.force.length() + b.moment.length();
     assert!(apart <= tolerance * size.max(1e-3), "{a:?} {b:?}");
 }
 
-fn plus(a: Load, b: Load) -> Load {
-    Load {
+fn plus(a: Wrench, b: Wrench) -> Wrench {
+    Wrench {
         force: a.force + b.force,
         moment: a.moment + b.moment,
     }
 }
 
 /// Added mass alone.
-fn massive(law: AddedMass) -> BladeSettings {
+fn massive(law: AddedMassModel) -> BladeSettings {
     BladeSettings {
         translation: Translation::DoubleAngle {
             lift: 0.0,
@@ -84,13 +84,14 @@ fn exact_plate_at_rest_in_air_that_oscillates_feels_its_added_mass() {
     // Air that swings as A sin(omega t) along the normal: rho pi/4 c^2 A omega cos(omega t) per unit of span,
     // where the air stands still.
     let plate = wing(BladeSettings::insect(RHO), 1, 1.0);
-    let rest = WingFrame {
-        rotation: DMat3::IDENTITY,
-        velocity: DVec3::ZERO,
-        rate: DVec3::ZERO,
+    let rest = BodyMotion {
+        r: DMat3::IDENTITY,
+        v: DVec3::ZERO,
+        w: DVec3::ZERO,
+        ..BodyMotion::REST
     };
     let wind = uniform(DVec3::ZERO, 3.0 * TAU * DVec3::Z, DVec3::ZERO, rest);
-    let still = FrameAcceleration::default();
+    let still = BodyAcceleration::default();
     let load = plus(
         plate.velocity_load_in(&rest, wind),
         plate.acceleration_load_in(&rest, &still, wind),
@@ -108,21 +109,18 @@ fn invariant_air_that_accelerates_is_a_wing_that_accelerates_the_other_way() {
         };
         let w = wing(settings, 5, -1.0);
         for m in motions() {
-            let (u, rate) = (DVec3::new(0.4, -1.1, 0.9), 7.0 * m.velocity + DVec3::X);
-            let acc = FrameAcceleration {
+            let (u, rate) = (DVec3::new(0.4, -1.1, 0.9), 7.0 * m.v + DVec3::X);
+            let acc = BodyAcceleration {
                 linear: DVec3::new(1.0, -3.0, 2.0),
-                angular: m.rate,
+                angular: m.w,
             };
             let wind = uniform(u, rate, DVec3::ZERO, m);
             let met = plus(
                 w.velocity_load_in(&m, wind),
                 w.acceleration_load_in(&m, &acc, wind),
             );
-            let moved = WingFrame {
-                velocity: m.velocity - u,
-                ..m
-            };
-            let by = FrameAcceleration {
+            let moved = BodyMotion { v: m.v - u, ..m };
+            let by = BodyAcceleration {
                 linear: acc.linear - rate,
                 ..acc
             };
@@ -147,27 +145,25 @@ fn invariant_air_that_swings_everywhere_is_a_motion_of_strips_with_wakes() {
             let (sin, cos) = (3.0 * t).sin_cos();
             let u = sin * DVec3::new(0.3, 0.2, -0.6);
             let rate = 3.0 * cos * DVec3::new(0.3, 0.2, -0.6);
-            let m = WingFrame {
-                rotation: r1(0.3) * r2(0.5 * (2.0 * t).sin()),
-                velocity: DVec3::new(0.0, 0.0, 0.2 * (5.0 * t).cos()),
-                rate: DVec3::new(0.0, (2.0 * t).cos(), 0.0),
+            let m = BodyMotion {
+                r: r1(0.3) * r2(0.5 * (2.0 * t).sin()),
+                v: DVec3::new(0.0, 0.0, 0.2 * (5.0 * t).cos()),
+                w: DVec3::new(0.0, (2.0 * t).cos(), 0.0),
+                ..BodyMotion::REST
             };
-            let acc = FrameAcceleration {
+            let acc = BodyAcceleration {
                 linear: DVec3::new(0.0, 0.0, -(5.0 * t).sin()),
                 angular: DVec3::new(0.0, -2.0 * (2.0 * t).sin(), 0.0),
             };
             let wind = uniform(u, rate, u - before, m);
             before = u;
-            let moved = WingFrame {
-                velocity: m.velocity - u,
-                ..m
-            };
-            let by = FrameAcceleration {
+            let moved = BodyMotion { v: m.v - u, ..m };
+            let by = BodyAcceleration {
                 linear: acc.linear - rate,
                 ..acc
             };
             let [a, b] = &mut memories;
-            let mut loads = [Load::default(); 2];
+            let mut loads = [Wrench::default(); 2];
             let lag = lag(a, t, &mut trial);
             loads[0] = w.lagging_load(&m, wind, Some(lag));
             w.accept(a, &trial, t);
@@ -206,7 +202,7 @@ fn blowing(t: f64) -> DVec3 {
 }
 
 /// Motion and acceleration by differences, and the wind then.
-fn at(t: f64) -> (WingFrame, FrameAcceleration, Field) {
+fn at(t: f64) -> (BodyMotion, BodyAcceleration, Field) {
     let h = 1e-4;
     let rate_at = |t: f64| {
         let (a, b) = (flown(t - h).1, flown(t + h).1);
@@ -214,12 +210,13 @@ fn at(t: f64) -> (WingFrame, FrameAcceleration, Field) {
         DVec3::new(w.y_axis.z, w.z_axis.x, w.x_axis.y)
     };
     let [a, b, c] = [t - h, t, t + h].map(|t| flown(t).0);
-    let m = WingFrame {
-        rotation: flown(t).1,
-        velocity: (c - a) / (2.0 * h),
-        rate: rate_at(t),
+    let m = BodyMotion {
+        r: flown(t).1,
+        v: (c - a) / (2.0 * h),
+        w: rate_at(t),
+        ..BodyMotion::REST
     };
-    let acc = FrameAcceleration {
+    let acc = BodyAcceleration {
         linear: (a - 2.0 * b + c) / (h * h),
         angular: (rate_at(t + h) - rate_at(t - h)) / (2.0 * h),
     };
@@ -238,14 +235,14 @@ fn at(t: f64) -> (WingFrame, FrameAcceleration, Field) {
 fn agrees_force_in_a_changing_wind_with_the_rate_of_the_airs_impulse() {
     // By the law of the impulse the force is the rate at which the momentum m (w n) that strips have given to
     // the air at their mid chords falls.
-    let w = wing(massive(AddedMass::Impulse), 4, 1.0);
+    let w = wing(massive(AddedMassModel::Impulse), 4, 1.0);
     let impulse = |t: f64| {
         let (m, _, wind) = at(t);
-        let n = m.rotation.z_axis;
+        let n = m.r.z_axis;
         let strip = |s: &Strip| {
             let r = DVec3::new(s.x_mid(), s.y, 0.0);
-            let v = m.velocity - w.settings().free_stream + m.rotation * m.rate.cross(r);
-            let through = v - m.rotation * wind.velocity(r);
+            let v = m.v - w.settings().free_stream + m.r * m.w.cross(r);
+            let through = v - m.r * wind.velocity(r);
             PI / 4.0 * RHO * s.chord * s.chord * s.width * through.dot(n) * n
         };
         w.strips().iter().map(strip).sum::<DVec3>()
@@ -258,7 +255,7 @@ fn agrees_force_in_a_changing_wind_with_the_rate_of_the_airs_impulse() {
             w.velocity_load_in(&m, wind),
             w.acceleration_load_in(&m, &acc, wind),
         );
-        let force = m.rotation * load.force;
+        let force = m.r * load.force;
         let rate = (impulse(t + h) - impulse(t - h)) / (2.0 * h);
         // Differences of second order, h^2 = 1e-6 of rates of some 10 1/s.
         assert!(
@@ -284,21 +281,20 @@ fn agrees_nodes_of_a_bent_wing_in_a_changing_wind_with_the_flat_wing() {
     for law in LAWS {
         let w = wing(massive(law), cols, 1.0);
         let (m, acc, wind) = at(0.4);
-        let back = m.rotation.transpose();
-        let v = |r: &DVec3| back * m.velocity + m.rate.cross(*r);
-        let a =
-            |r: &DVec3| back * acc.linear + acc.angular.cross(*r) + m.rate.cross(m.rate.cross(*r));
+        let back = m.r.transpose();
+        let v = |r: &DVec3| back * m.v + m.w.cross(*r);
+        let a = |r: &DVec3| back * acc.linear + acc.angular.cross(*r) + m.w.cross(m.w.cross(*r));
         let (velocity, acceleration): (Vec<_>, Vec<_>) = nodes.iter().map(|r| (v(r), a(r))).unzip();
         let moving = NodesInMotion {
             position: &nodes,
             velocity: &velocity,
             acceleration: &acceleration,
         };
-        let state = |s: &Section| s.state(&w, &moving, &wind, m.rotation);
+        let state = |s: &Section| s.state(&w, &moving, &wind, m.r);
         let states: Vec<SectionState> = sections.iter().map(state).collect();
         let mut forces = vec![DVec3::ZERO; nodes.len()];
         w.bent_forces(&sections, &states, None, &mut forces);
-        let bent = Load {
+        let bent = Wrench {
             force: forces.iter().sum(),
             moment: nodes.iter().zip(&forces).map(|(r, f)| r.cross(*f)).sum(),
         };

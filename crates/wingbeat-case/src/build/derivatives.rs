@@ -1,7 +1,8 @@
 //! `[air.derivatives]`.
 
 use wingbeat_blade::{DerivativeTable, ReferenceSizes};
-use wingbeat_math::{r1, r2};
+use wingbeat_math::six_by_six::from_entries;
+use wingbeat_math::{SixBySix, r1, r2};
 use wingbeat_model::Animal;
 
 use super::fault::Built;
@@ -49,7 +50,7 @@ fn check_scale(case: &Case) -> Built<()> {
 
 type Block = [[f64; 3]; 3];
 
-fn matrix(case: &Case, d: &DerivativesCase) -> [[f64; 6]; 6] {
+fn matrix(case: &Case, d: &DerivativesCase) -> SixBySix {
     let given = [
         d.force_by_velocity_newton_s_m,
         d.force_by_rate_newton_s,
@@ -62,7 +63,7 @@ fn matrix(case: &Case, d: &DerivativesCase) -> [[f64; 6]; 6] {
     }
 }
 
-fn added_mass(d: &DerivativesCase) -> Built<[[f64; 6]; 6]> {
+fn added_mass(d: &DerivativesCase) -> Built<SixBySix> {
     let [mass, coupling, inertia] = [
         d.added_mass_kg,
         d.added_mass_by_turning_kg_m,
@@ -94,7 +95,7 @@ fn added_mass(d: &DerivativesCase) -> Built<[[f64; 6]; 6]> {
     Ok(joined([mass, coupling, turned, inertia]))
 }
 
-fn dimensional(case: &Case, plus: &DimensionlessCase) -> [[f64; 6]; 6] {
+fn dimensional(case: &Case, plus: &DimensionlessCase) -> SixBySix {
     let sizes = ReferenceSizes {
         density: case.air.density_kg_m3,
         speed: plus.speed_m_s,
@@ -112,12 +113,7 @@ fn dimensional(case: &Case, plus: &DimensionlessCase) -> [[f64; 6]; 6] {
 }
 
 /// Four blocks as one matrix.
-fn joined([fv, fw, mv, mw]: [Block; 4]) -> [[f64; 6]; 6] {
-    let entry = |i: usize, j: usize| match (i < 3, j < 3) {
-        (true, true) => fv[i][j],
-        (true, false) => fw[i][j - 3],
-        (false, true) => mv[i - 3][j],
-        (false, false) => mw[i - 3][j - 3],
-    };
-    std::array::from_fn(|i| std::array::from_fn(|j| entry(i, j)))
+fn joined([fv, fw, mv, mw]: [Block; 4]) -> SixBySix {
+    let quarters = [[fv, fw], [mv, mw]];
+    from_entries(|i, j| quarters[i / 3][j / 3][i % 3][j % 3])
 }

@@ -139,12 +139,10 @@ fn laws(path: &str, c: &ElementCase, frequency: f64) -> Built<Vec<ElementLaw>> {
 }
 
 fn series(case: &SeriesCase, frequency: f64, unit: f64) -> DriftingFourier {
-    let scaled = |list: &[f64]| list.iter().map(|x| x * unit).collect();
-    DriftingFourier {
-        constant: case.mean * unit,
-        rate: 0.0,
-        frequency: case.frequency_hz.unwrap_or(frequency),
-        cosine: scaled(&case.cosine),
-        sine: scaled(&case.sine),
-    }
+    let scaled = |list: &Vec<f64>| list.iter().map(|x| x * unit).collect();
+    DriftingFourier::periodic(
+        case.mean * unit,
+        case.frequency_hz.unwrap_or(frequency),
+        [&case.cosine, &case.sine].map(scaled),
+    )
 }

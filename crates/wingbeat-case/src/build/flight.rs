@@ -255,12 +255,9 @@ fn applied(path: &str, load: &LoadCase, animal: &Animal, scale: f64) -> Built<Ap
     let body = rigid_body(format!("{path}.on"), &load.on, animal, "a load")?;
     let f = load.frequency_hz;
     let series = |constant: &[f64; 3], cosine: &[[f64; 3]], sine: &[[f64; 3]]| {
-        std::array::from_fn(|i| DriftingFourier {
-            constant: constant[i],
-            rate: 0.0,
-            frequency: f,
-            cosine: cosine.iter().map(|v| v[i]).collect(),
-            sine: sine.iter().map(|v| v[i]).collect(),
+        std::array::from_fn(|i| {
+            let along = |list: &[[f64; 3]]| list.iter().map(|v| v[i]).collect();
+            DriftingFourier::periodic(constant[i], f, [cosine, sine].map(along))
         })
     };
     Ok(AppliedLoad {

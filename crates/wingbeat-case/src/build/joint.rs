@@ -330,26 +330,22 @@ fn axes(path: &str, joint: &JointCase) -> Built<[DVec3; 2]> {
 }
 
 fn turn(path: &str, case: &TurnCase, frequency: f64) -> Built<AxisTurn> {
-    let radians = |list: &[f64]| list.iter().map(|a| a.to_radians()).collect();
+    let radians = |list: &Vec<f64>| list.iter().map(|a| a.to_radians()).collect();
     Ok(AxisTurn {
         axis: unit(&format!("{path}.turn.axis"), case.axis)?,
-        angle: DriftingFourier {
-            constant: case.mean_deg.to_radians(),
-            rate: 0.0,
-            frequency: case.frequency_hz.unwrap_or(frequency),
-            cosine: radians(&case.cosine_deg),
-            sine: radians(&case.sine_deg),
-        },
+        angle: DriftingFourier::periodic(
+            case.mean_deg.to_radians(),
+            case.frequency_hz.unwrap_or(frequency),
+            [&case.cosine_deg, &case.sine_deg].map(radians),
+        ),
     })
 }
 
 fn travel(case: &TravelCase, frequency: f64) -> Path {
-    Path(std::array::from_fn(|i| DriftingFourier {
-        constant: 0.0,
-        rate: 0.0,
-        frequency: case.frequency_hz.unwrap_or(frequency),
-        cosine: case.cosine_m.iter().map(|v| v[i]).collect(),
-        sine: case.sine_m.iter().map(|v| v[i]).collect(),
+    let frequency = case.frequency_hz.unwrap_or(frequency);
+    Path(std::array::from_fn(|i| {
+        let along = |list: &Vec<[f64; 3]>| list.iter().map(|v| v[i]).collect();
+        DriftingFourier::periodic(0.0, frequency, [&case.cosine_m, &case.sine_m].map(along))
     }))
 }
 

@@ -22,7 +22,7 @@ pub(super) fn mirrored(
     if alone || case.joint.values().any(|j| j.child == counterpart) {
         return None;
     }
-    let turning = |[x, y, z]: [f64; 3]| [-x, y, -z];
+    let turning = |x: [f64; 3]| wingbeat_math::mirrored_axial(x.into()).into();
     let slides = matches!(joint.kind, JointKind::Prismatic | JointKind::PointOnLine);
     let parent = joint.parent.as_deref().and_then(|p| {
         let other = mirror_name(p).filter(|t| body_names(animal).contains(&t.as_str()));
@@ -95,8 +95,8 @@ fn numbers(e: &ElementCase) -> [(&'static str, Option<f64>); 6] {
     ]
 }
 
-fn point([x, y, z]: [f64; 3]) -> [f64; 3] {
-    [x, -y, z]
+fn point(x: [f64; 3]) -> [f64; 3] {
+    wingbeat_math::mirrored(x.into()).into()
 }
 
 fn travel(of: &TravelCase) -> TravelCase {

@@ -207,24 +207,12 @@ fn shell(path: &str, case: &ShellCase) -> Built<WingShell> {
     };
     let young = case.young_pa.ok_or_else(missing)?;
     let thickness = (case.thickness_m, case.thickness_table_m.as_ref());
-    let wing = WingShell {
-        young: [young, case.young_chord_pa.unwrap_or(young)],
-        poisson: case.poisson,
+    let thickness = law(path, "thickness", "m", thickness)?;
+    let young = [young, case.young_chord_pa.unwrap_or(young)];
+    Ok(WingShell {
         shear: case.shear_pa,
-        thickness: law(path, "thickness", "m", thickness)?,
-        stretching: None,
-        density: None,
-        fibre_angle: 0.0,
-        prestress: [0.0; 2],
-        bending_factor: 1.0,
-        regions: vec![],
-        veins: vec![],
-        clamps_root: true,
-        clamps_leading_edge: false,
-        clamps_perimeter: false,
-        rigid_fraction: 0.0,
-    };
-    Ok(wing)
+        ..WingShell::solid(young, case.poisson, thickness)
+    })
 }
 
 /// Refuses a root that is free on a perimeter that is clamped, a perimeter that all nodes lie on, and a leading

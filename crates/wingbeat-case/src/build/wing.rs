@@ -233,7 +233,7 @@ fn hinge(source: &Source<'_>) -> Built<DVec3> {
     };
     let hinge = vector(wing.hinge_m.ok_or_else(missing)?);
     Ok(if mirrored {
-        wingbeat_model::mesh::mirror(hinge)
+        wingbeat_math::mirrored(hinge)
     } else {
         hinge
     })

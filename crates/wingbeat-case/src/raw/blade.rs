@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use smart_default::SmartDefault;
-use wingbeat_blade::{AddedMass, CentreOfPressure};
+use wingbeat_blade::{AddedMassModel, CentreOfPressure};
 
 /// Blade elements: quasi-steady or with a wake for each strip, one strip per spanwise panel.
 #[derive(Clone, Debug, PartialEq, SmartDefault, Serialize, Deserialize, JsonSchema)]
@@ -39,8 +39,8 @@ pub struct BladeCase {
     /// of a gust's table has no rate.
     ///
     /// Change it to reproduce a published model.
-    #[default(AddedMass::Impulse)]
-    pub added_mass: AddedMass,
+    #[default(AddedMassModel::Impulse)]
+    pub added_mass: AddedMassModel,
     /// Where the force acts.
     ///
     /// Change it to reproduce a published model.

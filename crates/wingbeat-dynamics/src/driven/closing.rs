@@ -9,7 +9,7 @@
 //!
 //! The root is at rest. J is square where the loops leave nothing free and ask for nothing twice.
 
-use wingbeat_math::{DQuat, DVec3, MovingRotation, larger};
+use wingbeat_math::{BodyAcceleration, BodyMotion, DQuat, DVec3, MovingRotation, larger};
 
 use crate::configuration::Configuration;
 use crate::error::quoted_once;
@@ -19,7 +19,7 @@ use crate::mechanism::form::{AbsoluteForm, Stabilization};
 use crate::mechanism::joint::{Row, kinematics};
 use crate::mechanism::partition::{NEARLY_SINGULAR, partition};
 use crate::placement::{Placement, carry};
-use crate::{BodyAcceleration, BodyMotion, DynamicsError, JointType, System};
+use crate::{DynamicsError, JointType, System};
 
 /// Newton's steps at most; from where the loops were just before, four reach round-off.
 const ITERATIONS: usize = 20;

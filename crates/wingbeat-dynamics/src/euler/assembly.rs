@@ -2,7 +2,7 @@
 //! independent, all others follow from the constraints by Newton-Raphson.
 
 use wingbeat_math::newton::{NewtonError, NewtonSettings, newton};
-use wingbeat_math::{DMat3, solve_small};
+use wingbeat_math::{DMat3, largest, solve_small};
 
 use super::constraint::HingeKinematics;
 use super::coordinates::{BodyKinematics, COORDINATES};
@@ -46,7 +46,7 @@ pub fn consistent_coordinates(system: &System, t: f64, q: &mut [f64]) -> Result<
     let length = system.units().length;
     let zero = vec![0.0; q.len()];
     let (root, dependent) = q.split_at_mut(COORDINATES);
-    let far = root[..3].iter().fold(0.0, |a: f64, x| a.max(x.abs())) / length;
+    let far = largest(root[..3].iter().map(|x| x.abs())) / length;
     let settings = NewtonSettings {
         tolerance: 1e-12 + 4.0 * f64::EPSILON * far, // round-off of the positions
         max_iterations: 30,

@@ -7,13 +7,13 @@
 //! `B_c^T lambda = F_c - M_c x_c`. The unknowns are those of the saddle-point matrix,
 //! at a tenth of its cost; a child without mass is as good as any.
 
-use wingbeat_math::{DMat3, DVec3, trace};
+use wingbeat_math::{DMat3, DVec3, Wrench, trace};
 
 use super::constraint::HingeKinematics;
 use super::coordinates::{BodyKinematics, COORDINATES, write};
 use super::inertia::{MassBlocks, equations};
+use crate::System;
 use crate::baumgarte::Baumgarte;
-use crate::{System, Wrench};
 
 /// Position part and angle part of six numbers that belong to a body.
 type Pair = [DVec3; 2];

@@ -1,8 +1,8 @@
 //! Generalized coordinates of a body and what follows from them (seed eq. 2, 3, 14-16).
 
-use wingbeat_math::{DMat3, DVec3, EulerMatrices};
+use wingbeat_math::{BodyMotion, DMat3, DVec3, EulerMatrices};
 
-use crate::{Body, BodyMotion, DynamicsError};
+use crate::{Body, DynamicsError};
 
 /// Coordinates per body: x, y, z, phi, theta, psi (seed eq. 2).
 pub const COORDINATES: usize = 6;

@@ -1,12 +1,11 @@
 //! Mass matrix, its rate, kinetic energy and the quadratic velocity vector of one body
 //! (seed eq. 17-26).
 
-use wingbeat_math::{DMat3, DVec3, tilde};
+use wingbeat_math::{DMat3, DVec3, Wrench, tilde};
 
 use super::coordinates::BodyKinematics;
 use super::forces::generalized_wrench;
 use crate::body::{Body, weight_wrench};
-use crate::motion::Wrench;
 
 /// Blocks of the symmetric mass matrix of one body (seed eq. 18), or of its rate.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

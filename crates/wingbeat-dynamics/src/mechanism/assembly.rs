@@ -1,13 +1,13 @@
 //! Consistent starts: positions by Newton's iteration with line search on automatically chosen
 //! dependent coordinates, velocities by one linear solve; and what the joints ask twice.
 
-use wingbeat_math::{DMat3, DQuat, DVec3};
+use wingbeat_math::{BodyMotion, DMat3, DQuat, DVec3, largest};
 
 use super::form::{AbsoluteForm, AbsoluteScratch};
 use super::given::Given;
 use super::partition::{Dependent, NEARLY_SINGULAR, Partition, RANK_TOLERANCE, partition};
+use crate::DynamicsError;
 use crate::error::quoted_once;
-use crate::{BodyMotion, DynamicsError};
 
 /// Scaled constraint values allowed at the start.
 const TOLERANCE: f64 = 1e-13;
@@ -126,8 +126,7 @@ impl AbsoluteForm {
     /// Distance of the farthest body from the origin in natural lengths: its round-off counts.
     fn far(&self, s: &AbsoluteScratch) -> f64 {
         let length = self.mechanism().units().length;
-        let far = s.motions.iter().map(|m| m.p.abs().max_element());
-        far.fold(0.0, f64::max) / length
+        largest(s.motions.iter().flat_map(|m| m.p.abs().to_array())) / length
     }
 
     fn shift(&self, s: &mut AbsoluteScratch, start: &[BodyMotion], step: &[f64], factor: f64) {

@@ -1,12 +1,13 @@
 //! The equations of a mechanism at one instant: matrix and right-hand side, scaled and solved.
 
-use wingbeat_math::{DMat3, DVec3, solve_small, tilde, trace};
+use wingbeat_math::{
+    BodyAcceleration, BodyMotion, DMat3, DVec3, Wrench, solve_small, tilde, trace,
+};
 
 use super::joint::{JointKinematics, Row};
 use super::structure::Mechanism;
 use crate::error::DynamicsError;
 use crate::joint::Joint;
-use crate::motion::{BodyAcceleration, BodyMotion, Wrench};
 use crate::solution::HingeReaction;
 
 /// Intermediate results, and what was solved for last.

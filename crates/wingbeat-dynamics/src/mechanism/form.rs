@@ -10,7 +10,9 @@
 //! `[[m I, -R tilde(S)], [tilde(S) R^T, J]]`. Coordinates are scaled by
 //! `1/sqrt(M_ii)`, multipliers by `1/sqrt((B M^-1 B^T)_kk)`.
 
-use wingbeat_math::{DMat3, DQuat, DVec3};
+use wingbeat_math::{
+    BodyAcceleration, BodyMotion, DMat3, DQuat, DVec3, Wrench, larger, mirrored_axial,
+};
 
 pub use super::equations::AbsoluteScratch;
 use super::equations::{eliminate, put_bodies, put_constraints, put_efforts, read, step};
@@ -19,7 +21,7 @@ use super::structure::Mechanism;
 use crate::check::check_state;
 use crate::joint::Joint;
 use crate::mirror::MirrorSymmetry;
-use crate::{Baumgarte, BodyAcceleration, BodyMotion, DynamicsError, HingeReaction, Wrench};
+use crate::{Baumgarte, DynamicsError, HingeReaction};
 
 /// Numbers per body in the state.
 pub(crate) const STATE_NUMBERS: usize = 13;
@@ -204,11 +206,11 @@ impl AbsoluteForm {
             let sign = mirror.attitude(attitude(y, a)).dot(attitude(y, b)).signum();
             let [p, v] = [0, 7].map(|k| mirror.vector(vector(dy, a + k)));
             let turn = mirror.attitude(attitude(dy, a)) * sign;
-            let w = vector(dy, a + 10);
+            let w = mirrored_axial(vector(dy, a + 10));
             p.write_to_slice(&mut dy[b..]);
             turn.write_to_slice(&mut dy[b + 3..]);
             v.write_to_slice(&mut dy[b + 7..]);
-            DVec3::new(-w.x, w.y, -w.z).write_to_slice(&mut dy[b + 10..]);
+            w.write_to_slice(&mut dy[b + 10..]);
         }
     }
 
@@ -273,7 +275,7 @@ impl AbsoluteForm {
         }
         for (_, r) in &s.rows {
             let worst = &mut s.violation[usize::from(!r.is_length)];
-            *worst = worst.max(r.value.abs());
+            *worst = larger(*worst, r.value.abs());
         }
     }
 

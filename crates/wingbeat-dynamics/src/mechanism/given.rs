@@ -1,10 +1,10 @@
 //! What joints are given for the start, as constraints beside those of the loops.
 
-use wingbeat_math::DVec3;
+use wingbeat_math::{BodyMotion, DVec3};
 
 use super::form::AbsoluteForm;
+use crate::JointType;
 use crate::joint::Joint;
-use crate::{BodyMotion, JointType};
 
 /// Rows of what joints are given for the start, in scaled columns, and what is missing there.
 #[derive(Default)]

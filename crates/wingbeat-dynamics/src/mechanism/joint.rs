@@ -7,11 +7,10 @@
 //! written for velocities, `J v + ... = 0`, whose derivative is exact; the position value beside
 //! each is one whose rate is the velocity constraint where the constraint holds.
 
-use wingbeat_math::{DMat3, DVec3, rotation_vector_of_matrix};
+use wingbeat_math::{BodyMotion, DMat3, DVec3, rotation_vector_of_matrix};
 
 use crate::joint::Joint;
 use crate::joint_model::JointType;
-use crate::motion::BodyMotion;
 
 /// One scalar constraint.
 #[derive(Clone, Copy, Debug)]

@@ -1,10 +1,12 @@
 //! Whether joints start as they are told, where loops have been closed.
 
+use wingbeat_math::BodyMotion;
+
 use std::f64::consts::TAU;
 
 use super::Mechanism;
 use crate::joint::Joint;
-use crate::{BodyMotion, DynamicsError, JointType};
+use crate::{DynamicsError, JointType};
 
 /// Difference that counts as none \[rad, natural lengths, both over natural times for rates\], beside the same part of
 /// what the loops ask for: what a reader types from a message is enough.

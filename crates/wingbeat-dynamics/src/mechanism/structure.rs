@@ -1,13 +1,12 @@
 //! Bodies and what joins them.
 
-use wingbeat_math::DVec3;
+use wingbeat_math::{BodyMotion, DVec3};
 
 use super::joint::kinematics;
 use crate::body::{Body, NaturalUnits};
 use crate::check::{check_finite, check_positive};
 use crate::error::DynamicsError;
 use crate::joint::{Joint, check_joint};
-use crate::motion::BodyMotion;
 use crate::offsets::start;
 use crate::system::System;
 

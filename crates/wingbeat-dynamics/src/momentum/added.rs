@@ -5,12 +5,12 @@
 //! body's origin and axes accelerate at while both are zero, `g = I' w + h' + w x (I w + h)` the rate
 //! of the angular momentum meanwhile. All in root components, J to body components.
 
-use wingbeat_math::DVec3;
+use wingbeat_math::six_by_six::from_quarters;
+use wingbeat_math::{DMat3, DVec3, Six, SixBySix, Wrench, six};
 
 use super::whole::whole_load;
-use crate::added_mass::{AddedMass, Factors, Six, six, wrench};
+use crate::added_mass::{AddedMass, Factors, wrench};
 use crate::configuration::Composite;
-use crate::motion::Wrench;
 use crate::placement::Placement;
 use crate::prescribed::Carried;
 use crate::system::System;
@@ -126,15 +126,9 @@ fn carry(
 }
 
 /// `diag(m, I)`, root components.
-fn inertia_of_whole(whole: &Composite) -> [Six; 6] {
-    let mut matrix = [[0.0; 6]; 6];
-    for i in 0..3 {
-        matrix[i][i] = whole.mass;
-        for j in 0..3 {
-            matrix[3 + i][3 + j] = whole.inertia.col(j)[i];
-        }
-    }
-    matrix
+fn inertia_of_whole(whole: &Composite) -> SixBySix {
+    let mass = DMat3::from_diagonal(DVec3::splat(whole.mass));
+    from_quarters([[mass, DMat3::ZERO], [DMat3::ZERO, whole.inertia]])
 }
 
 /// Row k of J: component k of the acceleration of a body (origin, angular; body components) by the
@@ -148,7 +142,7 @@ fn row(at: &Placement, c: DVec3, k: usize) -> Six {
 }
 
 /// Adds `J^T A J` to the lower half of the matrix.
-fn put_added(a: &AddedMass, rows: &[Six; 6], matrix: &mut [Six; 6]) {
+fn put_added(a: &AddedMass, rows: &SixBySix, matrix: &mut SixBySix) {
     for &k in a.directions() {
         let mut carried = [0.0; 6];
         for &l in a.directions() {

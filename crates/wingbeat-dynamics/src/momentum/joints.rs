@@ -3,9 +3,9 @@
 use crate::error::DynamicsError;
 use crate::free::coordinate_rates;
 use crate::inverse::bias_force;
-use crate::motion::{BodyAcceleration, Wrench};
 use crate::system::System;
 use crate::workspace::Workspace;
+use wingbeat_math::{BodyAcceleration, Wrench};
 
 /// Accelerations of the free joint speeds into `ws.free` and into the placements; motions and
 /// placements are those of the state.

@@ -1,11 +1,10 @@
 //! The state vector of the momentum form, taken apart.
 
-use wingbeat_math::{DMat3, DQuat, DVec3};
+use wingbeat_math::{BodyMotion, DMat3, DQuat, DVec3, Wrench};
 
 use crate::check::check_state;
 use crate::configuration::Composite;
 use crate::error::DynamicsError;
-use crate::motion::{BodyMotion, Wrench};
 use crate::workspace::MOMENTUM_STATE;
 
 /// The state vector, taken apart.

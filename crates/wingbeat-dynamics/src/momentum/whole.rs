@@ -1,10 +1,9 @@
 //! Loads on the whole system, and the rates of its momenta.
 
-use wingbeat_math::{DMat3, DVec3};
+use wingbeat_math::{BodyAcceleration, BodyMotion, DMat3, DVec3, Wrench};
 
 use crate::body::inertia_wrench;
 use crate::configuration::Configuration;
-use crate::motion::{BodyAcceleration, BodyMotion, Wrench};
 use crate::system::System;
 
 /// Sum of all external forces and of their moments about the mass centre `x_c`, N components.

@@ -6,11 +6,11 @@
 
 use wingbeat_air::Wind;
 use wingbeat_blade::{
-    BladeError, BladeWing, BodyDrag, Calm, FrameAcceleration, Lag, Load, LocalWind, StripTrial,
-    WingFrame, WingMemory,
+    BladeError, BladeWing, BodyDrag, Calm, Lag, LocalWind, StripTrial, WingMemory,
 };
 use wingbeat_dynamics::{AddedMass, BodyAcceleration, BodyMotion, Wrench};
-use wingbeat_math::DVec3;
+use wingbeat_math::six_by_six::{from_entries, symmetric_part, unit};
+use wingbeat_math::{DVec3, SixBySix, six};
 use wingbeat_model::{Animal, Wing};
 
 use super::bent::{BentStrips, refuse_measured_surfaces};
@@ -86,37 +86,44 @@ impl BladeAir {
             .is_some_and(MovingStrips::is_deformed)
     }
 
-    /// Force and moment of the added mass of a wing that moves like `m` and accelerates like `acc`.
+    /// Force and moment of the added mass of a wing that moves like `m` and accelerates like `acc`, wing
+    /// components.
     fn acceleration_load(
         &self,
         i: usize,
         t: f64,
         m: &BodyMotion,
         acc: &BodyAcceleration,
-    ) -> (Load, f64) {
-        let (wing, acc) = (&self.wings[i], acceleration(acc));
-        let wind = self.wind_on(m, t, None);
+    ) -> (Wrench, f64) {
+        let (wing, wind) = (&self.wings[i], self.wind_on(m, t, None));
         match &self.moving[i] {
-            None => (wing.acceleration_load_in(&frame(m), &acc, wind), 0.0),
+            None => (wing.acceleration_load_in(m, acc, wind), 0.0),
             Some(d) => {
                 let phase = d.phase_at(t);
                 let section = |k| d.section(k, phase);
-                let sum = wing.deforming_acceleration_load(&frame(m), &acc, section, wind);
+                let sum = wing.deforming_acceleration_load(m, acc, section, wind);
                 (sum.load, sum.power)
             }
         }
     }
 
-    /// Force and moment on a wing by its velocities and the wakes that `lag` tells of, and the power that deforms it.
-    fn velocity_load(&self, i: usize, t: f64, m: &BodyMotion, lag: Option<Lag<'_>>) -> (Load, f64) {
+    /// Force and moment on a wing by its velocities and the wakes that `lag` tells of, wing components, and the
+    /// power that deforms it.
+    fn velocity_load(
+        &self,
+        i: usize,
+        t: f64,
+        m: &BodyMotion,
+        lag: Option<Lag<'_>>,
+    ) -> (Wrench, f64) {
         let (wing, wind) = (&self.wings[i], self.wind_on(m, t, lag.as_ref()));
         match &self.moving[i] {
-            None if self.wind.is_none() => (wing.lagging_load(&frame(m), Calm, lag), 0.0),
-            None => (wing.lagging_load(&frame(m), wind, lag), 0.0),
+            None if self.wind.is_none() => (wing.lagging_load(m, Calm, lag), 0.0),
+            None => (wing.lagging_load(m, wind, lag), 0.0),
             Some(d) => {
                 let phase = d.phase_at(t);
                 let section = |k| d.section(k, phase);
-                let sum = wing.deforming_velocity_load(&frame(m), section, wind, lag);
+                let sum = wing.deforming_velocity_load(m, section, wind, lag);
                 (sum.load, sum.power)
             }
         }
@@ -140,7 +147,7 @@ impl BladeAir {
         let v = b.r.transpose() * (b.v - self.stream) + b.w.cross(centre) - wind;
         let force = drag.force(self.density, v);
         let moment = centre.cross(force);
-        turned(&Load { force, moment }, b)
+        Wrench { force, moment }.turned(b.r)
     }
 
     /// Wind on a wing that moves like `m` at time `t` \[s\], whose strips may remember their wakes (`lag`).
@@ -157,22 +164,15 @@ impl BladeAir {
 
     /// The added mass of wing `i`, read off its loads under unit accelerations; none if it has none.
     fn added_to(&self, i: usize, t: f64) -> Option<AddedMass> {
-        let load = |linear: DVec3, angular: DVec3| {
+        let load = |[linear, angular]: [DVec3; 2]| {
             let acc = BodyAcceleration { linear, angular };
             let (load, _) = self.acceleration_load(i, t, &BodyMotion::REST, &acc);
-            let (f, m) = (load.force, load.moment);
-            [f.x, f.y, f.z, m.x, m.y, m.z]
+            six(load.force, load.moment)
         };
-        let still = load(DVec3::ZERO, DVec3::ZERO);
-        let unit = |k: usize| match k {
-            0..3 => load(DVec3::AXES[k], DVec3::ZERO),
-            _ => load(DVec3::ZERO, DVec3::AXES[k - 3]),
-        };
-        let columns: [[f64; 6]; 6] = std::array::from_fn(unit);
+        let still = load([DVec3::ZERO; 2]);
+        let columns: SixBySix = std::array::from_fn(|k| load(unit(k)));
         // Exactly symmetric, as energy asks: the two halves differ by roundings.
-        let entry = |j: usize, k: usize| still[j] - columns[k][j];
-        let mean = |j: usize, k: usize| 0.5 * (entry(j, k) + entry(k, j));
-        let matrix: [[f64; 6]; 6] = std::array::from_fn(|j| std::array::from_fn(|k| mean(j, k)));
+        let matrix = symmetric_part(&from_entries(|j, k| still[j] - columns[k][j]));
         let felt = matrix.iter().flatten().any(|x| *x != 0.0);
         felt.then(|| AddedMass::new(i + 1, matrix))
     }
@@ -205,9 +205,9 @@ impl Air for BladeAir {
                 out[i + 1] = load;
                 continue;
             }
-            out[i + 1] = turned(&self.velocity_load(i, t, m, lag(wakes, i, t, trial)).0, m);
+            out[i + 1] = (self.velocity_load(i, t, m, lag(wakes, i, t, trial)).0).turned(m.r);
             if self.wings[i].has_added_mass() {
-                out[i + 1] += turned(&self.acceleration_load(i, t, m, &still).0, m);
+                out[i + 1] += self.acceleration_load(i, t, m, &still).0.turned(m.r);
             }
         }
         Ok(())
@@ -381,29 +381,4 @@ fn lag<'a>(
         time: t,
         trial,
     })
-}
-
-/// Accelerations in the words of the blade elements.
-fn acceleration(a: &BodyAcceleration) -> FrameAcceleration {
-    FrameAcceleration {
-        linear: a.linear,
-        angular: a.angular,
-    }
-}
-
-/// A body's motion in the words of the blade elements.
-pub(super) fn frame(m: &BodyMotion) -> WingFrame {
-    WingFrame {
-        rotation: m.r,
-        velocity: m.v,
-        rate: m.w,
-    }
-}
-
-/// A load in wing components as a wrench in N components.
-pub(super) fn turned(load: &Load, m: &BodyMotion) -> Wrench {
-    Wrench {
-        force: m.r * load.force,
-        moment: m.r * load.moment,
-    }
 }

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use wingbeat_air::{AirLoads, AirSettings, AirState, Lattice, Points, SheddingKinds};
 use wingbeat_dynamics::{BodyAcceleration, BodyMotion, Wrench};
-use wingbeat_math::DVec3;
+use wingbeat_math::{DVec3, Six, SixBySix, six};
 
 use super::mirror::mirror_pairs;
 use super::surfaces::SurfaceMap;
@@ -337,17 +337,17 @@ fn rigid_added_mass(
     loads: &AirLoads,
     panels: Range<usize>,
     m: &BodyMotion,
-) -> [[f64; 6]; 6] {
+) -> SixBySix {
     let back = m.r.transpose();
-    let six = |p: usize| {
+    let moved = |p: usize| {
         let normal = back * loads.panels.normal[p];
         let turn = (back * (loads.panels.point[p] - m.p)).cross(normal);
-        [normal.x, normal.y, normal.z, turn.x, turn.y, turn.z]
+        six(normal, turn)
     };
-    let six: Vec<[f64; 6]> = panels.map(six).collect();
+    let moved: Vec<Six> = panels.map(moved).collect();
     let mut mass = [[0.0; 6]; 6];
-    for (row, by) in answer.chunks_exact(six.len()).zip(&six) {
-        for (factor, of) in row.iter().zip(&six) {
+    for (row, by) in answer.chunks_exact(moved.len()).zip(&moved) {
+        for (factor, of) in row.iter().zip(&moved) {
             for (i, j) in (0..36).map(|k| (k / 6, k % 6)) {
                 let part = -0.5 * factor * by[i] * of[j];
                 mass[i][j] += part;
@@ -356,7 +356,7 @@ fn rigid_added_mass(
         }
     }
     let size = |k: usize| -> f64 { (0..3).map(|l| mass[3 * (k / 3) + l][3 * (k / 3) + l]).sum() };
-    let sizes: [f64; 6] = std::array::from_fn(size);
+    let sizes: Six = std::array::from_fn(size);
     for (i, j) in (0..36).map(|k| (k / 6, k % 6)) {
         if mass[i][j].abs() <= NOTHING * (sizes[i] * sizes[j]).sqrt() {
             mass[i][j] = 0.0;

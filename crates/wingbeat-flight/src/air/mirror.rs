@@ -2,8 +2,8 @@
 
 use wingbeat_air::{MirrorPairs, Plane};
 use wingbeat_dynamics::BodyMotion;
-use wingbeat_math::DVec3;
-use wingbeat_model::mesh::{QuadMesh, mirror};
+use wingbeat_math::{DVec3, mirrored};
+use wingbeat_model::mesh::QuadMesh;
 use wingbeat_model::{Animal, PairOnPart, Wing};
 
 /// The pairs of an animal that is its own mirror image in the plane of axes 1 and 3 of the body, at rest at
@@ -100,7 +100,7 @@ impl Closed<'_> {
         let own = self.mesh.nodes.iter().map(|x| place(self, x));
         let size = own.clone().map(DVec3::length).fold(0.0, f64::max);
         own.map(|x| {
-            let near = |y: &DVec3| place(other, y).distance(mirror(x)) <= 1e-9 * size;
+            let near = |y: &DVec3| place(other, y).distance(mirrored(x)) <= 1e-9 * size;
             other.mesh.nodes.iter().position(near)
         })
         .collect()
@@ -121,7 +121,7 @@ fn first_of(from: usize, counts: impl Iterator<Item = usize>) -> Vec<usize> {
 
 /// Whether `other` has the mesh and the hinge of `wing` in mirror image.
 fn is_image(wing: &Wing, other: &Wing) -> bool {
-    let same = |a: DVec3, b: DVec3| a.distance(mirror(b)) <= 1e-9 * (a.length() + b.length());
+    let same = |a: DVec3, b: DVec3| a.distance(mirrored(b)) <= 1e-9 * (a.length() + b.length());
     let nodes = wing.mesh.nodes.iter().zip(&other.mesh.nodes);
     wing.side != other.side
         && wing.deformation == other.deformation

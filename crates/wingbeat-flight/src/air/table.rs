@@ -4,7 +4,6 @@ use wingbeat_blade::DerivativeTable;
 use wingbeat_dynamics::{AddedMass, Wrench};
 use wingbeat_model::Animal;
 
-use super::blade::{frame, turned};
 use crate::error::FlightError;
 use crate::interface::{Air, AirScratch, Instant};
 use crate::memory::AirMemory;
@@ -47,7 +46,7 @@ impl Air for TableAir {
     ) -> Result<(), FlightError> {
         out.fill(Wrench::default());
         let root = &at.motions[0];
-        out[0] = turned(&self.table.load(&frame(root)), root);
+        out[0] = self.table.load(root).turned(root.r);
         Ok(())
     }
 

@@ -11,7 +11,7 @@ use super::coupling::ElasticScratch;
 use super::image::{reflected, reflected_mass};
 use super::step::WingScratch;
 use super::wing::ElasticState;
-use super::wings::{ElasticWings, turned};
+use super::wings::ElasticWings;
 use crate::interface::Instant;
 use crate::record::ElasticRecord;
 
@@ -54,13 +54,14 @@ impl ElasticWings {
             let needed = resultant(at, &ws.residual);
             let loads = resultant(at, &ws.loads);
             let rigid = w.rigid_inertia(&ws.frame);
-            let mut both = [0, 1].map(|k| rigid[k] - needed[k] - loads[k]);
+            let [mut force, mut moment] = [0, 1].map(|k| rigid[k] - needed[k] - loads[k]);
             if w.structure.damping().mass > 0.0 {
                 // What momentum relative to the frame loses, the frame gains.
                 let damped = resultant(at, ws.solver.damping());
-                both = [0, 1].map(|k| both[k] + damped[k]);
+                force += damped[0];
+                moment += damped[1];
             }
-            out[w.wing + 1] = turned(m, both);
+            out[w.wing + 1] = Wrench { force, moment }.turned(m.r);
         }
     }
 

@@ -284,7 +284,7 @@ impl ElasticWings {
                 };
                 let made = (ws.trial.velocity[k] - ws.before[k]) / ws.trial.weights().velocity;
                 ws.step.push(length * x - made);
-                s.moved = s.moved.max(x.abs());
+                s.moved = larger(s.moved, x.abs());
             }
             (ws.solver).look_ahead(&w.structure, &ws.trial, &ws.step);
             ws.trial.add(&w.structure, &ws.step);

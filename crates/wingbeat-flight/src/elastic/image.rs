@@ -6,15 +6,12 @@
 //! `Q^T`.
 
 use wingbeat_dynamics::{AddedMass, Wrench};
-use wingbeat_math::{DMat3, DQuat, DVec3};
-use wingbeat_model::mesh::mirror;
+use wingbeat_math::six_by_six::from_entries;
+use wingbeat_math::{DMat3, DQuat, DVec3, mirrored, mirrored_axial, six};
 use wingbeat_structure::{Configuration, NODE, State};
 
 /// The half turn P, as a quaternion and about axis 2.
 const HALF_TURN: DQuat = DQuat::from_xyzw(0.0, 1.0, 0.0, 0.0);
-
-/// Signs of six components, of a force and a moment or of two accelerations, under the mirror.
-const SIGNS: [f64; 6] = [1.0, -1.0, 1.0, -1.0, 1.0, -1.0];
 
 /// Whose image a wing is, and how attitudes of the nodes go over.
 #[derive(Clone, Debug)]
@@ -39,7 +36,7 @@ impl Image {
     /// Places and attitudes.
     pub fn configuration(&self, of: &Configuration, out: &mut Configuration) {
         let places = out.position.iter_mut().zip(&of.position);
-        places.for_each(|(to, u)| *to = mirror(*u));
+        places.for_each(|(to, u)| *to = mirrored(*u));
         let attitudes = out.rotation.iter_mut().zip(&of.rotation);
         for ((to, r), turn) in attitudes.zip(&self.turns) {
             *to = HALF_TURN * *r * *turn;
@@ -59,7 +56,7 @@ impl Image {
     pub fn numbers(&self, of: &[f64], out: &mut [f64]) {
         let nodes = out.chunks_exact_mut(NODE).zip(of.chunks_exact(NODE));
         for ((to, six), turn) in nodes.zip(&self.turns) {
-            let linear = mirror(DVec3::from_slice(six));
+            let linear = mirrored(DVec3::from_slice(six));
             let angular = turn.inverse() * DVec3::from_slice(&six[3..]);
             linear.write_to_slice(to);
             angular.write_to_slice(&mut to[3..]);
@@ -71,17 +68,16 @@ impl Image {
 pub(super) fn reflected(load: &Wrench, from: DMat3, to: DMat3) -> Wrench {
     let back = from.transpose();
     Wrench {
-        force: to * mirror(back * load.force),
-        moment: to * -mirror(back * load.moment),
+        force: to * mirrored(back * load.force),
+        moment: to * mirrored_axial(back * load.moment),
     }
 }
 
 /// The image of an added mass as that of another `body`.
 pub(super) fn reflected_mass(mass: &AddedMass, body: usize) -> AddedMass {
-    let of = mass.matrix();
-    let part = |i: usize, j: usize| SIGNS[i] * SIGNS[j] * of[i][j];
-    AddedMass::new(
-        body,
-        std::array::from_fn(|i| std::array::from_fn(|j| part(i, j))),
-    )
+    let (of, sign) = (
+        mass.matrix(),
+        six(mirrored(DVec3::ONE), mirrored_axial(DVec3::ONE)),
+    );
+    AddedMass::new(body, from_entries(|i, j| sign[i] * sign[j] * of[i][j]))
 }

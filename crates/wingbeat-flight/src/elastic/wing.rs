@@ -1,7 +1,8 @@
 //! One elastic wing: its body, its nodes, and what it does to the frame that carries it.
 
 use wingbeat_dynamics::{AddedMass, BodyAcceleration, BodyMotion};
-use wingbeat_math::{DMat3, DVec3, MassProperties};
+use wingbeat_math::six_by_six::{from_entries, scaled, symmetric_part};
+use wingbeat_math::{DMat3, DVec3, MassProperties, SixBySix};
 use wingbeat_model::{Members, Wing};
 use wingbeat_structure::{
     Configuration, Follower, FrameMotion, GeneralizedAlpha, NODE, State, Structure,
@@ -167,25 +168,19 @@ impl ElasticWing {
     /// From the derivative of what the wing exerts by the acceleration of its frame: what a mass beside that of
     /// the rigid wing has. Of its symmetric part so much that both together are positive definite, as masses
     /// are; the answer of the air to places and velocities within a step need not be.
-    pub(super) fn carried(&self, response: &[[f64; 6]; 6]) -> AddedMass {
+    pub(super) fn carried(&self, response: &SixBySix) -> AddedMass {
         let rigid = rigid_mass(&self.rigid);
-        let mean = |i: usize, j: usize| -0.5 * (response[i][j] + response[j][i]);
+        let all = scaled(&symmetric_part(response), -1.0);
+        let beside = from_entries(|i, j| all[i][j] - rigid[i][j]);
         let part = [1.0, 0.5, 0.25, 0.0]
             .into_iter()
-            .find(|part| is_positive(6, |i, j| rigid[i][j] + part * (mean(i, j) - rigid[i][j])));
-        let part = part.unwrap_or(0.0);
-        let beside = |i: usize, j: usize| part * (mean(i, j) - rigid[i][j]);
-        AddedMass::new(
-            self.wing + 1,
-            std::array::from_fn(|i| std::array::from_fn(|j| beside(i, j))),
-        )
+            .find(|part| is_positive(6, |i, j| rigid[i][j] + part * beside[i][j]));
+        AddedMass::new(self.wing + 1, scaled(&beside, part.unwrap_or(0.0)))
     }
 
     /// From the derivative of the loads of the air by the acceleration of the frame: the added mass that it is.
-    pub(super) fn carried_air(&self, response: &[[f64; 6]; 6]) -> AddedMass {
-        let mean = |i: usize, j: usize| -0.5 * (response[i][j] + response[j][i]);
-        let matrix = std::array::from_fn(|i| std::array::from_fn(|j| mean(i, j)));
-        AddedMass::new(self.wing + 1, matrix)
+    pub(super) fn carried_air(&self, response: &SixBySix) -> AddedMass {
+        AddedMass::new(self.wing + 1, scaled(&symmetric_part(response), -1.0))
     }
 
     /// Its masses as rigid bodies in N, the frame moving like `m`: nodes, then points between them.

@@ -1,6 +1,6 @@
 //! All elastic wings of an animal.
 
-use wingbeat_dynamics::{BodyAcceleration, BodyMotion, Wrench};
+use wingbeat_dynamics::{BodyAcceleration, BodyMotion};
 use wingbeat_math::DVec3;
 use wingbeat_model::Animal;
 
@@ -150,12 +150,4 @@ pub(super) fn frame_motion(
     gravity: DVec3,
 ) -> wingbeat_structure::FrameMotion {
     wingbeat_structure::FrameMotion::from_inertial(m.r, [a.linear, gravity], [m.w, a.angular])
-}
-
-/// A wrench in wing components as one in N components.
-pub(super) fn turned(m: &BodyMotion, [force, moment]: [DVec3; 2]) -> Wrench {
-    Wrench {
-        force: m.r * force,
-        moment: m.r * moment,
-    }
 }

@@ -43,7 +43,7 @@ impl EqualSteps {
             }
             false => [1.0, -1.0].map(|sign| Complex(-half, sign * (-under).sqrt())),
         };
-        roots.into_iter().map(|z| self.root(z)).fold(0.0, f64::max)
+        crate::largest(roots.map(|z| self.root(z)))
     }
 
     /// Size of the largest root at `z` \[1\].
@@ -58,7 +58,7 @@ impl EqualSteps {
             }
             Self::Bdf => {
                 let lead = real(25.0) - real(12.0) * z;
-                largest([48.0, -36.0, 16.0, -3.0].map(|a| real(a) * lead.inverse()))
+                largest_root([48.0, -36.0, 16.0, -3.0].map(|a| real(a) * lead.inverse()))
             }
             Self::Adams => {
                 let part = z * real(1.0 / 24.0);
@@ -66,7 +66,7 @@ impl EqualSteps {
                 let predicted = [one + predicted[0], predicted[1], predicted[2], predicted[3]];
                 let known = [19.0, -5.0, 1.0, 0.0].map(real);
                 let whole = [one, zero, zero, zero];
-                largest(std::array::from_fn(|k| {
+                largest_root(std::array::from_fn(|k| {
                     whole[k] + part * (real(9.0) * predicted[k] + known[k])
                 }))
             }
@@ -80,7 +80,7 @@ impl EqualSteps {
                     real(2.0) * ahead,
                     real(9.0 / 121.0),
                 ];
-                largest(std::array::from_fn(|k| lead * corrected[k] + predicted[k]))
+                largest_root(std::array::from_fn(|k| lead * corrected[k] + predicted[k]))
             }
         }
     }
@@ -90,12 +90,12 @@ impl EqualSteps {
 const PASSES: usize = 200;
 
 /// Size of the largest root of `r^4 = a[0] r^3 + a[1] r^2 + a[2] r + a[3]` [Durand 1960; Kerner 1966].
-fn largest(a: [Complex; 4]) -> f64 {
+fn largest_root(a: [Complex; 4]) -> f64 {
     let residual = |r: Complex| {
         let known = (a.iter()).fold(Complex(0.0, 0.0), |sum, coefficient| sum * r + *coefficient);
         r * r * r * r - known
     };
-    let bound = 1.0 + a.iter().map(|x| x.size()).fold(0.0, f64::max);
+    let bound = 1.0 + crate::largest(a.map(Complex::size));
     let mut roots: [Complex; 4] = std::array::from_fn(|k| {
         let angle = 0.4 + 1.6 * k as f64;
         Complex(bound * angle.cos(), bound * angle.sin())
@@ -109,7 +109,7 @@ fn largest(a: [Complex; 4]) -> f64 {
             }
         }
     }
-    roots.iter().map(|r| r.size()).fold(0.0, f64::max)
+    crate::largest(roots.map(Complex::size))
 }
 
 /// Real and imaginary part.

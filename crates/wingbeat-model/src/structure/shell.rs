@@ -60,6 +60,29 @@ const CUTICLE: f64 = 1200.0;
 const CUTICLE_YOUNG: f64 = 3e9;
 
 impl WingShell {
+    /// A solid sheet of one material, as stiff in bending as in stretching, clamped at the root, the wing's
+    /// mass spread evenly over it: Young's modulus along span and chord \[Pa\], Poisson's ratio \[1\],
+    /// thickness \[m\] over r/R.
+    pub fn solid(young: [f64; 2], poisson: f64, thickness: SpanLaw) -> Self {
+        Self {
+            young,
+            poisson,
+            shear: None,
+            stretching: None,
+            thickness,
+            density: None,
+            fibre_angle: 0.0,
+            prestress: [0.0; 2],
+            bending_factor: 1.0,
+            regions: vec![],
+            veins: vec![],
+            clamps_root: true,
+            clamps_leading_edge: false,
+            clamps_perimeter: false,
+            rigid_fraction: 0.0,
+        }
+    }
+
     /// A sheet with the bending stiffness of insects' wings, EI along the span `10^0.08 R^2.97`, along the
     /// chord `10^-1.73 c^2.08` (R the wing length, c the mean chord; N m2, m) [Combes & Daniel 2003, J. Exp.
     /// Biol. 206:2979], as thick as cuticle of the wing's mass is and no stiffer than it against stretching:
@@ -73,21 +96,9 @@ impl WingShell {
         // EI per width is E h3 / 12.
         let young = [along, across].map(|d| 12.0 * d / thickness.powi(3));
         Self {
-            young,
-            poisson,
             shear: Some((young[0] * young[1]).sqrt() / (2.0 * (1.0 + poisson))),
             stretching: Some(CUTICLE_YOUNG),
-            thickness: SpanLaw::constant(thickness),
-            density: None,
-            fibre_angle: 0.0,
-            prestress: [0.0; 2],
-            bending_factor: 1.0,
-            regions: vec![],
-            veins: vec![],
-            clamps_root: true,
-            clamps_leading_edge: false,
-            clamps_perimeter: false,
-            rigid_fraction: 0.0,
+            ..Self::solid(young, poisson, SpanLaw::constant(thickness))
         }
     }
 

@@ -184,7 +184,7 @@ fn invariant_mirror_and_scale() {
     let states = [&right, &left].map(|m| at(&DeformingMesh::new(m, &d), [0.37, 4.0, 5.0]));
     for (r, l) in states[0].iter().zip(&states[1]) {
         for k in 0..3 {
-            assert_eq!(wingbeat_model::mesh::mirror(r[k]), l[k]);
+            assert_eq!(wingbeat_math::mirrored(r[k]), l[k]);
         }
     }
     // Twice the size: all places twice as far, to a rounding of the quotients.

@@ -2,7 +2,7 @@
 
 use wingbeat_math::DVec3;
 use wingbeat_model::species::{FlyOptions, drosophila_melanogaster};
-use wingbeat_model::{Profile, QuadMesh, Revolution, integrate, mesh};
+use wingbeat_model::{Profile, QuadMesh, Revolution, integrate};
 
 fn shapes() -> Vec<Revolution> {
     let base = Revolution::ellipsoid(DVec3::new(0.3, 0.0, -0.2), 2.0, 0.5, [6, 8]);
@@ -68,7 +68,7 @@ fn invariant_a_part_in_the_symmetry_plane_is_its_own_mirror_image_bit_for_bit() 
     };
     for shape in &shapes()[..2] {
         let m = shape.mesh("part").unwrap();
-        assert_eq!(sorted(&m), sorted(&m.map(mesh::mirror)));
+        assert_eq!(sorted(&m), sorted(&m.map(wingbeat_math::mirrored)));
     }
 }
 

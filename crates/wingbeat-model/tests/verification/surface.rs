@@ -133,7 +133,7 @@ fn invariant_mirror_and_scale_of_a_surface() {
     let [a, b] = [&right, &left].map(|m| DeformingMesh::new(m, &d).places(0.4));
     let large = DeformingMesh::new(&right.scaled(2.0), &d.scaled(2.0)).places(0.4);
     for ((a, b), c) in a.iter().zip(&b).zip(&large) {
-        assert_eq!(wingbeat_model::mesh::mirror(*a), *b);
+        assert_eq!(wingbeat_math::mirrored(*a), *b);
         assert!((*a * 2.0 - *c).length() < 1e-14); // roundings of quotients
     }
 }

@@ -1,8 +1,8 @@
 //! Sections of beams: stiffness and mass per length.
 
-use wingbeat_math::{DMat3, DVec3, MassProperties};
+use wingbeat_math::six_by_six::from_entries;
+use wingbeat_math::{DMat3, DVec3, MassProperties, SixBySix};
 
-use crate::block::Block;
 use crate::error::StructureError;
 
 /// Section of a beam, in its own axes: axis 1 along the beam, axes 2 and 3 across, about a reference line that may lie
@@ -10,7 +10,7 @@ use crate::error::StructureError;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Section {
     /// Stiffness \[N, N m, N m2\]: forces and moments by stretch, two shears, twist and two curvatures; symmetric.
-    pub stiffness: [[f64; 6]; 6],
+    pub stiffness: SixBySix,
     /// Mass per length \[kg/m\], its first moment \[kg\] and inertia \[kg m\] about the reference line.
     pub mass: MassProperties,
 }
@@ -51,7 +51,7 @@ impl Section {
             (0..6).map(part).sum()
         };
         Self {
-            stiffness: std::array::from_fn(|i| std::array::from_fn(|j| entry(i, j))),
+            stiffness: from_entries(entry),
             mass: MassProperties::ZERO,
         }
     }
@@ -80,7 +80,7 @@ impl Section {
             }
             sum
         };
-        let stiffness = std::array::from_fn(|i| std::array::from_fn(|j| entry(i, j)));
+        let stiffness = from_entries(entry);
         self.stiffness = stiffness;
         self.mass = self.mass.moved(r, DVec3::ZERO);
         self
@@ -135,7 +135,7 @@ pub(super) fn element_stiffness(
     section: &Section,
     axis: DVec3,
     length: f64,
-) -> Result<Block, StructureError> {
+) -> Result<SixBySix, StructureError> {
     let mut compliance = inverse(&section.stiffness)?;
     let moment = wingbeat_math::tilde(axis);
     let bending = DMat3::from_cols_array_2d(&std::array::from_fn(|j| {
@@ -150,7 +150,7 @@ pub(super) fn element_stiffness(
 }
 
 /// Inverse of a symmetric positive definite block by Cholesky factors of the matrix with its diagonal scaled to one.
-fn inverse(m: &Block) -> Result<Block, StructureError> {
+fn inverse(m: &SixBySix) -> Result<SixBySix, StructureError> {
     let scale: [f64; 6] = std::array::from_fn(|i| m[i][i].sqrt());
     let mut l = [[0.0; 6]; 6];
     for row in 0..6 {

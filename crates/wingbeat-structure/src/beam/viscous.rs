@@ -1,9 +1,9 @@
 //! How strain-rate damping of a beam changes as it turns.
 
 use super::{Beam, ENDS, Turning, add, ends, screw_between};
-use crate::block::{ZERO, product, times, transpose};
 use crate::configuration::{Configuration, NODE};
 use crate::screw::Screw;
+use wingbeat_math::six_by_six::{ZERO, product, times, transpose};
 
 impl Beam {
     /// Adds `factor` times the derivative of the damping force `B^T K B v` by the numbers of the nodes, v held:

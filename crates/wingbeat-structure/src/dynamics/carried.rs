@@ -1,8 +1,9 @@
 //! What nodes do to the frame that carries them.
 
-use wingbeat_math::{DQuat, DVec3};
+use wingbeat_math::six_by_six::{transpose, unit};
+use wingbeat_math::{DQuat, DVec3, Six, SixBySix, six};
 
-use crate::block::{Block, pair, six, transpose};
+use crate::block::pair;
 use crate::configuration::{Configuration, NODE};
 
 /// Force and moment about the origin of W, W components, of six numbers at every node: forces in W, moments in
@@ -19,7 +20,7 @@ pub fn resultant(at: &Configuration, numbers: &[f64]) -> [DVec3; 2] {
 
 /// Force and moment about the origin of W by its acceleration and angular acceleration, six by six by rows, of
 /// loads that follow the accelerations of the nodes by the matrix `by` (rows of 6 N numbers) and nothing else.
-pub fn carried_by_frame(at: &Configuration, by: &[f64]) -> [[f64; 6]; 6] {
+pub fn carried_by_frame(at: &Configuration, by: &[f64]) -> SixBySix {
     let mut carried = Carried::default();
     let columns = std::array::from_fn(|j| carried.follow(at, by, j));
     transpose(&columns)
@@ -38,11 +39,8 @@ impl Carried {
     /// For a unit acceleration of W along its axis j or, from 3 on, a unit angular acceleration about its axis
     /// j - 3: the loads that follow the accelerations of the nodes by the matrix `by`, and their resultant,
     /// which is returned.
-    pub fn follow(&mut self, at: &Configuration, by: &[f64], j: usize) -> [f64; NODE] {
-        let (linear, angular) = match j {
-            0..3 => (DVec3::AXES[j], DVec3::ZERO),
-            _ => (DVec3::ZERO, DVec3::AXES[j - 3]),
-        };
+    pub fn follow(&mut self, at: &Configuration, by: &[f64], j: usize) -> Six {
+        let [linear, angular] = unit(j);
         let node =
             |(u, r): (&DVec3, &DQuat)| six(linear + angular.cross(*u), r.inverse() * angular);
         self.accelerations.clear();
@@ -64,10 +62,10 @@ impl Carried {
 #[derive(Debug, Default)]
 pub(super) struct ResponseScratch {
     /// Map of the node's force and moment to the origin.
-    pub to_root: Vec<Block>,
+    pub to_root: Vec<SixBySix>,
     /// Derivative of its inertial force by the acceleration and angular acceleration of W.
-    pub by_frame: Vec<Block>,
+    pub by_frame: Vec<SixBySix>,
     /// Derivative of the resultant of inertial forces less loads about the origin by its increments.
-    pub rows: Vec<Block>,
+    pub rows: Vec<SixBySix>,
     pub carried: Carried,
 }

@@ -1,10 +1,11 @@
 //! How the body answers to accelerations of the frame that carries it.
 
-use wingbeat_math::{DMat3, DVec3, tilde};
+use wingbeat_math::six_by_six::{ZERO, from_quarters, product, scaled, sum};
+use wingbeat_math::{DMat3, DVec3, SixBySix, tilde};
 
 use super::generalized_alpha::Trial;
 use super::solver::{LoadTangent, Solver, combined};
-use crate::block::{Block, ZERO, block, pair, product, scaled, sum};
+use crate::block::pair;
 use crate::configuration::NODE;
 use crate::frame::FrameMotion;
 use crate::inertia::{self, NodeMotion};
@@ -23,7 +24,7 @@ impl Solver {
         trial: &Trial,
         frame: &FrameMotion,
         loads: &LoadTangent<'_>,
-    ) -> [[f64; 6]; 6] {
+    ) -> SixBySix {
         let rigid = self.set_blocks(structure, trial, frame);
         if !loads.is_none() {
             self.take_off_loads(structure, trial, loads);
@@ -52,7 +53,12 @@ impl Solver {
 
     /// Fills the blocks of all nodes under loads that stay; returns the derivative of the resultant of inertial
     /// forces by the acceleration of W, the shape kept.
-    fn set_blocks(&mut self, structure: &Structure, trial: &Trial, frame: &FrameMotion) -> Block {
+    fn set_blocks(
+        &mut self,
+        structure: &Structure,
+        trial: &Trial,
+        frame: &FrameMotion,
+    ) -> SixBySix {
         let (motion, s) = (trial.motion(), &mut self.response);
         s.to_root.clear();
         s.by_frame.clear();
@@ -107,13 +113,13 @@ impl Solver {
 }
 
 /// Map of a node's force (W) and moment (node components) to the origin.
-fn to_root(node: &NodeMotion) -> Block {
-    block([[DMat3::IDENTITY, DMat3::ZERO], [tilde(node.u), node.r]])
+fn to_root(node: &NodeMotion) -> SixBySix {
+    from_quarters([[DMat3::IDENTITY, DMat3::ZERO], [tilde(node.u), node.r]])
 }
 
 /// Change of the resultant as a node moves with its force and moment.
-fn moved(node: &NodeMotion, [force, moment]: [DVec3; 2], turn: DVec3) -> Block {
+fn moved(node: &NodeMotion, [force, moment]: [DVec3; 2], turn: DVec3) -> SixBySix {
     let zero = DMat3::ZERO;
     let turned = node.r * tilde(-moment) * right_jacobian(turn);
-    block([[zero, zero], [tilde(-force), turned]])
+    from_quarters([[zero, zero], [tilde(-force), turned]])
 }

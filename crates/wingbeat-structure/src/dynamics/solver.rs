@@ -1,11 +1,12 @@
 //! Newton's iteration for a step in time.
 
-use wingbeat_math::{DMat3, DVec3, larger};
+use wingbeat_math::six_by_six::{ZERO, from_quarters, product};
+use wingbeat_math::{DMat3, DVec3, SixBySix, larger};
 
 use super::carried::ResponseScratch;
 use super::generalized_alpha::{State, Trial, Weights};
 use crate::assembly::{Assembly, Viscous};
-use crate::block::{Block, ZERO, add_pair, block, pair, product};
+use crate::block::{add_pair, pair};
 use crate::configuration::{Configuration, NODE};
 use crate::error::StructureError;
 use crate::frame::FrameMotion;
@@ -238,7 +239,7 @@ impl Solver {
         trial: &Trial,
         frame: &FrameMotion,
         n: usize,
-    ) -> Block {
+    ) -> SixBySix {
         let (m, node) = (&structure.masses[n], trial.motion().node(n));
         let t = inertia::tangents(m, frame, &node);
         combined(&t, trial.weights(), trial.turn(n), structure.damping.mass)
@@ -342,9 +343,14 @@ pub(crate) fn inertial(
 }
 
 /// Derivative of inertial and mass-damping forces by the increments of a step.
-pub(crate) fn combined(t: &inertia::Tangents, w: Weights, turn: DVec3, mass_damping: f64) -> Block {
+pub(crate) fn combined(
+    t: &inertia::Tangents,
+    w: Weights,
+    turn: DVec3,
+    mass_damping: f64,
+) -> SixBySix {
     let zero = DMat3::ZERO;
-    let jacobian = block([[DMat3::IDENTITY, zero], [zero, right_jacobian(turn)]]);
+    let jacobian = from_quarters([[DMat3::IDENTITY, zero], [zero, right_jacobian(turn)]]);
     let by_place = product(&t.position, &jacobian);
     let mass = w.acceleration + mass_damping * w.velocity;
     let mut sum = ZERO;

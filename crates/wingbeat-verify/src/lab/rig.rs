@@ -11,7 +11,7 @@ use wingbeat_air::{
     Plane, SectionDrag, SheddingKinds, Surface, VortexLift,
 };
 use wingbeat_flight::AirOptions;
-use wingbeat_math::{DMat3, DVec3};
+use wingbeat_math::{DMat3, DVec3, mirrored};
 
 use super::fly;
 
@@ -226,7 +226,7 @@ impl Wing {
         };
         if self.has_image() {
             for list in [&mut motion.position, &mut motion.velocity] {
-                let image: Vec<DVec3> = list.iter().map(|v| DVec3::new(v.x, -v.y, v.z)).collect();
+                let image: Vec<DVec3> = list.iter().copied().map(mirrored).collect();
                 list.extend(image);
             }
         }

@@ -23,19 +23,11 @@ use crate::instruction_set::InstructionSet;
 use crate::sources::{Blob, Points};
 use fearless_simd::{Level, dispatch, prelude::*};
 use rayon::prelude::*;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 
 /// How blobs stretch each other.
-#[derive(
-    Clone,
-    Copy,
-    Debug,
-    Default,
-    PartialEq,
-    Eq,
-    serde::Serialize,
-    serde::Deserialize,
-    schemars::JsonSchema,
-)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Stretching {
     /// Not at all: strengths stay.

@@ -1,6 +1,6 @@
-//! Motion of bodies and loads on them: what crosses the border to other crates.
+//! Motion of a body and loads on it: what dynamics, blade elements and analysis hand each other.
 
-use wingbeat_math::{DMat3, DVec3};
+use glam::{DMat3, DVec3};
 
 /// Where a body is and how it moves.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -27,8 +27,7 @@ impl BodyMotion {
     /// Position in N \[m\] of the point `r` \[m\] of the body frame (seed eq. 3).
     ///
     /// ```
-    /// use wingbeat_dynamics::BodyMotion;
-    /// use wingbeat_math::{DVec3, r3};
+    /// use wingbeat_math::{BodyMotion, DVec3, r3};
     /// let m = BodyMotion { p: DVec3::X, r: r3(std::f64::consts::FRAC_PI_2), ..BodyMotion::REST };
     /// assert!((m.point(DVec3::X) - DVec3::new(1.0, 1.0, 0.0)).length() < 1e-15);
     /// ```
@@ -52,12 +51,13 @@ pub struct BodyAcceleration {
     pub angular: DVec3,
 }
 
-/// External load on a body, without gravity.
+/// Force and moment: the external load on a body without gravity, N components, about the origin of its frame,
+/// where a function does not name others.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Wrench {
-    /// Force \[N\], N components.
+    /// Force \[N\].
     pub force: DVec3,
-    /// Moment about the body's frame origin [N m], N components.
+    /// Moment [N m], same components.
     pub moment: DVec3,
 }
 
@@ -67,6 +67,15 @@ impl Wrench {
         Self {
             force,
             moment: arm.cross(force),
+        }
+    }
+
+    /// The same wrench in the components to which `r` leads.
+    #[must_use]
+    pub fn turned(&self, r: DMat3) -> Self {
+        Self {
+            force: r * self.force,
+            moment: r * self.moment,
         }
     }
 
@@ -80,6 +89,15 @@ impl std::ops::AddAssign for Wrench {
     fn add_assign(&mut self, o: Self) {
         self.force += o.force;
         self.moment += o.moment;
+    }
+}
+
+impl std::ops::Add for Wrench {
+    type Output = Self;
+
+    fn add(mut self, o: Self) -> Self {
+        self += o;
+        self
     }
 }
 
