@@ -106,7 +106,6 @@ impl Summary {
             each.momentum.held_residual(setup),
             each.momentum.free_residual(setup),
         ];
-        let tells_of_edges = is_lattice && !s.leading_rings.is_nan();
         let mut summary = Self {
             case: setup.name.clone(),
             outcome: outcome.clone(),
@@ -130,7 +129,7 @@ impl Summary {
             regularised: s.regularised,
             limited: s.limited,
             limited_part: s.limited_part(setup.air.is_mirrored()),
-            leading_rings: tells_of_edges.then_some(s.leading_rings),
+            leading_rings: is_lattice.then_some(s.leading_rings),
             alternating_steps: each.alternation.longest,
             wake_rings: s.last.wake_rings,
             wake_particles: s.last.wake_particles,
