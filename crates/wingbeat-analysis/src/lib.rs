@@ -87,8 +87,8 @@ pub use lost::{Lost, Way};
 pub use mean::MeanLoad;
 pub use modes::{Mode, ModeSet, Plane, Scales};
 pub use plausibility::{
-    Estimate, KeptWake, WingEstimate, doubtful_reynolds_numbers, estimate, jumping_rotation,
-    kept_wake, stroke_amplitude, way_in_a_step,
+    Estimate, KeptWake, WingEstimate, doubtful_reynolds_numbers, estimate, kept_wake,
+    stroke_amplitude, way_in_a_step,
 };
 pub use power::{Power, power, power_of_trim, power_with_wake};
 pub use problem::{TrimProblem, TrimSettings, turned_inside_out};

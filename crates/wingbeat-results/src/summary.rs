@@ -141,11 +141,13 @@ impl Summary {
             last_part: s.bounds.ended_by(&s.last, setup),
             beats: s.beats,
         };
-        let mut warnings = trust::warnings(setup, &summary, momentum);
+        let doubts = setup.doubts();
+        let mut warnings = trust::warnings(setup, &doubts, &summary, momentum);
         bent::warnings(setup, &s.each.bent, &mut warnings);
         turned_over(setup, &s.each, &mut warnings);
         trust::flown_crossings(
             setup,
+            &doubts,
             &s.each.crossings.map_or(vec![], |c| c.found()),
             &mut warnings,
         );
