@@ -90,7 +90,7 @@ pub use plausibility::{
     Estimate, KeptWake, WingEstimate, doubtful_reynolds_numbers, estimate, kept_wake,
     stroke_amplitude, way_in_a_step,
 };
-pub use power::{Power, power, power_of_trim, power_with_wake};
+pub use power::{Power, PowerQuantity, power, power_of_trim, power_with_wake};
 pub use problem::{TrimProblem, TrimSettings, turned_inside_out};
 pub use request::TrimRequest;
 pub use residuals::Residuals;
