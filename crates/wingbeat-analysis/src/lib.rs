@@ -30,6 +30,7 @@
 
 mod beat;
 mod closed_loop;
+mod continuation;
 pub mod control;
 pub mod cost;
 mod departure;
@@ -72,7 +73,6 @@ mod trim;
 mod turned;
 mod unknown;
 pub mod wake;
-mod way;
 mod wing_modes;
 
 pub use beat::{Beat, Integration, State};
