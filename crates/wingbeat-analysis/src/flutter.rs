@@ -23,9 +23,9 @@
 //! The step of the setup goes with the speed: the stream passes the same way in a step as in the setup.
 
 mod condition;
-mod crossing;
 mod deflection;
 mod disturbance;
+mod onset;
 mod response;
 mod sampling;
 mod settings;
@@ -35,7 +35,7 @@ mod uncertainty;
 
 pub use crate::realisation::{NOISE, Realisation, Sampled, Vibration, realise, realise_sampled};
 pub use condition::{Condition, MAX_DAMPING, MIN_SHARE, condition};
-pub use crossing::{Crossing, by_wing, crossings, growing, likely};
 pub use deflection::{Steep, steep};
+pub use onset::{Onset, by_wing, crossings, growing, likely};
 pub use settings::FlutterSettings;
 pub use steady::{ElasticRig, SteadyWing};

@@ -11,6 +11,7 @@ use cobyla::{RhoBeg, StopTols, minimize};
 use wingbeat_flight::FlightSetup;
 
 use crate::AnalysisError;
+use crate::continuation::{first_stroke, trim_by_continuation};
 use crate::power::power_of_trim;
 use crate::problem::TrimProblem;
 use crate::progress;
@@ -19,7 +20,6 @@ use crate::solution::TrimSolution;
 use crate::steady::check;
 use crate::trim::{Trim, trim_from};
 use crate::unknown::{Bound, Unknown};
-use crate::way::{first_stroke, trim_by_way};
 
 /// Trims the flight of `setup` within the bounds of the problem. What is named beyond what steady flight determines is
 /// chosen such that the mean power of muscles with perfect elastic storage is least. Where Newton's method finds nothing
@@ -31,7 +31,7 @@ use crate::way::{first_stroke, trim_by_way};
 pub fn trim_within(setup: &FlightSetup, problem: &TrimProblem) -> Result<Trim, AnalysisError> {
     let needed = Residuals::of(problem).controls();
     if problem.unknowns.len() <= needed {
-        return trim_by_way(setup, problem, PI);
+        return trim_by_continuation(setup, problem, PI);
     }
     check(setup, problem)?;
     let (search, start, first) = begun(setup, problem, needed)?;
@@ -222,7 +222,7 @@ impl<'a> Search<'a> {
         };
         let found = match nearest {
             Some(point) => trim_from(self.setup, &problem, point)?,
-            None => trim_by_way(self.setup, &problem, f64::INFINITY)?,
+            None => trim_by_continuation(self.setup, &problem, f64::INFINITY)?,
         };
         self.iterations.update(|n| n + found.solution.iterations);
         if found.solution.converged {

@@ -30,6 +30,7 @@
 
 mod beat;
 mod closed_loop;
+mod continuation;
 pub mod control;
 pub mod cost;
 mod departure;
@@ -72,7 +73,6 @@ mod trim;
 mod turned;
 mod unknown;
 pub mod wake;
-mod way;
 mod wing_modes;
 
 pub use beat::{Beat, Integration, State};
@@ -86,10 +86,10 @@ pub use level::{Level, Perturbation, STATE};
 pub use lost::{Lost, Way};
 pub use modes::{Mode, ModeSet, Plane, Scales};
 pub use plausibility::{
-    Estimate, KeptWake, WingEstimate, doubtful_reynolds_numbers, estimate, jumping_rotation,
-    kept_wake, stroke_amplitude, way_in_a_step,
+    Estimate, KeptWake, WingEstimate, doubtful_reynolds_numbers, estimate, kept_wake,
+    stroke_amplitude, way_in_a_step,
 };
-pub use power::{Power, power, power_of_trim, power_with_wake};
+pub use power::{Power, PowerQuantity, power, power_of_trim, power_with_wake};
 pub use problem::{TrimProblem, TrimSettings, turned_inside_out};
 pub use request::TrimRequest;
 pub use residuals::Residuals;

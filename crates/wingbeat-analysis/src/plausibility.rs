@@ -24,7 +24,6 @@ mod sides;
 mod sizes;
 mod wake;
 
-pub use doubts::jumping_rotation;
 pub(crate) use joints::{chain, slowest_on_springs};
 pub use numbers::stroke_amplitude;
 pub use numbers::{Estimate, WingEstimate};

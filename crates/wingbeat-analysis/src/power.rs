@@ -33,7 +33,60 @@ pub struct Power {
     pub mass: f64,
 }
 
+/// One of the powers of a [`Power`], each in watts.
+#[derive(Clone, Copy, Debug)]
+pub struct PowerQuantity {
+    /// Its name, as the field of [`Power`] has it.
+    pub name: &'static str,
+    /// What stands before it where all are listed.
+    pub label: &'static str,
+    /// What it is, in words.
+    pub about: &'static str,
+    /// Takes it [W].
+    pub of: fn(&Power) -> f64,
+}
+
 impl Power {
+    /// All powers, as the command line and campaigns list them.
+    pub const QUANTITIES: [PowerQuantity; 6] = [
+        PowerQuantity {
+            name: "aerodynamic",
+            label: "against the air, relative to the body",
+            about: "mean power against the air, of the motion relative to the body",
+            of: |p| p.aerodynamic,
+        },
+        PowerQuantity {
+            name: "inertial_positive",
+            label: "inertial, positive part",
+            about: "positive part of the inertial power",
+            of: |p| p.inertial_positive,
+        },
+        PowerQuantity {
+            name: "perfect_storage",
+            label: "muscles, perfect elastic storage",
+            about: "muscle power with perfect elastic storage",
+            of: |p| p.perfect_storage,
+        },
+        PowerQuantity {
+            name: "no_storage",
+            label: "muscles, no elastic storage",
+            about: "muscle power without elastic storage",
+            of: |p| p.no_storage,
+        },
+        PowerQuantity {
+            name: "peak",
+            label: "peak of all wings",
+            about: "peak power of all wings",
+            of: |p| p.peak,
+        },
+        PowerQuantity {
+            name: "damping",
+            label: "damping of elastic wings",
+            about: "mean of what the damping of elastic wings takes",
+            of: |p| p.damping,
+        },
+    ];
+
     /// Power per body mass [W/kg].
     pub fn body_specific(&self, power: f64) -> f64 {
         power / self.mass

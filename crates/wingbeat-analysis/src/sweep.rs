@@ -12,12 +12,12 @@ use wingbeat_flight::FlightSetup;
 use wingbeat_math::DVec3;
 
 use crate::AnalysisError;
+use crate::continuation::{Path, first_stroke};
 use crate::lost::Lost;
 use crate::power::{Power, power_of_trim};
 use crate::problem::TrimProblem;
 use crate::progress;
 use crate::trim::Trim;
-use crate::way::{Path, first_stroke};
 
 /// A trimmed flight of a sweep.
 #[derive(Clone, Debug)]

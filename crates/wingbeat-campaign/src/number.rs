@@ -134,50 +134,17 @@ impl Source {
     }
 }
 
-/// A number of the power: name, unit, meaning.
-type Entry = (&'static str, &'static str, &'static str, fn(&Power) -> f64);
+/// Powers over the mass of the animal: name, meaning.
+type OverMass = (&'static str, &'static str, fn(&Power) -> f64);
 
-const POWERS: [Entry; 8] = [
+const POWERS_OVER_MASS: [OverMass; 2] = [
     (
-        "aerodynamic_watt",
-        "W",
-        "mean power against the air, of the motion relative to the body",
-        |p| p.aerodynamic,
-    ),
-    (
-        "inertial_positive_watt",
-        "W",
-        "positive part of the inertial power",
-        |p| p.inertial_positive,
-    ),
-    (
-        "perfect_storage_watt",
-        "W",
-        "muscle power with perfect elastic storage",
-        |p| p.perfect_storage,
-    ),
-    (
-        "no_storage_watt",
-        "W",
-        "muscle power without elastic storage",
-        |p| p.no_storage,
-    ),
-    ("peak_watt", "W", "peak power of all wings", |p| p.peak),
-    (
-        "damping_watt",
-        "W",
-        "mean of what the damping of elastic wings takes",
-        |p| p.damping,
-    ),
-    (
-        "perfect_storage_watt_per_kg",
-        "W kg-1",
+        "perfect_storage",
         "muscle power with perfect storage over mass",
         |p| p.body_specific(p.perfect_storage),
     ),
     (
-        "no_storage_watt_per_kg",
-        "W kg-1",
+        "no_storage",
         "muscle power without storage over mass",
         |p| p.body_specific(p.no_storage),
     ),
@@ -242,8 +209,13 @@ pub fn registry(setup: &FlightSetup) -> Result<Vec<Number>, AnalysisError> {
     }
     of_trim(&mut put);
     modes_and_derivatives(&mut put);
-    for (name, unit, about, of) in POWERS {
-        put(format!("power.{name}"), unit, about, Source::Power(of));
+    for q in Power::QUANTITIES {
+        let name = format!("power.{}_watt", q.name);
+        put(name, "W", q.about, Source::Power(q.of));
+    }
+    for (name, about, of) in POWERS_OVER_MASS {
+        let name = format!("power.{name}_watt_per_kg");
+        put(name, "W kg-1", about, Source::Power(of));
     }
     Ok(all)
 }

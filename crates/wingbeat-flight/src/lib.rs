@@ -64,7 +64,7 @@ pub use bodies::{
 };
 pub use control::MotionBlend;
 pub use controller::{Aim, Controller, Sensed};
-pub use doubts::CrossingWings;
+pub use doubts::{CrossingWings, Doubt, DoubtKind};
 pub use error::{FlightError, RESUME_AS_SAVED};
 pub use free::{FreeFlight, FreeFlightScratch};
 pub use interface::{

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use pyo3::prelude::*;
 use wingbeat::analysis::flutter::{
-    Condition, Crossing, FlutterSettings, by_wing, condition, crossings, likely,
+    Condition, FlutterSettings, Onset, by_wing, condition, crossings, likely,
 };
 use wingbeat::analysis::{About, WingMode, WingModes, wing_modes};
 
@@ -140,7 +140,7 @@ pub fn flutter(
     let name = |c: &Condition| wings[c.steady.wing].name.clone();
     let onsets = |of_wing: &Vec<Condition>| {
         let [certain, uncertain] = [crossings(of_wing), likely(of_wing)];
-        let onset = |(c, certain): (Crossing, bool)| {
+        let onset = |(c, certain): (Onset, bool)| {
             let wing = name(&of_wing[0]);
             (
                 wing,

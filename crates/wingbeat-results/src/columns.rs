@@ -13,6 +13,7 @@ use wingbeat_dynamics::{DynamicsError, JointType};
 use wingbeat_flight::{FlightSetup, JointCoordinate, Record, joint_coordinates, loop_names};
 use wingbeat_model::Animal;
 
+use crate::other_build::check_columns;
 use crate::quantity::{Entry, Fold, Group, Kind, Of, Quantity, Unit};
 use crate::table::GROUPS;
 use wingbeat_case::{IoError, column_name};
@@ -27,8 +28,6 @@ pub const TIME: usize = 1;
 pub struct Column {
     /// Name, with the unit at its end.
     pub name: String,
-    /// Name in results of older versions, where it was another.
-    pub former: Option<String>,
     /// Unit, as units are written: `m s-1`.
     pub unit: &'static str,
     /// Frame, in words.
@@ -41,8 +40,6 @@ pub struct Column {
     pub fold: Fold,
     /// Whether it holds whole numbers.
     pub is_count: bool,
-    /// Whether results of older versions lack it.
-    pub is_new: bool,
     of: Of,
     quantity: &'static Quantity,
     subject: usize,
@@ -63,8 +60,6 @@ pub(crate) struct Subject {
     name: String,
     /// Name in words.
     words: String,
-    /// What it was called in older results.
-    former: String,
     kind: Kind,
     /// Its number in the record.
     index: usize,
@@ -119,7 +114,6 @@ fn bodies(animal: &Animal) -> Vec<Subject> {
 impl Subject {
     pub(crate) fn new(name: String, words: &str, kind: Kind, index: usize) -> Self {
         Self {
-            former: name.clone(),
             name,
             words: words.to_owned(),
             kind,
@@ -143,10 +137,7 @@ impl Subject {
         };
         let name = format!("{}_{what}{number}", column_name(&c.joint));
         let words = format!("{what}{} of joint {}", number.replace('_', " "), c.joint);
-        Self {
-            former: format!("{}", index + 1),
-            ..Self::new(name, &words, kind, index)
-        }
+        Self::new(name, &words, kind, index)
     }
 }
 
@@ -199,10 +190,10 @@ impl Columns {
         })
     }
 
-    /// The columns of the history in a file with this header.
+    /// The columns of the history in a file with this header, in their order there.
     ///
     /// # Errors
-    /// As [`Self::new`], of the case beside it.
+    /// As [`Self::new`], of the case beside it; a history with other columns than these, which another build wrote.
     pub(crate) fn in_file(
         path: &Path,
         setup: &FlightSetup,
@@ -217,7 +208,9 @@ impl Columns {
         let all = columns(true)?;
         let is_there = |c: &Column| c.of == Of::Deforming && header.contains(&c.name);
         let deforms = all.iter().any(is_there);
-        if deforms { Ok(all) } else { columns(false) }
+        let own = if deforms { all } else { columns(false)? };
+        check_columns(path, &own.names(), header)?;
+        Ok(own)
     }
 
     /// The columns of the history that this record begins.
@@ -238,10 +231,9 @@ impl Columns {
         self.iter().map(|c| c.name.clone()).collect()
     }
 
-    /// The column of this name, be it the present one or that of older results.
+    /// The column of this name.
     pub fn find(&self, name: &str) -> Option<&Column> {
-        let is = |c: &&Column| c.name == name || c.former.as_deref() == Some(name);
-        self.list.iter().find(is)
+        self.list.iter().find(|c| c.name == name)
     }
 
     /// A record of the right shape, every number zero.
@@ -390,19 +382,15 @@ impl Subject {
         letter: &str,
     ) -> Column {
         let unit = q.unit.of(self.kind);
-        let name = |pattern: &str, subject: &str, unit: &str| {
-            pattern.replace("{s}", subject).replace("{c}", letter) + "_" + unit
-        };
+        let name = q.name.replace("{s}", &self.name).replace("{c}", letter);
         Column {
-            name: name(q.name, &self.name, unit.suffix()),
-            former: (q.former).map(|(pattern, unit)| name(pattern, &self.former, unit)),
+            name: name + "_" + unit.suffix(),
             unit: unit.symbol(),
             frame: q.frame.words(self.kind),
             symbol: q.symbol,
             about: q.about.replace("{s}", &self.words).replace("{c}", letter),
             fold: q.fold,
             is_count: unit == Unit::Count,
-            is_new: q.is_new,
             of,
             quantity: q,
             subject: self.index,

@@ -17,7 +17,6 @@ whole numbers, all others have a decimal point or an exponent and read back bit 
 
 A thinned history (`output.history_every`) has rows at every so many steps, at the ends of wingbeats, at frames and at
 the end. \"sum\", \"largest\" and \"smallest\" are those of all steps since the row before; the rest is that of its step.
-Columns marked with a star are missing in results of older versions, where JOINT was counted: `joint_coordinate_1_rad_or_m`.
 
 | column | unit | frame | symbol | thinned | what |
 |---|---|---|---|---|---|
@@ -37,9 +36,8 @@ pub fn columns_page() -> String {
             };
             let frame = q.frame.words_of_all();
             let thinned = c.fold.words();
-            let star = if c.is_new { " *" } else { "" };
             let line = format!(
-                "| `{}`{star} | {unit} | {frame} | {} | {thinned} | {} |\n",
+                "| `{}` | {unit} | {frame} | {} | {thinned} | {} |\n",
                 c.name, c.symbol, c.about
             );
             out += &line;

@@ -5,6 +5,7 @@ use std::io::Read as _;
 use std::path::{Path, PathBuf};
 
 use super::arrays::{self, arrays, groups};
+use super::other_build::refusal;
 use super::particles::Cloud;
 use super::vtp::{RIGHT_HANDED, frame_name, indexed};
 use wingbeat_case::IoError;
@@ -23,7 +24,7 @@ pub struct Mesh {
     pub points: Vec<[f64; 3]>,
     /// Corner points of each cell.
     pub quads: Vec<[usize; 4]>,
-    /// Numbers per cell by name; circulations are right-handed about the corners, whatever version wrote them.
+    /// Numbers per cell by name; circulations are right-handed about the corners.
     pub cells: BTreeMap<String, Vec<f64>>,
 }
 
@@ -187,6 +188,11 @@ impl Mesh {
     /// # Errors
     /// What is wrong with it.
     pub fn parse(text: &str) -> Result<Self, String> {
+        if !text.lines().take(HEAD).any(|l| l.contains(RIGHT_HANDED)) {
+            return Err(refusal(
+                "this frame does not say that its circulations are right-handed",
+            ));
+        }
         let mut mesh = Self::default();
         for (name, words) in arrays(text)? {
             match name {
@@ -202,18 +208,7 @@ impl Mesh {
                 }
             }
         }
-        if !text.lines().take(HEAD).any(|l| l.contains(RIGHT_HANDED)) {
-            mesh.turn_surface_circulations();
-        }
         mesh.check().map(|()| mesh)
-    }
-
-    /// Makes circulations of surfaces right-handed that are left-handed.
-    fn turn_surface_circulations(&mut self) {
-        if self.cells.contains_key(PRESSURE) {
-            let gamma = self.cells.get_mut("circulation_m2_per_s");
-            gamma.into_iter().flatten().for_each(|g| *g = -*g);
-        }
     }
 
     fn check(&self) -> Result<(), String> {
@@ -373,22 +368,18 @@ mod tests {
     use super::super::vtp::{CHECKSUM, PolyData, summed};
     use super::*;
 
-    /// Frames of older versions hold circulations of surfaces left-handed about the corners; they are turned when read.
     #[test]
-    fn agrees_older_frames_with_those_of_today() {
-        const GAMMA: &str = "circulation_m2_per_s";
-        for (other, sign) in [(PRESSURE, -1.0), ("sheet", 1.0)] {
-            let data = PolyData {
-                points: vec![wingbeat_math::DVec3::ZERO; 4],
-                quads: vec![[0, 1, 2, 3]],
-                cells: vec![(GAMMA, vec![0.25]), (other, vec![0.25])],
-            };
-            let text = data.to_vtp();
-            let body = text.split(CHECKSUM).next().unwrap_or_default();
-            let older = summed(body.replace(RIGHT_HANDED, ""));
-            let gamma = |text: &str| Mesh::parse(text).map(|m| m.cell(GAMMA).to_vec());
-            assert_eq!(gamma(&text), Ok(vec![0.25]));
-            assert_eq!(gamma(&older), Ok(vec![sign * 0.25]));
-        }
+    fn refuses_frames_that_do_not_say_how_circulations_turn() {
+        let data = PolyData {
+            points: vec![wingbeat_math::DVec3::ZERO; 4],
+            quads: vec![[0, 1, 2, 3]],
+            cells: vec![("circulation_m2_per_s", vec![0.25])],
+        };
+        let text = data.to_vtp();
+        let body = text.split(CHECKSUM).next().unwrap_or_default();
+        let other = summed(body.replace(RIGHT_HANDED, ""));
+        assert!(Mesh::parse(&text).is_ok());
+        let problem = Mesh::parse(&other).unwrap_err();
+        assert!(problem.contains("another build of wingbeat"), "{problem}");
     }
 }

@@ -65,12 +65,13 @@ impl HistoryWriter {
     /// [`Self::cut`] drops what follows, before anything is appended.
     ///
     /// # Errors
-    /// A file that cannot be read and changed, or that another wingbeat is writing.
+    /// A file that cannot be read and changed, or that another wingbeat is writing; one that another build wrote.
     pub fn reopen(path: &Path, setup: &FlightSetup, header: &Header) -> Result<Self, IoError> {
         let mut options = OpenOptions::new();
         let file = options.read(true).append(true).open(path);
         let file = file.map_err(IoError::write(path))?;
         lock(&file, path)?;
+        Columns::in_file(path, setup, Rows::open(path)?.names())?;
         let hash = hash_start(&file, header.history_bytes).map_err(IoError::read(path))?;
         Ok(Self {
             bytes: header.history_bytes,

@@ -41,6 +41,8 @@ impl Outcome {
 /// What a result directory says about itself.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Manifest {
+    /// What its files mean, [`crate::FORMAT`].
+    pub format: u64,
     /// Version of wingbeat.
     pub version: String,
     /// Name of the case.

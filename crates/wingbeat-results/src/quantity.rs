@@ -295,10 +295,6 @@ pub(crate) struct Quantity {
     /// What it is; {s} is the subject in words.
     pub about: &'static str,
     pub fold: Fold,
-    /// Whether results of older versions lack it.
-    pub is_new: bool,
-    /// Name and unit in older results; {s} is what the subject was called there.
-    pub former: Option<(&'static str, &'static str)>,
     /// Place in a record: of which subject, which component.
     pub entry: fn(&mut Record, usize, usize) -> Entry<'_>,
 }
@@ -326,8 +322,6 @@ impl Quantity {
             symbol: "",
             about,
             fold: Fold::Last,
-            is_new: false,
-            former: None,
             entry,
         }
     }
@@ -354,22 +348,6 @@ impl Quantity {
     /// That a row folds so.
     pub const fn fold(self, fold: Fold) -> Self {
         Self { fold, ..self }
-    }
-
-    /// That results of older versions lack.
-    pub const fn new_here(self) -> Self {
-        Self {
-            is_new: true,
-            ..self
-        }
-    }
-
-    /// That had another name and unit in older results.
-    pub const fn formerly(self, name: &'static str, unit: &'static str) -> Self {
-        Self {
-            former: Some((name, unit)),
-            ..self
-        }
     }
 }
 

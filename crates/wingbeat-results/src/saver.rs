@@ -11,6 +11,7 @@ use wingbeat_flight::FlightState;
 use super::checkpoint::{self, FILE, Header};
 use super::history::hash_start;
 use super::manifest::{Manifest, Outcome, hexadecimal, sha256};
+use super::other_build::{AGAIN, check_manifest};
 use super::vtp::{check_sum, frame_name, is_frame};
 use super::whole::{remove_file, write_safely};
 use wingbeat_case::{IoError, SaveSettings};
@@ -103,7 +104,7 @@ pub fn read(dir: &Path) -> Result<Saved, IoError> {
 /// The manifest of a result directory as it was written.
 ///
 /// # Errors
-/// A directory that holds no run; a manifest that cannot be read.
+/// A directory that holds no run; a manifest that cannot be read, or of a result that another build wrote.
 pub fn read_manifest(dir: &Path) -> Result<Manifest, IoError> {
     let path = dir.join("manifest.json");
     if !path.is_file() {
@@ -116,19 +117,19 @@ pub fn read_manifest(dir: &Path) -> Result<Manifest, IoError> {
         });
     }
     let bytes = fs::read(&path).map_err(IoError::read(&path))?;
-    serde_json::from_slice(&bytes).map_err(|e| IoError::Damaged {
-        problem: match dir.join("case.toml").is_file() {
-            true => format!("the manifest cannot be read: {e}; put it back, or {AGAIN}"),
-            false => format!(
-                "the manifest cannot be read: {e}; put it back (there is no case.toml beside it that could be flown again)"
-            ),
-        },
-        path,
-    })
+    let unreadable = |e: serde_json::Error| match dir.join("case.toml").is_file() {
+        true => format!("the manifest cannot be read: {e}; put it back, or {AGAIN}"),
+        false => format!(
+            "the manifest cannot be read: {e}; put it back (there is no case.toml beside it that could be flown again)"
+        ),
+    };
+    let json = serde_json::from_slice(&bytes).map_err(unreadable);
+    let read = json.and_then(|json| {
+        check_manifest(&json)?;
+        serde_json::from_value(json).map_err(unreadable)
+    });
+    read.map_err(|problem| IoError::Damaged { path, problem })
 }
-
-/// What is left to do where a file of a result is lost.
-const AGAIN: &str = "fly the case.toml of this result again with `wingbeat run`";
 
 fn check_start(path: &Path, header: &Header) -> Result<(), IoError> {
     let wanted = (header.history_bytes, &header.history_sha256[..]);

@@ -106,7 +106,6 @@ impl Summary {
             each.momentum.held_residual(setup),
             each.momentum.free_residual(setup),
         ];
-        let tells_of_edges = is_lattice && !s.leading_rings.is_nan();
         let mut summary = Self {
             case: setup.name.clone(),
             outcome: outcome.clone(),
@@ -130,7 +129,7 @@ impl Summary {
             regularised: s.regularised,
             limited: s.limited,
             limited_part: s.limited_part(setup.air.is_mirrored()),
-            leading_rings: tells_of_edges.then_some(s.leading_rings),
+            leading_rings: is_lattice.then_some(s.leading_rings),
             alternating_steps: each.alternation.longest,
             wake_rings: s.last.wake_rings,
             wake_particles: s.last.wake_particles,
@@ -142,11 +141,13 @@ impl Summary {
             last_part: s.bounds.ended_by(&s.last, setup),
             beats: s.beats,
         };
-        let mut warnings = trust::warnings(setup, &summary, momentum);
+        let doubts = setup.doubts();
+        let mut warnings = trust::warnings(setup, &doubts, &summary, momentum);
         bent::warnings(setup, &s.each.bent, &mut warnings);
         turned_over(setup, &s.each, &mut warnings);
         trust::flown_crossings(
             setup,
+            &doubts,
             &s.each.crossings.map_or(vec![], |c| c.found()),
             &mut warnings,
         );

@@ -18,8 +18,7 @@ use super::manifest::sha256;
 use super::poses::picture;
 use super::whole::target_name;
 
-/// What a frame says of its circulations. Frames without it are of older versions, in which those of surfaces
-/// (not of wakes) are left-handed: positive when their lift is along the panel normal.
+/// What a frame says of its circulations; one that does not is of another build.
 pub(super) const RIGHT_HANDED: &str = "circulations right-handed about the corners";
 
 /// The array of circulations that rings which have become particles still have in the filaments that they share
@@ -201,24 +200,16 @@ pub fn pvd(frames: &[(f64, usize)], parts: &[&str]) -> String {
             );
         }
     }
-    out.push_str(INDEX_END);
+    out.push_str("</Collection>\n</VTKFile>\n");
     summed(out)
 }
-
-/// Last lines of an index before its checksum.
-const INDEX_END: &str = "</Collection>\n</VTKFile>\n";
 
 /// File names of the frames in an index.
 ///
 /// # Errors
-/// What is wrong with the index: it is cut, or its checksum is wrong. An index without a checksum,
-/// as older versions wrote it, must be whole.
+/// What is wrong with the index: it is cut, or its checksum is wrong.
 pub fn indexed(text: &str) -> Result<Vec<&str>, String> {
-    match text.contains(CHECKSUM) {
-        true => check_sum(text, "index")?,
-        false if text.ends_with(INDEX_END) => {}
-        false => return Err("this index is cut or no index of wingbeat".to_owned()),
-    }
+    check_sum(text, "index")?;
     let names = text.split("file=\"frames/").skip(1);
     Ok(names.filter_map(|rest| rest.split('"').next()).collect())
 }

@@ -145,11 +145,10 @@ pub(crate) fn target_name(name: &str) -> &str {
     let Some(part) = name.strip_suffix(".part") else {
         return name;
     };
+    let is_process = |text: &str| text.bytes().all(|b| b.is_ascii_digit() || b == b'-');
     match part.rsplit_once('.') {
-        Some((target, process)) if process.bytes().all(|b| b.is_ascii_digit() || b == b'-') => {
-            target
-        }
-        _ => part, // of versions without the number of the process
+        Some((target, process)) if is_process(process) => target,
+        _ => name,
     }
 }
 
@@ -186,7 +185,7 @@ mod tests {
         for (name, target) in [
             ("wakes_000012.vtp.4711.part", "wakes_000012.vtp"),
             ("flight.h5.4711-2.part", "flight.h5"),
-            ("wakes_000012.vtp.part", "wakes_000012.vtp"), // of older versions
+            ("wakes_000012.vtp.part", "wakes_000012.vtp.part"),
             ("wakes_000012.vtp", "wakes_000012.vtp"),
             ("manifest.json.1.part", "manifest.json"),
         ] {

@@ -8,6 +8,7 @@ use super::checkpoint::Header;
 use super::framer::Framer;
 use super::history::HistoryWriter;
 use super::manifest::{Manifest, Outcome, sha256};
+use super::other_build::FORMAT;
 use super::saver::{self, Schedule};
 use super::summary::EachStep;
 use super::vtp::pvd;
@@ -47,6 +48,7 @@ impl RunWriter {
     pub fn new(dir: ResultDir, case: &LoadedCase, threads: usize) -> Result<Self, IoError> {
         let resolved = case.resolved();
         let manifest = Manifest {
+            format: FORMAT,
             version: env!("CARGO_PKG_VERSION").to_owned(),
             case: case.name.clone(),
             origin: case.origin().to_owned(),

@@ -1,5 +1,5 @@
-//! The history: every number of a record has its column, rows are read back bit for bit, results of
-//! older versions are read, thinned ones say the same of wingbeats.
+//! The history: every number of a record has its column, rows are read back bit for bit, those of other builds are
+//! refused, thinned ones say the same of wingbeats.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -247,110 +247,39 @@ fn agrees_accelerations_with_second_differences_of_places() {
     }
 }
 
-/// The header as versions before named columns wrote it, without the columns they had not.
-fn older(text: &str, columns: &Columns) -> String {
-    let kept: Vec<_> = columns
-        .iter()
-        .enumerate()
-        .filter(|(_, c)| !c.is_new)
-        .collect();
-    let name = |c: &wingbeat_results::columns::Column| c.former.clone().unwrap_or(c.name.clone());
-    let header: Vec<String> = kept.iter().map(|(_, c)| name(c)).collect();
-    let row = |line: &str| {
-        let fields: Vec<&str> = line.split(',').collect();
-        let fields: Vec<&str> = kept.iter().map(|(k, _)| fields[*k]).collect();
-        let plain = |f: &&str| f.strip_suffix(".0").unwrap_or(f).to_owned();
-        fields.iter().map(plain).collect::<Vec<String>>().join(",")
-    };
-    let rows: Vec<String> = text.lines().skip(1).map(row).collect();
-    format!("{}\n{}\n", header.join(","), rows.join("\n"))
-}
-
+/// Readers that know the flight refuse a table with a column under another name, without one, with one more, and with
+/// two in each other's place; all say the same.
 #[test]
-fn behaves_histories_of_older_versions_are_read() {
-    let scratch = Scratch::new("older");
-    let case = case(
-        "fruit-fly-abdomen-spring",
-        &["time.beats=1", "air.model=\"blade_element\""],
-    );
-    let records = records(&case);
-    let path = scratch.0.join("history.csv");
-    written(&case, &records, &path);
-    let mut whole = Summary::read(&case, &path, &Outcome::Finished).unwrap();
-    let columns = Columns::of(&case.setup, &records[0]).unwrap();
-    let text = fs::read_to_string(&path).unwrap();
-    fs::write(&path, older(&text, &columns)).unwrap();
-    assert!(
-        fs::read_to_string(&path)
-            .unwrap()
-            .contains("joint_coordinate_1_rad_or_m")
-    );
-    assert!(
-        fs::read_to_string(&path)
-            .unwrap()
-            .contains("leak_velocity_m_per_s")
-    );
-    let back = read(&path, &case);
-    for (a, b) in records.iter().zip(&back) {
-        assert_eq!(a.joints, b.joints);
-        // Counted again from the forces by the rule they were counted with.
-        assert_eq!(a.air_impulse, b.air_impulse);
-        assert_eq!(a.inviscid_impulse, b.inviscid_impulse);
-        assert_eq!(a.positive_work, b.positive_work);
-        assert!(b.accelerations.iter().all(|x| x.linear.is_nan()));
-    }
-    let mut summary = Summary::read(&case, &path, &Outcome::Finished).unwrap();
-    // The work of dampers was not in the file: it is counted from row to row, and no longer integrated with the motion.
-    let [counted, integrated] = [&summary, &whole].map(|s| s.joint_residual_relative);
-    assert!(
-        (counted - integrated).abs() < 1e-3,
-        "{counted} {integrated}"
-    );
-    summary.joint_residual_relative = integrated;
-    for (counted, integrated) in summary.beats.iter_mut().zip(&whole.beats) {
-        let power = integrated.mean.power_watt;
-        assert!((counted.mean.power_watt / power - 1.0).abs() < 1e-4);
-        counted.mean.power_watt = power;
-    }
-    for beat in &mut whole.beats {
-        [beat.mean.lift_coefficient, beat.mean.thrust_coefficient] = [None; 2]; // not in the file
-    }
-    assert_eq!(summary, whole);
-}
-
-#[test]
-fn refuses_histories_with_columns_missing_or_of_another_flight() {
+fn refuses_histories_of_other_builds() {
     let scratch = Scratch::new("foreign");
     let case = case("fruit-fly-blade", &["time.beats=0.05"]);
     let path = scratch.0.join("history.csv");
     written(&case, &records(&case), &path);
     let text = fs::read_to_string(&path).unwrap();
-    for (old, new, named) in [
+    let rows = |of: &dyn Fn(&str) -> String| text.lines().map(of).collect::<String>();
+    let without_last = |line: &str| line.rsplit_once(',').unwrap().0.to_owned() + "\n";
+    let last = text.lines().next().unwrap().rsplit_once(',').unwrap().1;
+    for (changed, found) in [
         (
-            "hinge_work_joule",
-            "hinge_work_calorie",
-            "`hinge_work_joule`",
+            text.replacen("hinge_work_joule", "hinge_work_calorie", 1),
+            "`hinge_work_joule` is missing",
         ),
+        (rows(&without_last), &format!("`{last}` is missing")),
+        (rows(&|line| format!("{line},mood\n")), "`mood` is unknown"),
         (
-            "net_flux_residual_m_per_s\n",
-            "net_flux_residual_m_per_s,mood\n",
-            "`mood`",
+            text.replacen("time_s", "first", 1)
+                .replacen("body_x_m", "time_s", 1)
+                .replacen("first", "body_x_m", 1),
+            "`body_x_m` has another place",
         ),
     ] {
-        let mut changed = text.replacen(old, new, 1);
-        if new.contains(",mood") {
-            changed = changed
-                .replace("\n", ",0.0\n")
-                .replacen("mood,0.0", "mood", 1);
-        }
         fs::write(&path, changed).unwrap();
         let problem = Records::open(&path, &case.setup).err().unwrap().to_string();
-        assert!(
-            problem.contains(named) && problem.contains("history.csv"),
-            "{problem}"
-        );
-        let problem = Summary::read(&case, &path, &Outcome::Finished).unwrap_err();
-        assert!(problem.to_string().contains(named), "{problem}");
+        for words in [found, "history.csv", "another build", "wingbeat run"] {
+            assert!(problem.contains(words), "{words}: {problem}");
+        }
+        let of_summary = Summary::read(&case, &path, &Outcome::Finished).unwrap_err();
+        assert_eq!(of_summary.to_string(), problem);
     }
 }
 

@@ -3,6 +3,7 @@
 use crate::flights::{flown, preset, says};
 use std::path::Path;
 use wingbeat_case::LoadedCase;
+use wingbeat_flight::DoubtKind;
 use wingbeat_results::summary::Verdict;
 
 /// Wings that pass through each other are named by every air, and so is a lift that no animal has.
@@ -61,6 +62,45 @@ fn behaves_noise_in_angles_is_named_and_a_fit_takes_it_out() {
     assert!(!says(&noisy, "take smaller steps"), "{:?}", noisy.warnings);
     let fitted = fly(&table(", harmonics=1"));
     assert!(!says(&fitted, "scatter"), "{:?}", fitted.warnings);
+}
+
+/// Whatever is doubted of a setup before it is flown stands in its summary, too; what makes no number worse leaves the
+/// verdict as it is.
+#[test]
+fn behaves_summaries_say_what_is_doubted_of_the_setup() {
+    let angle = |k: i32| 60.0 * (std::f64::consts::TAU * f64::from(k % 200) / 200.0).sin();
+    let rows = (0..=200).filter(|k| !(51..=99).contains(k));
+    let rows: Vec<String> =
+        (rows.map(|k| format!("[{}, {}]", f64::from(k) / 200.0, angle(k)))).collect();
+    let gap = format!(
+        "wing.right.motion.phi={{table={{rows_deg=[{}]}}}}",
+        rows.join(",")
+    );
+    let gust = "air.gust=[{ amplitude_m_s = [0, 0, 0.1], duration_s = 1, start_s = 100 }]";
+    let plain = flown(&preset("fruit-fly-blade", &["time.beats=0.1"])).verdict;
+    for (change, kind, is_limit) in [
+        (&gap[..], DoubtKind::GapsInAngles, true),
+        (gust, DoubtKind::LateGusts, false),
+        (
+            "air.blade.rotation=\"sane_dickinson\"",
+            DoubtKind::JumpingRotation,
+            false,
+        ),
+    ] {
+        let case = preset("fruit-fly-blade", &[change, "time.beats=0.1"]);
+        let doubts = case.setup.doubts();
+        assert!(doubts.iter().any(|d| d.kind == kind), "{doubts:?}");
+        let summary = flown(&case);
+        for doubt in doubts {
+            assert!(
+                says(&summary, &doubt.said),
+                "{doubt:?}: {:?}",
+                summary.warnings
+            );
+        }
+        let least = if is_limit { Verdict::Amber } else { plain };
+        assert_eq!(summary.verdict, least.max(plain), "{:?}", summary.warnings);
+    }
 }
 
 /// Bodies without wings have no sections, strips or measured coefficients to speak of.

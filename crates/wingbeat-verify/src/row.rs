@@ -53,8 +53,8 @@ pub struct Row {
     pub reference: Option<f64>,
     /// Where the reference comes from.
     pub source: Cow<'static, str>,
-    /// Ours, in [`Self::unit`].
-    #[serde(alias = "ours", deserialize_with = "number")]
+    /// The same as computed, in [`Self::unit`].
+    #[serde(deserialize_with = "number")]
     pub computed: f64,
     /// Half-width of our own uncertainty, from refinement, in [`Self::unit`]; none for exact statements.
     pub uncertainty: Option<f64>,
@@ -114,7 +114,7 @@ fn number<'de, D: serde::Deserializer<'de>>(from: D) -> Result<f64, D::Error> {
 }
 
 impl Row {
-    /// Ours against a reference, as a report until [`Self::within`] judges it.
+    /// What was computed against a reference, as a report until [`Self::within`] judges it.
     pub fn new(quantity: impl Into<String>, unit: &'static str, computed: f64) -> Self {
         Self {
             quantity: quantity.into(),

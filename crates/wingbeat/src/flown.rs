@@ -65,7 +65,7 @@ impl From<&BeatMeans> for Beat {
             lift_over_weight: mean.lift_over_weight.unwrap_or(f64::NAN),
             thrust_newton: mean.thrust_newton,
             power_watt: mean.power_watt,
-            positive_power_watt: mean.positive_power_watt.unwrap_or(f64::NAN),
+            positive_power_watt: mean.positive_power_watt,
             lift_coefficient: mean.lift_coefficient.unwrap_or(f64::NAN),
             thrust_coefficient: mean.thrust_coefficient.unwrap_or(f64::NAN),
         }

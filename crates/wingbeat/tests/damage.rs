@@ -6,6 +6,8 @@ use std::path::{Path, PathBuf};
 
 mod support;
 
+use wingbeat::results::{checkpoint, manifest::sha256};
+
 use support::{Scratch, flown, wingbeat};
 
 /// A short flight with wakes.
@@ -289,6 +291,80 @@ fn agrees_velocity_of_the_air_with_the_flight_and_refuses_damage() {
         &["velocity", "bare", "--point", "0,0,0"],
         "no vortex lattice",
     );
+}
+
+/// Writes a history into the result as another build would have: its checksums in the manifest and in the checkpoint.
+fn put_history(run: &Path, history: &str) {
+    let sum = sha256(history.as_bytes());
+    let path = run.join("manifest.json");
+    let mut manifest: serde_json::Value =
+        serde_json::from_slice(&fs::read(&path).unwrap()).unwrap();
+    manifest["history_bytes"] = history.len().into();
+    manifest["history_sha256"] = sum.clone().into();
+    fs::write(path, manifest.to_string()).unwrap();
+    let path = run.join("checkpoint.bin");
+    let case = manifest["case_sha256"].as_str().unwrap();
+    let (header, state) = checkpoint::decode(&path, &fs::read(&path).unwrap(), case).unwrap();
+    let header = checkpoint::Header {
+        history_bytes: history.len() as u64,
+        history_sha256: sum,
+        ..header
+    };
+    fs::write(path, checkpoint::encode(&header, &state)).unwrap();
+    fs::write(run.join("history.csv"), history).unwrap();
+}
+
+/// Results of other builds, whole by their own checksums: of another format, with a column under another name, without
+/// one. Whatever reads them says the same.
+#[test]
+fn refuses_results_of_other_builds_in_every_command() {
+    const AGAIN: &str =
+        "another build of wingbeat wrote this result; fly the case.toml of this result again";
+    let scratch = Scratch::new("other-build");
+    let dir = &scratch.0;
+    flown(dir, &CASE);
+    let run = dir.join("run");
+    let manifest = fs::read_to_string(run.join("manifest.json")).unwrap();
+    for (change, found) in [
+        (["\"format\"", "\"mode\""], "the result has no format"),
+        (
+            ["\"format\": 1", "\"format\": 0"],
+            "the result has format 0",
+        ),
+    ] {
+        fs::write(
+            run.join("manifest.json"),
+            manifest.replacen(change[0], change[1], 1),
+        )
+        .unwrap();
+        for args in COMMANDS.iter().map(|c| c.0).chain([&["resume", "run"][..]]) {
+            clear(dir);
+            refused(dir, args, found);
+            refused(dir, args, AGAIN);
+        }
+    }
+    let manifest = manifest.replacen("\"finished\"", "\"interrupted\"", 1);
+    fs::write(run.join("manifest.json"), manifest).unwrap();
+    let text = fs::read_to_string(run.join("history.csv")).unwrap();
+    let rows = text.lines().map(|row| row.rsplit_once(',').unwrap());
+    let removed: String = rows.map(|(rest, _)| format!("{rest}\n")).collect();
+    let renamed = text.replacen("hinge_work_joule", "hinge_work_calorie", 1);
+    for (history, found) in [
+        (removed, "is missing"),
+        (renamed, "`hinge_work_joule` is missing"),
+    ] {
+        put_history(&run, &history);
+        let readers = COMMANDS
+            .iter()
+            .map(|c| c.0)
+            .filter(|args| *args != VELOCITY); // reads the state alone
+        for args in readers.chain([&["resume", "run"][..]]) {
+            clear(dir);
+            refused(dir, args, "history.csv");
+            refused(dir, args, found);
+            refused(dir, args, AGAIN);
+        }
+    }
 }
 
 /// One byte of each file of a result changed at a time: whatever is done, nothing panics.

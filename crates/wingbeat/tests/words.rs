@@ -42,16 +42,6 @@ const PHRASES: &[(&str, &str)] = &[
 /// Where such a word stays, and why.
 const EXCEPT: &[(&str, &str, &str)] = &[
     (
-        "results/src/table/balances.rs",
-        "leak",
-        "the column's name in older results",
-    ),
-    (
-        "verify/src/row.rs",
-        "ours",
-        "the field's name in older reports",
-    ),
-    (
         "model/src/kinematics/convert.rs",
         "ours",
         "our convention of angles beside others",

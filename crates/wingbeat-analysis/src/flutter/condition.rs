@@ -2,7 +2,7 @@
 
 use wingbeat_flight::{FlightSetup, FlightState, Simulation};
 
-use super::disturbance::{Disturbance, Stations, images};
+use super::disturbance::{ModalVelocities, Stations, images};
 use super::response::{Response, difference};
 use super::sampling::Sampling;
 use super::settings::FlutterSettings;
@@ -34,7 +34,7 @@ pub struct Condition {
     pub response: Realisation,
     /// Difference to twice the response to half the disturbance, over the response \[1\].
     pub nonlinearity: f64,
-    /// Disturbance of this response, as [`FlutterSettings::disturbance`] or smaller \[1\].
+    /// ModalVelocities of this response, as [`FlutterSettings::disturbance`] or smaller \[1\].
     pub disturbance: f64,
     /// Length of this response \[s\].
     pub length: f64,
@@ -72,7 +72,7 @@ pub fn condition(
     let (state, steady) = rig.to_steady(settings)?;
     progress::task("response", 0, 0);
     let images = images(&rig, &state, &steady);
-    let disturbance = Disturbance::new(&rig, (&state, &images), settings)?;
+    let disturbance = ModalVelocities::new(&rig, (&state, &images), settings)?;
     let step = rig.setup.time.step;
     let sampling = Sampling::new(step, &steady, settings)?;
     let length = sampling.length(step);

@@ -14,11 +14,11 @@ const STATIONS: usize = 4;
 
 /// Velocities to be added, wing by wing.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Disturbance {
+pub(crate) struct ModalVelocities {
     velocity: Vec<Vec<f64>>,
 }
 
-impl Disturbance {
+impl ModalVelocities {
     /// The leading modes of each elastic wing about `state`, each of the amplitude that `settings` has; mirror
     /// images of wings before them (`image_of`) have theirs mirrored, or the opposite of that.
     ///

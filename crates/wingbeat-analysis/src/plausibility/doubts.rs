@@ -1,7 +1,6 @@
 //! What of an estimate is implausible: a number outside wide limits.
 
-use wingbeat_blade::Rotation;
-use wingbeat_flight::{AirModel, AirOptions, FlightSetup, MotionMode, doubtful_masses};
+use wingbeat_flight::{AirModel, AirOptions, DoubtKind, FlightSetup, MotionMode};
 use wingbeat_math::DVec3;
 use wingbeat_model::{DeformingMesh, Wing};
 
@@ -190,11 +189,7 @@ pub(super) fn doubts(setup: &FlightSetup, e: &Estimate) -> Vec<String> {
     bodies(setup, &mut list);
     let Doubts(mut list) = list;
     list.extend(air_from_behind(setup, e));
-    list.extend(setup.gusts_that_never_arrive());
-    list.extend(setup.starts_apart());
     list.extend(drag_of_small_insects(setup, e));
-    list.extend(jumping_rotation(setup));
-    list.extend(doubtful_masses(setup));
     let mut said = std::collections::BTreeSet::new();
     for (wing, w) in setup.animal.wings.iter().zip(&e.wings) {
         let mut own = wing_doubts(setup, wing, w);
@@ -203,22 +198,12 @@ pub(super) fn doubts(setup: &FlightSetup, e: &Estimate) -> Vec<String> {
         list.extend(own.into_iter().map(name));
     }
     list.extend(against_each_other(&setup.animal.wings));
-    // A stroke with the wrong sign has the trailing edge ahead, however right the feathering is.
-    if !strokes_against_each_other(&setup.animal.wings) {
-        list.extend(setup.trailing_edges_ahead());
-    }
-    list.extend(setup.scattered_angles());
-    list.extend(setup.gaps_in_angles());
-    list.extend(setup.crossing_wings().into_iter().map(|c| c.said));
-    list.extend(setup.wings_inside_parts());
-    list.extend(setup.roots_on_bodies());
-    list.extend(setup.unjoined_roots());
-    list.extend(setup.one_sided_leading_edges());
-    list.extend(setup.long_steps_one_way());
-    list.extend(setup.tips_of_attached_wings());
-    list.extend(setup.wide_bound_core());
     list.extend(cut_wake(setup));
-    list.extend(setup.vortex_lift_of_swept_edges());
+    // A stroke with the wrong sign has the trailing edge ahead, however right the feathering is.
+    let is_explained = strokes_against_each_other(&setup.animal.wings);
+    let of_setup = setup.doubts().into_iter();
+    let of_setup = of_setup.filter(|d| !(is_explained && d.kind == DoubtKind::EdgeAhead));
+    list.extend(of_setup.map(|d| d.said));
     list
 }
 
@@ -250,16 +235,6 @@ fn air_from_behind(setup: &FlightSetup, e: &Estimate) -> Option<String> {
             false => "correct the signs of flight.velocity_m_s and air.stream_m_s, or turn the animal (flight.yaw_deg)".to_owned(),
         };
         format!("the air comes from behind at {} m/s: {remedy}", rounded(-speed))
-    })
-}
-
-/// Blade elements whose force of feathering jumps: no derivative of them is known.
-pub fn jumping_rotation(setup: &FlightSetup) -> Option<String> {
-    let AirModel::BladeElement(air) = &setup.air else {
-        return None;
-    };
-    (air.blade.rotation == Rotation::SaneDickinson).then(|| {
-        "air.blade.rotation = sane_dickinson has a force that jumps where the air along a chord reverses while it meets the wing broadside: derivatives, modes of flight and gains of feedback are differences across these jumps, and change with the time steps without end (look at them with other --steps); \"circulation\" is smooth".to_owned()
     })
 }
 

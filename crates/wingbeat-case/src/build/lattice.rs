@@ -1,8 +1,8 @@
 //! The settings of the vortex lattice.
 
 use wingbeat_air::{
-    AIR_VISCOSITY, AirError, AirSettings, CoreModel, EdgeKind, Friction, LeadingEdge,
-    OVERLAP_SLOPE, ParticleSettings, SectionDrag, SheddingKinds, VortexLift,
+    AirError, AirSettings, CoreModel, EdgeKind, Friction, LeadingEdge, OVERLAP_SLOPE,
+    ParticleSettings, SectionDrag, SheddingKinds, VortexLift,
 };
 use wingbeat_flight::AirOptions;
 use wingbeat_model::Animal;
@@ -192,8 +192,7 @@ fn bound_core(chord: &Chord, case: &CoreCase, wake_core: CoreModel) -> Built<Cor
         _ => return chord.core("air.bound_core", &case),
     };
     let own = core.viscosity_m2_s.replace(spreading);
-    // Resolved cases of older versions name that of air, whatever the wakes have.
-    let Some(own) = own.filter(|own| *own != spreading && *own != AIR_VISCOSITY) else {
+    let Some(own) = own.filter(|own| *own != spreading) else {
         return chord.core("air.bound_core", &case);
     };
     let (allowed, remedy) = match wake_core.viscosity() {

@@ -64,6 +64,17 @@ pub(super) enum Anchor {
     End,
 }
 
+impl Anchor {
+    /// Left edge of a text of this width whose point is at `x` \[points\].
+    pub fn left(self, x: f64, width: f64) -> f64 {
+        match self {
+            Self::Start => x,
+            Self::Middle => x - width / 2.0,
+            Self::End => x - width,
+        }
+    }
+}
+
 /// One mark.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Mark {

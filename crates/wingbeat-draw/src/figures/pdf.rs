@@ -6,7 +6,7 @@ use pdf_writer::types::LineJoinStyle;
 use pdf_writer::{Content, Finish, Name, Pdf, Rect, Ref};
 use tiny_skia::{PathBuilder, PathSegment};
 
-use super::drawing::{Anchor, Colour, Drawing, GROUND, Mark, Stroke};
+use super::drawing::{Colour, Drawing, GROUND, Mark, Stroke};
 use super::font;
 
 impl Drawing {
@@ -88,12 +88,7 @@ fn draw(to: &mut Content, mark: &Mark, opacities: &mut BTreeSet<u8>) {
             colour,
             anchor,
         } => {
-            let width = font::width(text, *size);
-            let left = match anchor {
-                Anchor::Start => at[0],
-                Anchor::Middle => at[0] - width / 2.0,
-                Anchor::End => at[0] - width,
-            };
+            let left = anchor.left(at[0], font::width(text, *size));
             opacities.insert(100);
             to.set_parameters(Name(name(100).as_bytes()));
             paint(to, *colour);
@@ -166,6 +161,7 @@ fn pen(to: &mut Content, stroke: &Stroke) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::figures::drawing::Anchor;
 
     #[test]
     fn exact_marks_stand_where_the_drawing_has_them() {

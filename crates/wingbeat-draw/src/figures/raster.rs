@@ -4,7 +4,7 @@ use tiny_skia::{
     Color, FillRule, LineJoin, Paint, Path, PathBuilder, Pixmap, StrokeDash, Transform,
 };
 
-use super::drawing::{Anchor, Colour, Drawing, Mark, Stroke};
+use super::drawing::{Colour, Drawing, Mark, Stroke};
 use super::font;
 
 /// Pixels, three bytes each.
@@ -61,12 +61,7 @@ fn draw(pixels: &mut Pixmap, mark: &Mark, transform: Transform) {
             colour,
             anchor,
         } => {
-            let width = font::width(text, *size);
-            let left = match anchor {
-                Anchor::Start => at[0],
-                Anchor::Middle => at[0] - width / 2.0,
-                Anchor::End => at[0] - width,
-            };
+            let left = anchor.left(at[0], font::width(text, *size));
             let mut builder = PathBuilder::new();
             font::outline(text, *size, [left, at[1]], &mut builder);
             if let Some(path) = builder.finish() {

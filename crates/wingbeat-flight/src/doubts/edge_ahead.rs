@@ -58,14 +58,14 @@ struct Beat {
 
 /// What is doubted of a wing, and what to look at.
 #[derive(PartialEq)]
-struct Doubt {
+struct EdgeDoubt {
     what: String,
     remedy: &'static str,
 }
 
 impl Beat {
     /// Which strokes move the trailing edge ahead.
-    fn turned_round(&self) -> Option<Doubt> {
+    fn turned_round(&self) -> Option<EdgeDoubt> {
         const REMEDY: &str = "in the convention of this program psi is below 0 in the downstroke and above 0 in the upstroke of a \
              hovering animal; a rotation angle counted from the stroke plane, 0 to 180 deg, becomes psi by factor = -1 and offset_deg = 90 \
              in its table, or by offset_deg = -90 (ANGLES.md)";
@@ -81,7 +81,7 @@ impl Beat {
                 )
             })
             .collect();
-        (!said.is_empty()).then(|| Doubt {
+        (!said.is_empty()).then(|| EdgeDoubt {
             what: format!(
                 "the trailing edge is ahead in the {}",
                 said.join(" and the ")
@@ -92,7 +92,7 @@ impl Beat {
 
     /// What is doubted. A wing that feathers far and has about the same angle at its fastest both ways feathers
     /// while its stroke turns back, whatever its mean angle; angles of another convention differ most then.
-    fn doubt(&self) -> Option<Doubt> {
+    fn doubt(&self) -> Option<EdgeDoubt> {
         let feathers = self.feathers > FEATHERS;
         let [down, up] = self.strokes;
         let is_broadside =
@@ -106,10 +106,10 @@ impl Beat {
     }
 
     /// What is said of a wing that feathers far, and yet strokes broadside both ways, or in their mean.
-    fn broadside(&self) -> Doubt {
+    fn broadside(&self) -> EdgeDoubt {
         // Without the sign of a zero.
         let psi = self.strokes.map(|s| s.psi.to_degrees().round() + 0.0);
-        Doubt {
+        EdgeDoubt {
             what: format!(
                 "the wing stands broadside to its way where it is fastest, psi = {:.0} deg in the downstroke and {:.0} deg in the upstroke, though it feathers by {:.0} deg to either side",
                 psi[0],
@@ -140,7 +140,7 @@ impl FlightSetup {
         let beating =
             wings.filter(|(w, wing)| !self.has_own_joint(*w) && wing.motion.frequency > 0.0);
         let doubts = beating.filter_map(|(_, w)| Some((self.beat(w).doubt()?, &w.name[..])));
-        let say = |(doubt, wings): (Doubt, Vec<&str>)| {
+        let say = |(doubt, wings): (EdgeDoubt, Vec<&str>)| {
             let wings = names(wings, ", ");
             format!("{} (wings {wings}): {}", doubt.what, doubt.remedy)
         };

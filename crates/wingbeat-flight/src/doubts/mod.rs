@@ -1,5 +1,5 @@
-//! Doubts about a setup, said before it is flown: [`FlightSetup`](crate::FlightSetup) is asked for each, and answers
-//! by what is doubted, and what to do about it. They change nothing of a flight.
+//! Doubts about a setup, said before it is flown: [`FlightSetup::doubts`](crate::FlightSetup::doubts) lists all, and
+//! there is a method for each, which answers by what is doubted, and what to do about it. They change nothing of a flight.
 //!
 //! | what is doubted | module |
 //! |---|---|
@@ -12,6 +12,7 @@
 //! | vorticity of one sign from leading edges, tips of attached wings | `shed_by_motion` |
 //! | cores of wings that are wide beside the panels | `bound_core` |
 //! | gusts that a flight never meets | `late_gusts` |
+//! | forces of blade elements that jump | `jumps` |
 //!
 //! `air_past`: the undisturbed air past a wing in its prescribed motion, by which the motion is judged. `said`: names
 //! of wings, and those of which the same is said.
@@ -20,7 +21,9 @@ mod air_past;
 mod bound_core;
 mod edge_ahead;
 mod impossible;
+mod jumps;
 mod late_gusts;
+mod list;
 mod on_bodies;
 mod said;
 mod scattered;
@@ -29,3 +32,4 @@ mod starts_apart;
 mod unjoined;
 
 pub use impossible::CrossingWings;
+pub use list::{Doubt, DoubtKind};

@@ -78,6 +78,7 @@ pub fn export(
         manifest: dir.manifest()?,
         dir,
     };
+    source.columns()?;
     dir.check_folder(into)?;
     make_folder(into)?;
     let particles = format == Format::Vtkhdf

@@ -178,7 +178,7 @@ impl FrameArrays {
         layout.note_group("frames", "axes", axes);
         let surface = vec!["circulation_m2_per_s", "pressure_jump_pascal", "surface"];
         let mut wake = vec!["circulation_m2_per_s", "age_rows", "sheet"];
-        // Older frames have no such array.
+        // Of flights with particles alone.
         let last = Frame::part(source.dir.path(), steps[n - 1], 1)?;
         if last.cells.contains_key(SHARED) {
             wake.push(SHARED);

@@ -36,7 +36,7 @@ impl BeatMeans {
             lift_over_weight: over_weight(setup, lift_newton),
             thrust_newton: force.x,
             power_watt: (to.driving_work() - from.driving_work()) / period,
-            positive_power_watt: Some((to.positive_work - from.positive_work) / period),
+            positive_power_watt: (to.positive_work - from.positive_work) / period,
             lift_coefficient: coefficient(lift_newton),
             thrust_coefficient: coefficient(force.x),
             inviscid_lift_newton: of_lattice(from.inviscid_impulse - to.inviscid_impulse),
@@ -140,7 +140,7 @@ mod tests {
             assert!((lift - 0.5).abs() < 1e-14, "{lift}"); // some roundings
             assert!((beat.thrust_newton - 1.0).abs() < 1e-14);
             assert_eq!(beat.power_watt, 3.0);
-            assert_eq!(beat.positive_power_watt, Some(5.0));
+            assert_eq!(beat.positive_power_watt, 5.0);
             assert_eq!(beat.lift_coefficient, Some(beat.lift_newton / 2.0));
             assert_eq!(beat.thrust_coefficient, Some(beat.thrust_newton / 2.0));
             assert_eq!(beat.lift_by_impulse_newton, Some(3.0));

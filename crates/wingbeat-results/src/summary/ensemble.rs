@@ -221,7 +221,7 @@ mod tests {
                 lift_over_weight: Some(x / 2.0),
                 thrust_newton: 0.0,
                 power_watt: 1.0,
-                positive_power_watt: Some(2.0),
+                positive_power_watt: 2.0,
                 lift_coefficient: Some(*x),
                 thrust_coefficient: Some(0.0),
                 inviscid_lift_newton: Some(*x),

@@ -84,8 +84,7 @@ fn along_grounds(residual: DVec3, air: &AirOptions) -> DVec3 {
 
 impl ImpulseBudget {
     /// Between two records; none without a lattice, with vortex particles, whose vorticity does not close, so
-    /// that their impulse depends on the origin, in wind that varies in space, which acts on the wakes, and of
-    /// results of older versions, which lack the account.
+    /// that their impulse depends on the origin, and in wind that varies in space, which acts on the wakes.
     pub(super) fn between(
         setup: &FlightSetup,
         [from, to]: [&Record; 2],

@@ -71,7 +71,7 @@ impl InPlay {
         self.potential.take(r.potential_energy + u.dot(weight));
         self.inner.take(inner_energy(r, mass));
         // Of air, loads and tether together: what they do to a frame is known of their sum.
-        let external = r.momentum - start.momentum - momentum_residual(r) - weight;
+        let external = r.momentum - start.momentum - r.momentum_residual_of_works - weight;
         let external = r.air_work + r.applied_work - u.dot(external);
         for work in [r.hinge_work, r.deformation_work, external] {
             self.works.take(work);
@@ -125,14 +125,6 @@ impl InPlay {
     }
 }
 
-/// Of results that do not say how works see the momentum, that of the motion.
-fn momentum_residual(r: &Record) -> DVec3 {
-    match r.momentum_residual_of_works.is_nan() {
-        true => r.momentum_residual,
-        false => r.momentum_residual_of_works,
-    }
-}
-
 /// The frame in which residuals count: C of velocity `u` [m/s], N components, and that of a body on a support.
 fn carrier(r: &Record, setup: &FlightSetup, u: DVec3) -> Carrier {
     let is_supported = is_supported(r, setup);
@@ -148,7 +140,7 @@ fn carrier(r: &Record, setup: &FlightSetup, u: DVec3) -> Carrier {
         is_supported,
         velocity,
         angular_velocity,
-        momentum: momentum_residual(r),
+        momentum: r.momentum_residual_of_works,
         angular_momentum: r.angular_momentum_residual,
     }
 }

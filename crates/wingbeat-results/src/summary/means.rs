@@ -155,7 +155,7 @@ mod tests {
                 lift_over_weight: Some(lift(k) / 2.0),
                 thrust_newton: thrust(k),
                 power_watt: 3.0,
-                positive_power_watt: Some(4.0),
+                positive_power_watt: 4.0,
                 lift_coefficient: Some(lift(k)),
                 thrust_coefficient: Some(thrust(k)),
                 inviscid_lift_newton: Some(lift(k)),

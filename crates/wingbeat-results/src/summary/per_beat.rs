@@ -30,11 +30,10 @@ pub struct PerBeat<T = f64> {
     /// Power that hinge actuators and prescribed deformation give \[W\].
     pub power_watt: T,
     /// The positive part of it, joint by joint: what actuators give that get nothing back when wings are slowed
-    /// down \[W\]; none in a summary of an older version.
-    pub positive_power_watt: Option<T>,
+    /// down \[W\].
+    pub positive_power_watt: T,
     /// Mean lift over the mean dynamic pressure on the wings, `1/2 rho int U^2 dA`, U the velocity of the feathering
-    /// axes through the undisturbed air \[1\]; none without wings that move through air of a known density, and in a
-    /// summary of an older version.
+    /// axes through the undisturbed air \[1\]; none without wings that move through air of a known density.
     pub lift_coefficient: Option<T>,
     /// The same of the force along n1 \[1\].
     pub thrust_coefficient: Option<T>,
@@ -81,7 +80,7 @@ impl<T: Copy> PerBeat<T> {
             unit: "W",
             label: Some("positive power [W]"),
             about: "mean of its positive part, joint by joint: what actuators give that get nothing back",
-            of: |m| m.positive_power_watt,
+            of: |m| Some(m.positive_power_watt),
         },
         Quantity {
             name: "lift_coefficient",
@@ -132,7 +131,7 @@ impl<T: Copy> PerBeat<T> {
             lift_over_weight: where_known(|m| m.lift_over_weight),
             thrust_newton: each(|m| m.thrust_newton),
             power_watt: each(|m| m.power_watt),
-            positive_power_watt: where_known(|m| m.positive_power_watt),
+            positive_power_watt: each(|m| m.positive_power_watt),
             lift_coefficient: where_known(|m| m.lift_coefficient),
             thrust_coefficient: where_known(|m| m.thrust_coefficient),
             inviscid_lift_newton: where_known(|m| m.inviscid_lift_newton),
@@ -174,19 +173,19 @@ mod tests {
             lift_over_weight: None,
             thrust_newton: 2.0,
             power_watt: 3.0,
-            positive_power_watt: Some(4.0),
+            positive_power_watt: 4.0,
             lift_coefficient: Some(5.0),
             thrust_coefficient: Some(6.0),
             inviscid_lift_newton: Some(7.0),
             lift_by_impulse_newton: None,
         };
         let other = PerBeat {
-            positive_power_watt: None,
+            lift_coefficient: None,
             ..means
         };
         let sum = PerBeat::joined([&means, &other], |x| x.iter().sum::<f64>());
         assert_eq!([sum.lift_newton, sum.thrust_newton], [2.0, 4.0]);
-        assert_eq!(sum.positive_power_watt, None);
+        assert_eq!(sum.lift_coefficient, None);
         assert_eq!(sum.inviscid_lift_newton, Some(14.0));
         let labels: Vec<&str> = means.beside(&other).iter().map(|row| row.0).collect();
         assert_eq!(labels[..2], ["lift [N]", "forward force [N]"]);

@@ -1,13 +1,17 @@
 //! How far the results can be trusted.
 
+mod doubts;
 mod impulse;
 mod lattice;
 mod motion;
 mod wakes;
 
-use wingbeat_flight::{AirModel, BladeOptions, FlightSetup, FormulationChoice, MotionMode};
+use wingbeat_flight::{
+    AirModel, BladeOptions, Doubt, DoubtKind, FlightSetup, FormulationChoice, MotionMode,
+};
 use wingbeat_math::DVec3;
 
+use self::doubts::Place;
 pub(super) use self::motion::flown_crossings;
 use super::numbers::Summary;
 use super::verdict::Warnings;
@@ -36,15 +40,22 @@ const SMOOTH: f64 = 5e-5;
 const ELASTIC_MOMENTUM: f64 = 1e-4;
 
 /// What a reader should know before using the numbers. `momentum`: residuals of the momentum while a support has the
-/// body and in free flight \[1\].
-pub(super) fn warnings(setup: &FlightSetup, summary: &Summary, momentum: [f64; 2]) -> Warnings {
+/// body and in free flight \[1\]. `doubts`: those of the setup.
+pub(super) fn warnings(
+    setup: &FlightSetup,
+    doubts: &[Doubt],
+    summary: &Summary,
+    momentum: [f64; 2],
+) -> Warnings {
     let mut list = Warnings::default();
-    balances(setup, summary, momentum, &mut list);
+    let scatters = doubts.iter().any(|d| d.kind == DoubtKind::ScatteredAngles);
+    balances(setup, summary, (momentum, scatters), &mut list);
     passive_joints(summary, &mut list);
-    let masses = wingbeat_flight::doubtful_masses(setup);
-    masses.into_iter().for_each(|text| list.limit(text));
-    motion::warnings(setup, summary, &mut list);
-    air(setup, summary, &mut list);
+    let mut causes = Warnings::default();
+    doubts::say(setup, doubts, Place::Cause, &mut causes);
+    list.put_first(causes);
+    motion::warnings(setup, doubts, summary, &mut list);
+    air(setup, doubts, summary, &mut list);
     deformation(setup, &mut list);
     feedback(setup, summary, &mut list);
     euler_angles(setup, summary, &mut list);
@@ -54,14 +65,14 @@ pub(super) fn warnings(setup: &FlightSetup, summary: &Summary, momentum: [f64; 2
 }
 
 /// What the model of the air leaves out.
-fn air(setup: &FlightSetup, summary: &Summary, list: &mut Warnings) {
+fn air(setup: &FlightSetup, doubts: &[Doubt], summary: &Summary, list: &mut Warnings) {
     match &setup.air {
         AirModel::None => list.note(
             "There is no air: this is the motion that weight and wing inertia alone give."
                 .to_owned(),
         ),
         AirModel::VortexLattice(air) => {
-            lattice::warnings(setup, air, summary, list);
+            lattice::warnings(setup, doubts, air, summary, list);
             impulse::warnings(setup, &air.lattice, summary, list);
             wakes::warnings(setup, &air.lattice, summary, list);
         }
@@ -213,11 +224,15 @@ fn feedback(setup: &FlightSetup, summary: &Summary, list: &mut Warnings) {
 /// and where it is regularised, and elastic wings are of second order in the step. The momentum of a tethered
 /// animal, or of one while it is held, follows from its prescribed motion: what is open there is the quadrature of
 /// the support's reaction, which measures how well the steps follow that motion.
-fn balances(setup: &FlightSetup, summary: &Summary, momentum: [f64; 2], list: &mut Warnings) {
+fn balances(
+    setup: &FlightSetup,
+    summary: &Summary,
+    (momentum, scatters): ([f64; 2], bool),
+    list: &mut Warnings,
+) {
     let is_smooth = !setup.air.keeps_wake() && !setup.animal.is_elastic();
     let energy = if is_smooth { SMOOTH } else { OPEN };
     // Through samples that scatter wings beat with the noise, which smaller steps follow.
-    let scatters = !setup.scattered_angles().is_empty();
     let scattered = "the samples of wing angles scatter, which smaller steps do not mend";
     let motion = match (is_free_and_elastic_by_momenta(setup), scatters) {
         (true, _) => {

@@ -47,6 +47,15 @@ impl Warnings {
         self.0.push((Verdict::Green, text.into()));
     }
 
+    /// What makes this of the flight; a fault comes first.
+    pub(super) fn add(&mut self, verdict: Verdict, text: String) {
+        match verdict {
+            Verdict::Green => self.note(text),
+            Verdict::Amber => self.limit(text),
+            Verdict::Red => self.fault(text),
+        }
+    }
+
     /// What limits trust.
     pub(super) fn limit(&mut self, text: impl Into<String>) {
         self.0.push((Verdict::Amber, text.into()));
@@ -55,6 +64,11 @@ impl Warnings {
     /// The same, where it comes before all that is said so far.
     pub(super) fn limit_first(&mut self, text: impl Into<String>) {
         self.0.insert(0, (Verdict::Amber, text.into()));
+    }
+
+    /// Puts others before all that is said so far.
+    pub(super) fn put_first(&mut self, others: Self) {
+        self.0.splice(..0, others.0);
     }
 
     /// What forbids trust; it comes first.

@@ -125,16 +125,16 @@ impl Summary {
     /// Power over the mass, of the mean or of the last beat; none where nothing is driven.
     fn specific_power(&self) -> Option<String> {
         let last = self.beats.last()?;
-        let of_last = |b: &BeatMeans| Some([b.mean.power_watt, b.mean.positive_power_watt?]);
+        let of_last = |b: &BeatMeans| [b.mean.power_watt, b.mean.positive_power_watt];
         let (powers, of) = match &self.means {
             Some(m) => (
                 [
                     m.estimate.power_watt.mean,
-                    m.estimate.positive_power_watt?.mean,
+                    m.estimate.positive_power_watt.mean,
                 ],
                 "the mean".to_owned(),
             ),
-            None => (of_last(last)?, format!("beat {}", last.beat)),
+            None => (of_last(last), format!("beat {}", last.beat)),
         };
         let [all, positive] = powers.map(|p| alone(p / self.mass_kg, "W/kg"));
         (powers[1] > 0.0).then(|| {

@@ -29,8 +29,7 @@ pub(super) const ENERGIES: &[Quantity] = &[
         Unit::Joule,
         "work of actuators and of prescribed deformation so far where it is positive, joint by joint: what is given if nothing comes back",
         |r, _, _| Real(&mut r.positive_work),
-    )
-    .new_here(),
+    ),
     scalar(
         "air_work",
         Unit::Joule,
@@ -85,8 +84,7 @@ pub(super) const MOMENTA: &[Quantity] = &[
         "momentum less that of the start less the impulse of all external forces as works are integrated: in a frame of velocity u the energy residual is less by u times this one",
         |r, _, c| Real(&mut r.momentum_residual_of_works[c]),
     )
-    .along(Inertial, Frame::Inertial)
-    .new_here(),
+    .along(Inertial, Frame::Inertial),
     scalar(
         "angular_momentum_residual_{c}",
         Unit::AngularMomentum,
@@ -148,71 +146,62 @@ pub(super) const WAKE: &[Quantity] = &[
         "impulse of the air's force on all bodies so far, by the trapezoidal rule over the steps",
         |r, _, c| Real(&mut r.air_impulse[c]),
     )
-    .along(Inertial, Frame::Inertial)
-    .new_here(),
+    .along(Inertial, Frame::Inertial),
     scalar(
         "dynamic_impulse",
         Unit::NewtonSecond,
         "impulse of the dynamic pressure on all wings so far: 1/2 rho times the squared velocity of the feathering axis through the undisturbed air, over area and time; nothing where the density of the air is not known",
         |r, _, _| Real(&mut r.dynamic_impulse),
-    )
-    .new_here(),
+    ),
     scalar(
         "inviscid_impulse_{c}",
         Unit::NewtonSecond,
         "impulse of the air's inviscid force on all bodies so far: with the suction that pressures lack, without friction",
         |r, _, c| Real(&mut r.inviscid_impulse[c]),
     )
-    .along(Inertial, Frame::Inertial)
-    .new_here(),
+    .along(Inertial, Frame::Inertial),
     scalar(
         "impulse_created_{c}",
         Unit::Momentum,
         "impulse that surfaces have given to the vorticity so far: by its circulation, by their motion, by what they shed",
         |r, _, c| Real(&mut r.impulse_account.created[c]),
     )
-    .along(Inertial, Frame::Inertial)
-    .new_here(),
+    .along(Inertial, Frame::Inertial),
     scalar(
         "impulse_moved_{c}",
         Unit::Momentum,
         "impulse that free wakes have gained so far as they moved; with the one created it is the vortex impulse",
         |r, _, c| Real(&mut r.impulse_account.moved[c]),
     )
-    .along(Inertial, Frame::Inertial)
-    .new_here(),
+    .along(Inertial, Frame::Inertial),
     scalar(
         "impulse_converted_{c}",
         Unit::Momentum,
         "impulse gained so far where rings became particles, nothing but roundings",
         |r, _, c| Real(&mut r.impulse_account.converted[c]),
     )
-    .along(Inertial, Frame::Inertial)
-    .new_here(),
+    .along(Inertial, Frame::Inertial),
     scalar(
         "impulse_cut_{c}",
         Unit::Momentum,
         "impulse that wakes had when they were dropped, so far; it counts in the vortex impulse",
         |r, _, c| Real(&mut r.impulse_account.cut[c]),
     )
-    .along(Inertial, Frame::Inertial)
-    .new_here(),
+    .along(Inertial, Frame::Inertial),
     scalar(
         "impulse_absorbed_{c}",
         Unit::Momentum,
         "impulse that surfaces took so far from wakes that they held back; it counts in the vortex impulse",
         |r, _, c| Real(&mut r.impulse_account.absorbed[c]),
     )
-    .along(Inertial, Frame::Inertial)
-    .new_here(),
+    .along(Inertial, Frame::Inertial),
     scalar(
         "impulse_residual_{c}",
         Unit::Momentum,
         "vortex impulse and inviscid impulse together, less those of the start: nothing where wakes carry no force, in still air without a ground and without particles",
         |r, _, c| Real(&mut r.impulse_residual[c]),
     )
-    .along(Inertial, Frame::Inertial)
-    .new_here(),
+    .along(Inertial, Frame::Inertial),
     scalar(
         "wake_rings",
         Unit::Count,
@@ -238,22 +227,19 @@ pub(super) const WAKE: &[Quantity] = &[
         "ways of wake nodes (air.max_displacement_m) and strengths of particles that were limited, and leading edges that shed what they had too much: all among the regularised",
         |r, _, _| Count(&mut r.limited),
     )
-    .fold(Sum)
-    .new_here(),
+    .fold(Sum),
     scalar(
         "leading_rings",
         Unit::Count,
         "wake rings with circulation that left leading edges, with air.mirror on the half computed",
         |r, _, _| Real(&mut r.leading_rings),
     )
-    .fold(Sum)
-    .new_here(),
+    .fold(Sum),
     scalar(
         "net_flux_residual",
         Unit::MetrePerSecond,
         "largest net-flux residual of closed surfaces, a uniform normal velocity",
         |r, _, _| Real(&mut r.net_flux_residual),
     )
-    .formerly("leak_velocity", "m_per_s")
     .fold(Largest),
 ];

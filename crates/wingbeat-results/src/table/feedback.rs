@@ -63,15 +63,13 @@ pub(super) const LOOKS: &[Quantity] = &[
         Unit::Count,
         "looks of feedback so far",
         |r, _, _| Count(&mut r.looks[0]),
-    )
-    .new_here(),
+    ),
     scalar(
         "limited_looks",
         Unit::Count,
         "looks so far at which the command stood at a limit",
         |r, _, _| Count(&mut r.looks[1]),
-    )
-    .new_here(),
+    ),
 ];
 
 /// Where feedback is to bring the flyer.

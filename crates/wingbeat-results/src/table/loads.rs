@@ -50,23 +50,20 @@ pub(super) const LOOPS: &[Quantity] = &[
         "force on the child of {s}, which closes a loop",
         |r, s, c| Real(&mut r.loops[s].force[c]),
     )
-    .along(Inertial, Frame::Inertial)
-    .new_here(),
+    .along(Inertial, Frame::Inertial),
     scalar(
         "loop_{s}_moment_{c}",
         Unit::NewtonMetre,
         "moment on the child of {s}",
         |r, s, c| Real(&mut r.loops[s].moment[c]),
     )
-    .along(Child, Frame::Own)
-    .new_here(),
+    .along(Child, Frame::Own),
     scalar(
         "loop_{s}_power",
         Unit::Watt,
         "power of the actuators, springs, dampers and stops of {s}",
         |r, s, _| Real(&mut r.loops[s].power),
-    )
-    .new_here(),
+    ),
 ];
 
 pub(super) const PASSIVE: &[Quantity] = &[
@@ -75,31 +72,27 @@ pub(super) const PASSIVE: &[Quantity] = &[
         Unit::Watt,
         "power of springs, dampers and stops at all joints; what is left of the powers at hinges is that of actuators",
         |r, _, _| Real(&mut r.passive_power),
-    )
-    .new_here(),
+    ),
     scalar(
         "passive_work",
         Unit::Joule,
         "work of springs, dampers and stops at all joints so far",
         |r, _, _| Real(&mut r.passive_work),
-    )
-    .new_here(),
+    ),
 ];
 
 pub(super) const COORDINATES: &[Quantity] = &[
     scalar("joint_{s}", Unit::Coordinate, "{s}", |r, s, _| {
         Real(&mut r.joints[s][0])
     })
-    .in_frame(Frame::Joint)
-    .formerly("joint_coordinate_{s}", "rad_or_m"),
+    .in_frame(Frame::Joint),
     scalar(
         "joint_{s}_rate",
         Unit::CoordinateRate,
         "rate of the {s}",
         |r, s, _| Real(&mut r.joints[s][1]),
     )
-    .in_frame(Frame::Joint)
-    .formerly("joint_rate_{s}", "rad_or_m_per_s"),
+    .in_frame(Frame::Joint),
 ];
 
 pub(super) const DEFORMATION: &[Quantity] = &[scalar(
@@ -116,127 +109,109 @@ pub(super) const ELASTIC: &[Quantity] = &[
         "displacement from rest of the middle of the tip's chord of {s}",
         |r, s, c| Real(&mut r.elastic[s].tip[c]),
     )
-    .along(Child, Frame::Own)
-    .new_here(),
+    .along(Child, Frame::Own),
     scalar(
         "tip_{s}_twist",
         Unit::Radian,
         "twist of the tip of {s} from rest, positive like feathering",
         |r, s, _| Real(&mut r.elastic[s].twist),
-    )
-    .new_here(),
+    ),
     scalar(
         "deflection_quarter_{s}",
         Unit::Metre,
         "displacement along axis 3 from rest of the middle between leading and trailing edge at a quarter of the length of {s} from the root of its surface; a bulge between the edges is camber",
         |r, s, _| Real(&mut r.elastic[s].sections[0].deflection),
-    )
-    .new_here(),
+    ),
     scalar(
         "twist_quarter_{s}",
         Unit::Radian,
         "twist at a quarter of the length of {s} from the root of its surface from rest, positive like feathering",
         |r, s, _| Real(&mut r.elastic[s].sections[0].twist),
-    )
-    .new_here(),
+    ),
     scalar(
         "camber_quarter_{s}",
         Unit::One,
         "camber at a quarter of the length of {s} from the root of its surface: largest height over the chord, less that at rest, positive towards -axis 3 like prescribed camber",
         |r, s, _| Real(&mut r.elastic[s].sections[0].camber),
-    )
-    .new_here(),
+    ),
     scalar(
         "deflection_half_{s}",
         Unit::Metre,
         "displacement along axis 3 from rest of the middle between leading and trailing edge at half of the length of {s} from the root of its surface; a bulge between the edges is camber",
         |r, s, _| Real(&mut r.elastic[s].sections[1].deflection),
-    )
-    .new_here(),
+    ),
     scalar(
         "twist_half_{s}",
         Unit::Radian,
         "twist at half of the length of {s} from the root of its surface from rest, positive like feathering",
         |r, s, _| Real(&mut r.elastic[s].sections[1].twist),
-    )
-    .new_here(),
+    ),
     scalar(
         "camber_half_{s}",
         Unit::One,
         "camber at half of the length of {s} from the root of its surface: largest height over the chord, less that at rest, positive towards -axis 3 like prescribed camber",
         |r, s, _| Real(&mut r.elastic[s].sections[1].camber),
-    )
-    .new_here(),
+    ),
     scalar(
         "deflection_three_quarters_{s}",
         Unit::Metre,
         "displacement along axis 3 from rest of the middle between leading and trailing edge at three quarters of the length of {s} from the root of its surface; a bulge between the edges is camber",
         |r, s, _| Real(&mut r.elastic[s].sections[2].deflection),
-    )
-    .new_here(),
+    ),
     scalar(
         "twist_three_quarters_{s}",
         Unit::Radian,
         "twist at three quarters of the length of {s} from the root of its surface from rest, positive like feathering",
         |r, s, _| Real(&mut r.elastic[s].sections[2].twist),
-    )
-    .new_here(),
+    ),
     scalar(
         "camber_three_quarters_{s}",
         Unit::One,
         "camber at three quarters of the length of {s} from the root of its surface: largest height over the chord, less that at rest, positive towards -axis 3 like prescribed camber",
         |r, s, _| Real(&mut r.elastic[s].sections[2].camber),
-    )
-    .new_here(),
+    ),
     scalar(
         "deflection_tip_{s}",
         Unit::Metre,
         "displacement along axis 3 from rest of the middle between leading and trailing edge at the tip of {s}; a bulge between the edges is camber",
         |r, s, _| Real(&mut r.elastic[s].sections[3].deflection),
-    )
-    .new_here(),
+    ),
     scalar(
         "twist_tip_{s}",
         Unit::Radian,
         "twist of the tip section of {s} from rest, positive like feathering",
         |r, s, _| Real(&mut r.elastic[s].sections[3].twist),
-    )
-    .new_here(),
+    ),
     scalar(
         "camber_tip_{s}",
         Unit::One,
         "camber of the tip of {s}: largest height over the chord, less that at rest, positive towards -axis 3 like prescribed camber",
         |r, s, _| Real(&mut r.elastic[s].sections[3].camber),
-    )
-    .new_here(),
+    ),
     scalar(
         "air_power_{s}",
         Unit::Watt,
         "power of the air on what {s} moves relative to its frame",
         |r, s, _| Real(&mut r.elastic[s].air_power),
-    )
-    .new_here(),
+    ),
     scalar(
         "strain_power_{s}",
         Unit::Watt,
         "power that goes into the elastic energy of {s}",
         |r, s, _| Real(&mut r.elastic[s].strain_power),
-    )
-    .new_here(),
+    ),
     scalar(
         "strain_energy_{s}",
         Unit::Joule,
         "elastic energy of {s}",
         |r, s, _| Real(&mut r.elastic[s].strain_energy),
-    )
-    .new_here(),
+    ),
     scalar(
         "elastic_passes_{s}",
         Unit::Count,
         "most passes within the step that shape and loads of {s} took to agree",
         |r, s, _| Count(&mut r.elastic[s].passes),
-    )
-    .new_here(),
+    ),
 ];
 
 pub(super) const DISSIPATION: &[Quantity] = &[scalar(
@@ -244,8 +219,7 @@ pub(super) const DISSIPATION: &[Quantity] = &[scalar(
     Unit::Joule,
     "energy that the damping of elastic wings has dissipated so far",
     |r, _, _| Real(&mut r.dissipated),
-)
-.new_here()];
+)];
 
 pub(super) const AIR: &[Quantity] = &[
     scalar(

@@ -93,14 +93,12 @@ pub(super) const ACCELERATIONS: &[Quantity] = &[
         "acceleration of the origin of {s}",
         |r, s, c| Real(&mut r.accelerations[s].linear[c]),
     )
-    .along(Inertial, Frame::Inertial)
-    .new_here(),
+    .along(Inertial, Frame::Inertial),
     scalar(
         "{s}_angular_acceleration_{c}",
         Unit::RadianPerSecond2,
         "angular acceleration of {s}",
         |r, s, c| Real(&mut r.accelerations[s].angular[c]),
     )
-    .along(Own, Frame::Own)
-    .new_here(),
+    .along(Own, Frame::Own),
 ];

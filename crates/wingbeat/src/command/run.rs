@@ -184,6 +184,7 @@ fn go_back(
         problem: format!("the flight cannot go on from it: {e}"),
     })?;
     interrupts.flight_is_built();
+    let flight = RecordedFlight::resume(dir, &case, flight, (&header, saved.manifest), threads)?;
     if !args.options.silent() {
         tell!(
             "{}: goes on after step {} of {}",
@@ -192,7 +193,6 @@ fn go_back(
             case.setup.time.steps
         );
     }
-    let flight = RecordedFlight::resume(dir, &case, flight, (&header, saved.manifest), threads)?;
     for lost in flight.lost_frames() {
         tell!("warning: {lost}");
     }

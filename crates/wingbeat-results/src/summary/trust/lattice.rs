@@ -3,9 +3,11 @@
 use wingbeat_air::{
     AirSettings, Convection, CoreModel, Friction, LeadingEdge, LoadMethod, SectionDrag,
 };
-use wingbeat_flight::{AirOptions, FlightSetup, IntegratorChoice, MotionMode, growing_joint};
+use wingbeat_flight::{
+    AirOptions, Doubt, DoubtKind, FlightSetup, IntegratorChoice, MotionMode, growing_joint,
+};
 
-use super::motion::NO_MEANING;
+use super::doubts::{self, Place};
 use crate::summary::numbers::Summary;
 use crate::summary::verdict::Warnings;
 
@@ -21,13 +23,17 @@ const SHARP: [f64; 2] = [0.05, 0.02];
 /// what was put in, and signs that it failed.
 pub(super) fn warnings(
     setup: &FlightSetup,
+    doubts: &[Doubt],
     air: &AirOptions,
     summary: &Summary,
     list: &mut Warnings,
 ) {
     let lattice = &air.lattice;
     left_out(setup, lattice, list);
-    motion(setup, summary, list);
+    let of_shedding = |d: &Doubt| matches!(d.kind, DoubtKind::OneSidedEdges | DoubtKind::LongSteps);
+    let held = leading_edges_held(setup, summary);
+    let kept = doubts.iter().filter(|d| !(held && of_shedding(d)));
+    doubts::say(setup, &Vec::from_iter(kept.cloned()), Place::Air, list);
     inputs(setup, air, summary, list);
     failures(setup, &air.lattice, summary, list);
 }
@@ -66,35 +72,6 @@ fn left_out(setup: &FlightSetup, lattice: &AirSettings, list: &mut Warnings) {
     });
 }
 
-/// Wings inside of bodies, and motions that the models of edges were not made for.
-fn motion(setup: &FlightSetup, summary: &Summary, list: &mut Warnings) {
-    for inside in setup.wings_inside_parts() {
-        list.fault(format!(
-            "A wing and a body cannot both be surfaces of the lattice in one place: {inside}. {NO_MEANING}"
-        ));
-    }
-    for text in setup.roots_on_bodies() {
-        list.limit(format!(
-            "A wing on a body is a limit of the lattice: {text}."
-        ));
-    }
-    for text in setup.unjoined_roots() {
-        list.limit(format!("A gap is a limit of the lattice: {text}."));
-    }
-    if let Some(text) = setup.vortex_lift_of_swept_edges() {
-        list.limit(format!("Outside of what it was made for: {text}."));
-    }
-    let sheds = !leading_edges_held(setup, summary);
-    let by_motion = [
-        setup.one_sided_leading_edges().filter(|_| sheds),
-        setup.long_steps_one_way().filter(|_| sheds),
-        setup.tips_of_attached_wings(),
-    ];
-    for text in by_motion.into_iter().flatten() {
-        list.limit(format!("By the prescribed motion {text}."));
-    }
-}
-
 /// What was chosen, and the results depend on.
 fn inputs(setup: &FlightSetup, air: &AirOptions, summary: &Summary, list: &mut Warnings) {
     let lattice = &air.lattice;
@@ -104,9 +81,6 @@ fn inputs(setup: &FlightSetup, air: &AirOptions, summary: &Summary, list: &mut W
         list.note(core_is_an_input(setup, lattice));
     } else if has_wings {
         list.note("No edge of the wings sheds a wake (air.shed is empty): circulation about the wings stays zero. Forces are those of added mass; there is neither lift nor induced drag in a steady stream.");
-    }
-    if let Some(text) = setup.wide_bound_core() {
-        list.note(format!("Lift that is high: {text}."));
     }
     if air.mirror {
         list.note("Mirror symmetry was assumed (air.mirror): a real flow of this kind loses it, and with it roll, yaw and sideways drift would come.");

@@ -7,8 +7,8 @@ use std::path::PathBuf;
 use clap::Args;
 use serde_json::{Value, json};
 use wingbeat::analysis::flutter::{
-    Condition, Crossing, ElasticRig, FlutterSettings, Steep, Vibration, by_wing, condition,
-    crossings, growing, likely, steep,
+    Condition, ElasticRig, FlutterSettings, Onset, Steep, Vibration, by_wing, condition, crossings,
+    growing, likely, steep,
 };
 use wingbeat::case::LoadedCase;
 
@@ -248,12 +248,12 @@ fn divergence(conditions: &[Condition]) -> Option<String> {
 }
 
 /// That these `speeds` [m/s] are not to be relied on, and which onsets lie between speeds one of which is among them.
-fn doubtful(speeds: &[f64], found: &[Crossing]) -> Option<String> {
+fn doubtful(speeds: &[f64], found: &[Onset]) -> Option<String> {
     let list = |of: &[f64]| {
         let numbers: Vec<String> = of.iter().map(|v| format!("{v:.3}")).collect();
         numbers.join(", ")
     };
-    let beside = |c: &&Crossing| {
+    let beside = |c: &&Onset| {
         let [low, high] = c.between;
         speeds.iter().any(|v| (low..=high).contains(v))
     };
@@ -325,7 +325,7 @@ fn rise_value(steep: &Steep, wing: &str) -> Value {
 
 /// Onsets and ends, certain or likely.
 fn onset_values(conditions: &[Condition], wing: &str) -> Vec<Value> {
-    let value = |(c, certain): (Crossing, bool)| {
+    let value = |(c, certain): (Onset, bool)| {
         json!({
             "wing": wing,
             "certain": certain,
@@ -340,7 +340,7 @@ fn onset_values(conditions: &[Condition], wing: &str) -> Vec<Value> {
     certain.chain(likely).map(value).collect()
 }
 
-fn conclude(report: &mut Report, conditions: &[Condition], found: &[Crossing], is_complete: bool) {
+fn conclude(report: &mut Report, conditions: &[Condition], found: &[Onset], is_complete: bool) {
     match conditions {
         [c] => line!(report, "\n{}", alone(c)),
         _ => between(report, conditions, found, is_complete),
@@ -375,7 +375,7 @@ fn alone(c: &Condition) -> String {
 }
 
 /// Onsets and ends between speeds.
-fn between(report: &mut Report, conditions: &[Condition], found: &[Crossing], is_complete: bool) {
+fn between(report: &mut Report, conditions: &[Condition], found: &[Onset], is_complete: bool) {
     for c in found {
         let what = if c.begins { "begins" } else { "ends" };
         line!(
@@ -463,7 +463,7 @@ mod tests {
 
     #[test]
     fn behaves_an_onset_is_doubted_if_one_of_the_speeds_about_it_is() {
-        let onset = |between: [f64; 2]| Crossing {
+        let onset = |between: [f64; 2]| Onset {
             begins: true,
             speed: between[0].midpoint(between[1]),
             frequency: 1.0,

@@ -3,7 +3,7 @@
 use serde_json::{Map, Value, json};
 use wingbeat::analysis::{
     Bound, Lost, Residuals, TrimProblem, TrimSolution, UNKNOWNS, Unknown, UnknownKind,
-    jumping_rotation, stroke_amplitude, turned_inside_out,
+    stroke_amplitude, turned_inside_out,
 };
 use wingbeat::case::LoadedCase;
 use wingbeat::flight::FlightSetup;
@@ -134,7 +134,7 @@ fn warn(report: &mut Report, t: &TrimSolution, setup: &FlightSetup) {
         ),
         false => (crossing_wings.iter()).for_each(|text| tell!("warning: {text}")),
     }
-    let jumps = jumping_rotation(setup);
+    let jumps = setup.jumping_rotation();
     if let Some(text) = &jumps {
         tell!("warning: {text}");
     }

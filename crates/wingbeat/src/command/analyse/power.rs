@@ -2,7 +2,7 @@
 
 use clap::Args;
 use serde_json::{Map, json};
-use wingbeat::analysis::{Power, power_of_trim, power_with_wake};
+use wingbeat::analysis::{Power, PowerQuantity, power_of_trim, power_with_wake};
 use wingbeat::results::summary::prefix;
 
 use super::trimming::{Trimming, trimmed, trimmed_with_wake, watched};
@@ -41,28 +41,9 @@ fn tell(report: &mut Report, p: &Power, muscle: f64) {
         report,
         "\nMean mechanical power over the free wingbeat that was trimmed:"
     );
-    let damping = Some(("damping of elastic wings", "damping", p.damping));
-    let rows = [
-        (
-            "against the air, relative to the body",
-            "aerodynamic",
-            p.aerodynamic,
-        ),
-        (
-            "inertial, positive part",
-            "inertial_positive",
-            p.inertial_positive,
-        ),
-        (
-            "muscles, perfect elastic storage",
-            "perfect_storage",
-            p.perfect_storage,
-        ),
-        ("muscles, no elastic storage", "no_storage", p.no_storage),
-        ("peak of all wings", "peak", p.peak),
-    ];
-    let rows = rows.into_iter().chain(damping.filter(|_| p.damping > 0.0));
-    let rows: Vec<_> = rows.collect();
+    let is_shown = |q: &PowerQuantity| q.name != "damping" || p.damping > 0.0;
+    let rows = Power::QUANTITIES.into_iter().filter(is_shown);
+    let rows: Vec<_> = rows.map(|q| (q.label, q.name, (q.of)(p))).collect();
     let largest = rows.iter().fold(0.0_f64, |m, row| m.max(row.2.abs()));
     let (scale, prefix) = prefix(largest);
     line!(

@@ -5,7 +5,7 @@ use crate::realisation::Vibration;
 
 /// A speed at which flutter begins or ends.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Crossing {
+pub struct Onset {
     /// Speed [m/s].
     pub speed: f64,
     /// Angular frequency there [rad/s].
@@ -34,9 +34,9 @@ pub fn by_wing(conditions: &[Condition]) -> Vec<Vec<Condition>> {
 
 /// Zero crossings of growth along `conditions` of one wing, of rising speed, interpolated linearly. Modes of two speeds go
 /// together by the distance of their eigenvalues, the nearest first: where two come close, speeds are to be
-/// closer than they. A crossing counts where growth differs from zero by more than its uncertainty on both
+/// closer than they. An onset counts where growth differs from zero by more than its uncertainty on both
 /// sides; speeds between, at which the mode is neutral within what is known, are passed over.
-pub fn crossings(conditions: &[Condition]) -> Vec<Crossing> {
+pub fn crossings(conditions: &[Condition]) -> Vec<Onset> {
     let mut found = vec![];
     for track in tracks(conditions) {
         let mut known: Option<(usize, usize, bool)> = None;
@@ -46,7 +46,7 @@ pub fn crossings(conditions: &[Condition]) -> Vec<Crossing> {
             };
             if let Some((c0, m0, grew)) = known.filter(|k| k.2 != grows) {
                 let sides = [(c0, m0), (c, m)].map(|(c, m)| (&conditions[c], m));
-                found.push(crossing(sides, !grew));
+                found.push(interpolated(sides, !grew));
             }
             known = Some((c, m, grows));
         }
@@ -58,13 +58,13 @@ pub fn crossings(conditions: &[Condition]) -> Vec<Crossing> {
 /// Onsets of modes that are neutral within what is known at the first of `conditions` and up to where they
 /// grow: flutter begins at about the speed where their growth, as far as it is known, is zero, or may have
 /// begun at the last speed at which they are neutral.
-pub fn likely(conditions: &[Condition]) -> Vec<Crossing> {
+pub fn likely(conditions: &[Condition]) -> Vec<Onset> {
     let onset = |track: Vec<(usize, usize)>| {
         let first = (track.iter()).position(|&(c, m)| conditions[c].grows(m).is_some())?;
         let (c, m) = track[first];
         let begins = track[0].0 == 0 && first > 0 && conditions[c].grows(m) == Some(true);
         let sides = [track[first.checked_sub(1)?], (c, m)];
-        begins.then(|| crossing(sides.map(|(c, m)| (&conditions[c], m)), true))
+        begins.then(|| interpolated(sides.map(|(c, m)| (&conditions[c], m)), true))
     };
     let mut found: Vec<_> = (tracks(conditions).into_iter()).filter_map(onset).collect();
     found.sort_by(|a, b| a.speed.total_cmp(&b.speed));
@@ -86,12 +86,12 @@ pub fn growing(conditions: &[Condition]) -> Vec<[Vibration; 2]> {
     all.filter(through).map(ends).collect()
 }
 
-fn crossing([(a, i), (b, j)]: [(&Condition, usize); 2], begins: bool) -> Crossing {
+fn interpolated([(a, i), (b, j)]: [(&Condition, usize); 2], begins: bool) -> Onset {
     let (v, next, between) = (&a.modes[i], &b.modes[j], [a.speed, b.speed]);
     // Within the two, where the first is neutral and its growth above zero as found.
     let s = (v.growth / (v.growth - next.growth)).clamp(0.0, 1.0);
     let s = if v.growth * next.growth > 0.0 { 0.0 } else { s };
-    Crossing {
+    Onset {
         speed: between[0] + s * (between[1] - between[0]),
         frequency: v.frequency + s * (next.frequency - v.frequency),
         begins,

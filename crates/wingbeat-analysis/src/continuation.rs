@@ -33,7 +33,7 @@ const HALVINGS: usize = 4;
 ///
 /// # Errors
 /// As [`trim`].
-pub(crate) fn trim_by_way(
+pub(crate) fn trim_by_continuation(
     setup: &FlightSetup,
     problem: &TrimProblem,
     widest: f64,
@@ -135,7 +135,7 @@ impl<'a> Path<'a> {
     }
 
     fn first(&mut self, velocity: DVec3) -> Result<Trim, AnalysisError> {
-        let found = trim_by_way(self.setup, &self.at(velocity), PI)?;
+        let found = trim_by_continuation(self.setup, &self.at(velocity), PI)?;
         if found.solution.converged {
             self.push(&found);
         }

@@ -1,0 +1,84 @@
+//! All doubts about a setup, each once.
+
+use crate::bodies::doubtful_masses;
+use crate::setup::FlightSetup;
+
+/// What is doubted.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum DoubtKind {
+    /// Gusts that the flight never meets.
+    LateGusts,
+    /// A tether that starts otherwise than the wings.
+    StartsApart,
+    /// Blade elements whose force of feathering jumps.
+    JumpingRotation,
+    /// Masses beside lengths, or a gravity, that no animal has.
+    Masses,
+    /// Wings with the trailing edge ahead, or broadside where they are fastest.
+    EdgeAhead,
+    /// Samples of wing angles that scatter, or are wrong.
+    ScatteredAngles,
+    /// Parts of the beat without samples of wing angles.
+    GapsInAngles,
+    /// Wings that pass through each other.
+    Crossing,
+    /// Wings that pass through each other by little.
+    Graze,
+    /// Wings inside parts of the body.
+    InsideParts,
+    /// Roots on parts of the body, or a little off them.
+    RootsOnBodies,
+    /// Roots that meet and are not joined.
+    UnjoinedRoots,
+    /// Leading edges that shed vorticity of one sign.
+    OneSidedEdges,
+    /// Leading edges that shed one way over long steps.
+    LongSteps,
+    /// Tips of wings whose flow is attached.
+    AttachedTips,
+    /// Cores of wings that are wide beside the panels.
+    WideBoundCore,
+    /// Vortex lift of edges that are swept.
+    SweptVortexLift,
+}
+
+/// A doubt about a setup.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Doubt {
+    /// What is doubted.
+    pub kind: DoubtKind,
+    /// Why, and what to do about it: a clause without a full stop.
+    pub said: String,
+}
+
+impl FlightSetup {
+    /// All doubts about this setup.
+    pub fn doubts(&self) -> Vec<Doubt> {
+        use DoubtKind::*;
+        let mut list = vec![];
+        let mut add = |kind, all: Vec<String>| {
+            list.extend(all.into_iter().map(|said| Doubt { kind, said }));
+        };
+        let one = |said: Option<String>| Vec::from_iter(said);
+        add(Masses, doubtful_masses(self));
+        for crossing in self.crossing_wings() {
+            let kind = if crossing.is_graze { Graze } else { Crossing };
+            add(kind, vec![crossing.said]);
+        }
+        add(ScatteredAngles, self.scattered_angles());
+        add(GapsInAngles, self.gaps_in_angles());
+        add(EdgeAhead, self.trailing_edges_ahead());
+        add(StartsApart, one(self.starts_apart()));
+        add(LateGusts, self.gusts_that_never_arrive());
+        add(JumpingRotation, one(self.jumping_rotation()));
+        add(InsideParts, self.wings_inside_parts());
+        add(RootsOnBodies, self.roots_on_bodies());
+        add(UnjoinedRoots, self.unjoined_roots());
+        add(SweptVortexLift, one(self.vortex_lift_of_swept_edges()));
+        add(OneSidedEdges, one(self.one_sided_leading_edges()));
+        add(LongSteps, one(self.long_steps_one_way()));
+        add(AttachedTips, one(self.tips_of_attached_wings()));
+        add(WideBoundCore, one(self.wide_bound_core()));
+        list
+    }
+}
