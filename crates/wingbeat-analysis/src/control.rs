@@ -14,6 +14,7 @@ pub use crate::regulator::observer::{Kalman, Observer, ProcessNoise, kalman};
 pub use crate::regulator::plant::{Plant, STATES, states};
 pub use crate::regulator::{Regulator, Timing, Weights};
 pub use crate::route::{Route, Waypoint};
+pub use crate::sensing::Sensing;
 pub use crate::sensors::{Channels, Sensors};
 pub use crate::stabiliser::{ProportionalDerivative, Stiffness};
 pub use crate::steering::{Held, Law, SteeredBeats, Steering};

@@ -2,7 +2,7 @@
 //! answers, four controls of the strokes.
 
 use wingbeat_flight::{Aim, Sensed};
-use wingbeat_math::{DMat3, DVec3};
+use wingbeat_math::{DMat3, DQuat, DVec3};
 use wingbeat_model::motion::Adjustment;
 
 use crate::AnalysisError;
@@ -99,6 +99,14 @@ impl Reference {
             position: level.to_n.transpose() * way,
             state: Perturbation::from_array(std::array::from_fn(|i| seen[i] - state[i])),
         }
+    }
+
+    /// Attitude R_NB of the root in the reference flight brought to `aim`, where it is `orbit` off its start of a
+    /// beat: the one without a departure in tilt.
+    pub fn attitude(&self, aim: &Aim, orbit: &Departure) -> DMat3 {
+        let level = self.level.turned(aim.heading);
+        let tilt = DQuat::from_scaled_axis(self.state.tilt + orbit.state.tilt);
+        level.to_n * DMat3::from_quat(tilt) * level.to_root.transpose()
     }
 
     /// Where the flyer is to be at `time` [s], whose mass centre was at `origin` [m] at the release, if it is brought

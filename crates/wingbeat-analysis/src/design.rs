@@ -176,6 +176,10 @@ impl ControlModel for Design {
         !self.route.0.is_empty()
     }
 
+    fn holds_attitude(&self) -> bool {
+        self.target == Target::Trimmed
+    }
+
     fn velocity(&self) -> Option<DVec3> {
         Some(self.velocity)
     }

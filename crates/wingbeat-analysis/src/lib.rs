@@ -61,6 +61,7 @@ mod residuals;
 mod rigid_body;
 mod root;
 mod route;
+mod sensing;
 mod sensors;
 mod solution;
 mod stabiliser;

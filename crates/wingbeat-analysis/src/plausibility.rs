@@ -35,9 +35,10 @@ use self::doubts::{doubts, reynolds_doubts};
 use self::lift::lift_over_weight;
 use self::sizes::sizes;
 
-/// Says which Reynolds numbers of the wings are so low that friction rules, or higher than any animal's.
+/// Says which Reynolds numbers of the wings are so low that viscosity changes what the air of the flight computes, or
+/// higher than any animal's.
 pub fn doubtful_reynolds_numbers(setup: &FlightSetup) -> Vec<String> {
-    reynolds_doubts(&sizes(setup).wings)
+    reynolds_doubts(&setup.air, &sizes(setup).wings)
 }
 
 /// Estimates what a flight will be like. Where the blade elements cannot be flown it says why, and leaves the lift out.

@@ -9,7 +9,7 @@ use std::sync::Arc;
 
 use wingbeat_flight::control::due;
 use wingbeat_flight::{Aim, Controller, Feedback, FlightSetup, RESUME_AS_SAVED, Sensed};
-use wingbeat_math::DVec3;
+use wingbeat_math::{DMat3, DVec3};
 use wingbeat_model::motion::Adjustment;
 
 use crate::AnalysisError;
@@ -185,6 +185,14 @@ impl Controller for Steering {
     fn aim(&self, time: f64) -> Option<Aim> {
         let (reference, origin) = self.first?;
         Some(reference.aim(&self.route.at(time), time, origin))
+    }
+
+    fn attitude(&self, look: usize, time: f64) -> Option<DMat3> {
+        let Held::Known(reference) = &self.held else {
+            return None;
+        };
+        let orbit = &self.orbit[look % self.orbit.len()];
+        Some(reference.attitude(&self.route.at(time), orbit))
     }
 
     fn is_limited(&self) -> bool {

@@ -120,6 +120,8 @@ pub struct NamedSet {
     pub name: &'static str,
     /// Where the numbers come from.
     pub source: &'static str,
+    /// Reynolds number at which they were measured \[1\], where the source says one.
+    pub reynolds: Option<f64>,
     /// The coefficients.
     pub law: Translation,
 }
@@ -140,6 +142,7 @@ pub const SETS: &[NamedSet] = &[
     NamedSet {
         name: "dickson-2008",
         source: "Dickson, Straw & Dickinson 2008 as coded in willdickson/fmech: C_L = 3.3207 sin a cos a, C_D = 3.1670 sin^2 a + 0.4123",
+        reynolds: None,
         law: Translation::DoubleAngle {
             lift: 0.5 * 3.3207,
             drag_0: 0.4123,
@@ -149,6 +152,7 @@ pub const SETS: &[NamedSet] = &[
     NamedSet {
         name: "dickinson-1999",
         source: "Dickinson, Lehmann & Sane 1999 (Robofly, Re 136): C_L = 0.225 + 1.58 sin(2.13 a - 7.2 deg), C_D = 1.92 - 1.55 cos(2.04 a - 9.82 deg)",
+        reynolds: Some(136.0),
         law: Translation::Harmonic {
             lift: [0.225, 1.58, 2.13, -7.2 * DEGREE],
             drag: [1.92, -1.55, 2.04, -9.82 * DEGREE],
@@ -157,6 +161,7 @@ pub const SETS: &[NamedSet] = &[
     NamedSet {
         name: "berman-wang-fruit-fly",
         source: "Berman & Wang 2007, fruit fly: C_T = 1.833, C_D(0) = 0.21, C_D(90 deg) = 3.35",
+        reynolds: None,
         law: Translation::DoubleAngle {
             lift: 1.833,
             drag_0: 0.21,
@@ -166,21 +171,25 @@ pub const SETS: &[NamedSet] = &[
     NamedSet {
         name: "whitney-wood-2010",
         source: "Whitney & Wood 2010: C_L = 1.8 sin 2a, C_D = (3.4 + 0.4)/2 - (3.4 - 0.4)/2 cos 2a",
+        reynolds: None,
         law: double(1.8, 1.9, 1.5),
     },
     NamedSet {
         name: "wang-dragonfly",
         source: "Wang 2004/2005, dragonfly: C_L = 1.2 sin 2a, C_D = 1.4 - cos 2a",
+        reynolds: None,
         law: double(1.2, 1.4, 1.0),
     },
     NamedSet {
         name: "byl",
         source: "Byl: C_L = 1.8 sin 2a, C_D = 1.8 (1 - cos 2a)",
+        reynolds: None,
         law: double(1.8, 1.8, 1.8),
     },
     NamedSet {
         name: "deng-2006",
         source: "Deng et al. 2006: C_N = 3.4 sin a, C_T = 0.4 cos^2 2a up to 45 deg",
+        reynolds: None,
         law: Translation::NormalTangential {
             normal: 3.4,
             tangential: 0.4,

@@ -30,6 +30,7 @@ mod loaded;
 mod measured;
 mod mixed_angles;
 mod output;
+mod own_control;
 mod own_motion;
 pub mod presets;
 pub mod raw;
@@ -40,7 +41,7 @@ mod trimmed;
 mod ways;
 mod written;
 
-pub use build::column_name;
+pub use build::{OwnControl, column_name};
 pub use data::data_sets;
 pub use decode::nearest;
 pub use differences::{Difference, differences};

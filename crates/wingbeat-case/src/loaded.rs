@@ -185,6 +185,17 @@ impl LoadedCase {
         self.source.gives(key)
     }
 
+    /// The keys that are given in a table, likewise.
+    pub(crate) fn keys_in(&self, table: &str) -> Vec<&str> {
+        let table = self.source.value_at(table).and_then(|t| t.as_table());
+        table.map_or(vec![], |t| t.keys().map(String::as_str).collect())
+    }
+
+    /// A fault traced to its line.
+    pub(crate) fn located(&self, fault: Fault) -> CaseError {
+        self.source.locate(fault)
+    }
+
     /// The text that is given for a key, with what is set on top; none where it is left out or no text.
     pub fn text_at(&self, key: &str) -> Option<&str> {
         self.source.value_at(key)?.as_str()

@@ -192,7 +192,7 @@ const ESTIMATES: Sources = Sources {
     r2_hat: "estimated: outline of a bumblebee's wing",
     frequency: REMEMBERED,
     stroke: REMEMBERED,
-    wing_share: "estimated: half a percent of the mass each",
+    wing_share: "estimated: half a percent of the mass each, spread evenly; power without elastic storage hangs on it",
     body_length: "estimated",
 };
 

@@ -107,3 +107,42 @@ fn refuses_keys_of_the_lattice_by_what_they_do_not_fit() {
         assert!(refused.lines().next().unwrap().contains(said), "{refused}");
     }
 }
+
+/// Keys of any controller act on one of the user's own; those of another are refused beside it.
+#[test]
+fn behaves_control_without_a_controller_is_for_one_of_the_users_own() {
+    let of = |set: &[&str]| {
+        let set: Vec<String> = set.iter().map(|s| format!("control.{s}")).collect();
+        let set = [vec!["time.steps_per_beat=40".to_owned()], set].concat();
+        let case = LoadedCase::find("fruit-fly-blade", &set).unwrap();
+        case.own_control()
+    };
+    assert_eq!(of(&[]).unwrap(), None);
+    let own = of(&[
+        "sensors={seed=5,tilt_noise_deg=1}",
+        "looks_per_beat=2",
+        "latency_beats=0.5",
+    ]);
+    let own = own.unwrap().expect("keys of any controller");
+    assert_eq!((own.interval, own.every, own.latency), (20, 1, 1));
+    assert_eq!(own.sensors.map(|s| s.seed), Some(5));
+    for key in [
+        "controller=regulator",
+        "weights.sum=1",
+        "amplitude_limit=0.1",
+    ] {
+        let error = of(&["sensors={tilt_noise_deg=1}", key]).unwrap_err();
+        assert_eq!(error.key, "control.controller", "{key}");
+    }
+    // What stands by where the controller of a preset is switched off.
+    let off = LoadedCase::find(
+        "fruit-fly-controlled",
+        &["control.controller=none".to_owned()],
+    );
+    let own = off
+        .unwrap()
+        .own_control()
+        .unwrap()
+        .expect("it has [control]");
+    assert_eq!((own.interval, own.latency, own.sensors), (30, 1, None));
+}

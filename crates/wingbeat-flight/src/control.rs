@@ -8,7 +8,7 @@
 use std::collections::VecDeque;
 use std::sync::{Arc, RwLock};
 
-use wingbeat_math::{DVec3, MovingRotation, RotationLaw, smoothstep7};
+use wingbeat_math::{DMat3, DVec3, MovingRotation, RotationLaw, smoothstep7};
 use wingbeat_model::motion::{Adjustment, wing_rotation};
 use wingbeat_model::{Side, Wing, WingMotion};
 
@@ -165,6 +165,7 @@ pub fn due(
 pub struct FeedbackLoop {
     controller: Box<dyn Controller>,
     follows: bool,
+    holds_attitude: bool,
     interval: usize,
     /// An interval [s].
     duration: f64,
@@ -196,6 +197,7 @@ impl FeedbackLoop {
         Ok(Self {
             controller: feedback.controller.open(setup)?,
             follows: feedback.controller.follows(),
+            holds_attitude: feedback.controller.holds_attitude(),
             interval: feedback.interval,
             duration,
             share: share(duration / feedback.lag),
@@ -273,6 +275,13 @@ impl FeedbackLoop {
         };
         self.follows
             .then(|| self.controller.aim(time).unwrap_or(here))
+    }
+
+    /// Attitude R_NB of the root that is held `steps` time steps after the release, `time` [s], if it does not follow
+    /// from that at the release: that of the newest look.
+    pub fn attitude(&self, steps: usize, time: f64) -> Option<DMat3> {
+        let attitude = self.controller.attitude(steps / self.interval, time);
+        attitude.filter(|_| self.holds_attitude)
     }
 
     /// Angles of the wings at time `t` [s].

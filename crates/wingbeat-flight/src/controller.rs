@@ -1,7 +1,7 @@
 //! A controller in the loop of the flight: what it sees, what it answers, and where it steers to.
 
 use wingbeat_dynamics::BodyMotion;
-use wingbeat_math::DVec3;
+use wingbeat_math::{DMat3, DVec3};
 use wingbeat_model::Wing;
 use wingbeat_model::motion::Adjustment;
 
@@ -55,6 +55,12 @@ pub trait Controller: Send {
 
     /// Where it steers to at `time` [s] since the release; none before its first look, or if it does not know.
     fn aim(&self, _time: f64) -> Option<Aim> {
+        None
+    }
+
+    /// Attitude R_NB of the root that it holds at its look number `look`, `time` [s] since the release; none where
+    /// that follows from the attitude at the release, or if it does not know.
+    fn attitude(&self, _look: usize, _time: f64) -> Option<DMat3> {
         None
     }
 

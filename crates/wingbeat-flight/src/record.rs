@@ -24,6 +24,9 @@ pub struct Record {
     pub looks: [usize; 2],
     /// Where feedback is to bring the flyer; empty where nothing is followed.
     pub reference: Vec<Aim>,
+    /// Angle by which the attitude of the root departs from the one that feedback held at its newest look [rad]; empty
+    /// where that follows from the attitude at the release, and without feedback.
+    pub attitude_departure: Vec<f64>,
     /// Generalized coordinates q of seed eq. 2: per body x, y, z [m], phi, theta, psi [rad].
     pub coordinates: Vec<f64>,
     /// Time derivatives of the coordinates [m/s, rad/s].
@@ -147,6 +150,7 @@ impl Clone for Record {
             wing_angles: over(&mut self.wing_angles, &other.wing_angles),
             commands: over(&mut self.commands, &other.commands),
             reference: over(&mut self.reference, &other.reference),
+            attitude_departure: over(&mut self.attitude_departure, &other.attitude_departure),
             coordinates: over(&mut self.coordinates, &other.coordinates),
             rates: over(&mut self.rates, &other.rates),
             accelerations: over(&mut self.accelerations, &other.accelerations),

@@ -150,6 +150,12 @@ pub trait ControlModel: fmt::Debug + Send + Sync {
         false
     }
 
+    /// Whether it holds an attitude that does not follow from that at the release; the departure from it is
+    /// recorded ([`crate::Record::attitude_departure`]).
+    fn holds_attitude(&self) -> bool {
+        false
+    }
+
     /// Mean velocity of the straight flight that it holds from the release on, N components [m/s]; none if it
     /// holds no place, or one that it does not tell.
     fn velocity(&self) -> Option<DVec3> {
@@ -166,5 +172,9 @@ pub trait ControlModel: fmt::Debug + Send + Sync {
 impl<C: Controller + Clone + fmt::Debug + Sync + 'static> ControlModel for C {
     fn open(&self, _setup: &FlightSetup) -> Result<Box<dyn Controller>, FlightError> {
         Ok(Box::new(self.clone()))
+    }
+
+    fn holds_attitude(&self) -> bool {
+        self.attitude(0, 0.0).is_some()
     }
 }

@@ -9,13 +9,13 @@ use pyo3::prelude::*;
 use wingbeat::analysis::TrimSettings;
 use wingbeat::analysis::wake::WakeSettings;
 use wingbeat::campaign::named;
-use wingbeat::case::{IoError, LoadedCase};
+use wingbeat::case::{IoError, LoadedCase, OwnControl};
 use wingbeat::flight::{AirModel, MotionMode, Snapshot};
 
 use crate::errors::{raised, refused};
 use crate::frame::is_framed;
 use crate::mechanics::{self, Trim};
-use crate::own::{Parts, PendingException, air, feedback};
+use crate::own::{Parts, PendingException, air, controller};
 use crate::run::Run;
 use crate::stepping::Stepper;
 use crate::threads::detached;
@@ -74,6 +74,12 @@ impl Flight {
 }
 
 impl Flight {
+    /// What `[control]` says to a controller written in Python.
+    fn own_control(&self, py: Python<'_>) -> PyResult<Option<OwnControl>> {
+        let own = self.case.own_control();
+        own.map_err(|e| raised(py, &IoError::Case(e).into()))
+    }
+
     /// Refuses to trim in air written in Python that has a memory.
     fn check_memory(&self, py: Python<'_>) -> PyResult<()> {
         if self.is_own() && matches!(self.flight.setup.air, AirModel::External(_)) {
@@ -160,21 +166,33 @@ impl Flight {
         hexadecimal(named::of_programs(&self.case))
     }
 
-    /// Under the controller `function`, which looks every so many steps; commands act so many looks later. One with a
-    /// memory is reset when a flight begins.
+    /// Of `[control]`: steps from one look to the next, looks from one call of a controller to the next, looks from
+    /// sensing to acting; none without the table. Refused where the case has a controller.
+    fn control_times(&self, py: Python<'_>) -> PyResult<Option<(usize, usize, usize)>> {
+        let own = self.own_control(py)?;
+        Ok(own.map(|own| (own.interval, own.every, own.latency)))
+    }
+
+    /// Under the controller `function`, which looks every so many steps, is called every so many looks, and whose
+    /// commands act so many looks later; noise, bias and lag are those of `[control]`. One with a memory is reset when a
+    /// flight begins.
     fn with_controller(
         &self,
         py: Python<'_>,
         function: Bound<'_, PyAny>,
-        times: (usize, usize),
+        times: (usize, usize, usize),
         has_memory: bool,
     ) -> PyResult<Self> {
-        if self.case.setup.feedback.is_some() {
-            let problem = "the case has a controller already";
-            let remedy = "set(\"control.controller\", \"none\") first";
-            return Err(refused(py, "control.controller", problem, remedy));
-        }
-        let feedback = feedback(&function, &self.pending, times, has_memory)?;
+        let own = self.own_control(py)?;
+        let (interval, every, latency) = times;
+        let own = OwnControl {
+            interval,
+            every,
+            latency,
+            lag: own.map_or(0.0, |own| own.lag),
+            sensors: own.and_then(|own| own.sensors),
+        };
+        let feedback = own.feedback(controller(&function, &self.pending, has_memory)?);
         Ok(self.with(function, has_memory, |flight| {
             flight.setup.feedback = Some(feedback);
         }))

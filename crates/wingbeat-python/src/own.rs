@@ -21,7 +21,7 @@ use wingbeat::flight::AirMemory;
 use wingbeat::flight::control::{check_heeded, for_all};
 use wingbeat::flight::{
     Air, AirModel, AirProbe, AirScratch, Announcement, ControlModel, Controller, ExternalAir,
-    ExternalSession, Feedback, FlightError, FlightSetup, Instant,
+    ExternalSession, FlightError, FlightSetup, Instant,
 };
 use wingbeat::math::DVec3;
 use wingbeat::model::Wing;
@@ -219,23 +219,16 @@ struct PythonController {
     has_memory: bool,
 }
 
-/// Feedback by `function`, which somebody's [`Parts`] own, every `interval` steps, acting `latency` looks
-/// later. One with a memory is reset when a flight begins.
-pub fn feedback(
+/// The controller `function`, which somebody's [`Parts`] own. One with a memory is reset when a flight begins.
+pub fn controller(
     function: &Bound<'_, PyAny>,
     pending: &PendingException,
-    (interval, latency): (usize, usize),
     has_memory: bool,
-) -> PyResult<Feedback> {
-    Ok(Feedback {
-        controller: Arc::new(PythonController {
-            function: Function::new(function, pending)?,
-            has_memory,
-        }),
-        interval,
-        latency,
-        lag: 0.0,
-    })
+) -> PyResult<Arc<dyn ControlModel>> {
+    Ok(Arc::new(PythonController {
+        function: Function::new(function, pending)?,
+        has_memory,
+    }))
 }
 
 impl ControlModel for PythonController {

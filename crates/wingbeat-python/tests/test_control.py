@@ -116,3 +116,35 @@ def test_behaves_points_under_a_changed_program_are_flown_again(tmp_path):
 
     changed = '{"stroke_amplitude_rad": 0.01}'
     assert [flown("{}"), flown("{}"), flown(changed), flown(changed)] == [1, 0, 1, 0]
+
+
+def test_exact_a_controller_in_python_sees_the_noise_that_a_program_sees(tmp_path):
+    sensors = {"seed": 3, "position_noise_m": 1e-4, "velocity_noise_m_s": 0.01, "velocity_bias_m_s": [0.5, 0, 0]}
+    times = {"latency_beats": 1, "every_beats": 2}
+    steered(Flight.preset("fruit-fly-blade"), tmp_path, "{}", sensors=sensors, **times).fly()
+    told = [json.loads(line) for line in (tmp_path / "log").read_text().splitlines()]
+    seen = []
+
+    def watches(sensed):
+        seen.append([*sensed.mass_centre_m, *sensed.velocity_m_per_s])
+        return Adjustment(stroke_amplitude=0.01)
+
+    case = {"control.sensors": sensors} | {f"control.{key}": value for key, value in times.items()}
+    run = Flight.preset("fruit-fly-blade").set(SHORT | case).with_controller(watches).fly()
+    # The wings do what the case says until the first command acts, a beat after the release.
+    assert [look["look"] for look in told] == [0, 2]
+    assert seen[0] == [*told[0]["mass_centre_m"], *told[0]["velocity_m_s"]] and len(seen) == 2
+    commands = run.arrays["command_wing_right_stroke_amplitude_dimensionless"]
+    assert commands[30] == 0 and commands[60] == 0.01
+    # Keys stand by where the controller of the case is switched off.
+    text = Flight.preset("fruit-fly-blade").set(SHORT | case).case_text
+    seen.clear()
+    Flight.from_case(text).set("control.controller", "none").with_controller(watches).fly()
+    assert seen[0] == [*told[0]["mass_centre_m"], *told[0]["velocity_m_s"]] and len(seen) == 2
+
+
+def test_refuses_a_controller_beside_keys_of_another():
+    flight = Flight.preset("fruit-fly-blade").set({"control.sensors.tilt_noise_deg": 1, "control.weights.sum": 1})
+    with pytest.raises(wingbeat.CaseError, match="has a controller already") as caught:
+        flight.with_controller(lambda _: Adjustment())
+    assert caught.value.key == "control.controller"

@@ -85,6 +85,7 @@ struct Shape {
     elastic: usize,
     commanded: usize,
     following: usize,
+    holding: usize,
 }
 
 /// Names of the bodies in column names: `body`, then `wing_NAME`, then `segment_NAME`.
@@ -161,6 +162,9 @@ impl Columns {
             commanded: setup.feedback.as_ref().map_or(0, |_| wings),
             following: (setup.feedback.iter())
                 .filter(|f| f.controller.follows())
+                .count(),
+            holding: (setup.feedback.iter())
+                .filter(|f| f.controller.holds_attitude())
                 .count(),
         };
         let elastic = elastic(&setup.animal).enumerate();
@@ -244,6 +248,7 @@ impl Columns {
             wing_angles: vec![Default::default(); s.wings],
             commands: vec![Default::default(); s.commanded],
             reference: vec![Default::default(); s.following],
+            attitude_departure: vec![0.0; s.holding],
             coordinates: vec![0.0; 6 * s.bodies],
             rates: vec![0.0; 6 * s.bodies],
             accelerations: vec![Default::default(); s.bodies],
@@ -319,6 +324,7 @@ impl Subjects {
             Of::Flight => flight(1),
             Of::Steered => flight(shape.commanded.min(1)),
             Of::Following => flight(shape.following),
+            Of::Holding => flight(shape.holding),
             Of::Elastic => self.elastic.clone(),
             Of::Bending => flight(shape.elastic.min(1)),
             Of::Jointed => flight(shape.joints.min(1)),

@@ -49,7 +49,9 @@ pub fn columns_page() -> String {
 /// What stands for any subject of a group.
 fn placeholder(of: Of) -> Subject {
     let (name, words) = match of {
-        Of::Flight | Of::Steered | Of::Following | Of::Bending | Of::Jointed => ("", ""),
+        Of::Flight | Of::Steered | Of::Following | Of::Holding | Of::Bending | Of::Jointed => {
+            ("", "")
+        }
         Of::Bodies => ("BODY", "a body"),
         Of::Wings | Of::Deforming | Of::Elastic | Of::Commanded => ("wing_NAME", "a wing"),
         Of::Children => ("CHILD", "a wing or segment"),

@@ -268,6 +268,8 @@ pub(crate) enum Of {
     Steered,
     /// The whole flight, where feedback follows a reference.
     Following,
+    /// The whole flight, where feedback holds an attitude that is not that of the release.
+    Holding,
     /// What hangs at a hinge: wings and segments.
     Children,
     /// Multipliers of connection.

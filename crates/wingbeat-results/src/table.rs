@@ -6,7 +6,7 @@ mod loads;
 mod motion;
 
 use self::balances::{ENERGIES, MOMENTA, QUALITY, WAKE};
-use self::feedback::{COMMANDS, LOOKS, REFERENCE};
+use self::feedback::{COMMANDS, HELD, LOOKS, REFERENCE};
 use self::loads::{
     AIR, APPLIED, CONNECTIONS, COORDINATES, DEFORMATION, DISSIPATION, ELASTIC, HINGES, LOOPS,
     ORIENTATIONS, PASSIVE, TETHER,
@@ -45,4 +45,5 @@ pub(crate) const GROUPS: &[Group] = &[
     group(Of::Commanded, COMMANDS),
     group(Of::Steered, LOOKS),
     group(Of::Following, REFERENCE),
+    group(Of::Holding, HELD),
 ];

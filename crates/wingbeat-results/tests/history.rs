@@ -74,6 +74,7 @@ fn numbers(record: &Record) -> usize {
         commands,
         looks,
         reference,
+        attitude_departure,
         coordinates,
         rates,
         root_quaternion,
@@ -128,7 +129,8 @@ fn numbers(record: &Record) -> usize {
     // all have dissipated.
     let elastic = 20 * elastic.len() + usize::from(!elastic.is_empty());
     let steered = looks.len() * commands.len().min(1);
-    let feedback = 8 * commands.len() + steered + 8 * reference.len();
+    let aims = 8 * reference.len() + attitude_departure.len();
+    let feedback = 8 * commands.len() + steered + aims;
     let vectors = 3 * wing_angles.len() + feedback + 6 * accelerations.len();
     let passive = 2 * joints.len().min(1); // power and work of springs, dampers and stops
     let reactions = 7 * (hinges.len() + loops.len()) + 2 * joints.len() + passive;
@@ -169,6 +171,7 @@ const FLIGHTS: [(&str, &[&str]); 6] = [
         &[
             "time.beats=3",
             "air.model=\"blade_element\"",
+            "control.hold=trim",
             "control.waypoint=[{time_s=0.01,position_m=[0,0,1e-3],heading_deg=20}]",
         ],
     ),

@@ -173,6 +173,15 @@ fn behaves_flights_under_feedback_say_how_far_they_were_from_what_they_hold() {
     );
     let departures = held.departures.expect("feedback");
     assert!(departures.attitude_deg.largest < 90.0);
+    // Released 18 deg nose up it comes back to the trimmed attitude, from which departures count.
+    let set = [
+        "control.hold=trim",
+        "flight.pitch_deg=67.5",
+        "time.steps_per_beat=40",
+    ];
+    let back = fly("time.beats=60", &set).departures.expect("feedback");
+    let [most, last] = [back.attitude_deg.largest, back.attitude_deg.last];
+    assert!(most > 17.0 && last < 0.1, "{most} {last}");
     let limits = [
         "control.amplitude_limit=1e-6",
         "control.angle_limit_deg=1e-6",

@@ -54,6 +54,17 @@ fn behaves_reynolds_numbers_at_which_friction_rules_are_told() {
     assert!(says(&small, low), "{:?}", small.warnings);
     let fly = flown(&preset("fruit-fly-blade", &set[..1]));
     assert!(!says(&fly, low), "{:?}", fly.warnings);
+    // A third of the fly's size at its frequency: 13. Coefficients of one's own may know it.
+    let third = ["time.beats=0.2", "animal.scale=0.3333"];
+    let named = flown(&preset("fruit-fly-blade", &third));
+    assert!(
+        says(&named, "`left`: Reynolds number 13.") && says(&named, "dickson-2008"),
+        "{:?}",
+        named.warnings
+    );
+    let own = "air.blade={own={lift=1,drag_0=0.4,drag_90=3}}";
+    let own = flown(&preset("fruit-fly-blade", &[&third[..], &[own]].concat()));
+    assert!(!says(&own, low), "{:?}", own.warnings);
 }
 
 /// A smooth start takes half of its length, here half a beat, from the strokes alone.

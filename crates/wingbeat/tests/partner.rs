@@ -421,6 +421,15 @@ fn exact_a_program_is_told_the_reference() {
     assert!((number(1, "heading_rate_deg_s") - 35.0 / 16.0 * 9000.0).abs() < 1e-8);
     let rows = column(&dir.join("r"), "reference_z_m");
     assert!((rows[40] - height(1)).abs() < 1e-15 && rows.len() == 121);
+    // That is counted from the true place of the release, whatever noise there is in what is seen.
+    fs::remove_file(dir.join("told")).unwrap();
+    let noise = "control.sensors={position_noise_m=1e-4}";
+    let out = commanded(dir, "n", &command, &["time.beats=0.5", noise]);
+    assert!(out.status.success(), "{}", complaint(&out));
+    let told = fs::read_to_string(dir.join("told")).unwrap();
+    let noisy: serde_json::Value = serde_json::from_str(told.lines().next().unwrap()).unwrap();
+    assert_eq!(noisy["reference"], looks[0]["reference"]);
+    assert_ne!(noisy["mass_centre_m"], looks[0]["mass_centre_m"]);
     for (key, value) in [
         ("period_s", 0.005),
         ("interval_s", 0.005),

@@ -1,5 +1,6 @@
 //! What of an estimate is implausible: a number outside wide limits.
 
+use wingbeat_blade::{Rotation, SETS};
 use wingbeat_flight::{AirModel, AirOptions, DoubtKind, FlightSetup, MotionMode};
 use wingbeat_math::DVec3;
 use wingbeat_model::{DeformingMesh, Wing};
@@ -289,18 +290,50 @@ fn free_flight(setup: &FlightSetup, e: &Estimate, list: &mut Doubts) {
     list.see(&GYRATION, gyration, radius, "");
 }
 
+/// Reynolds number of wings that beat below which lift falls and drag rises. From 1800 down to about 100 the
+/// coefficients of a model of a fruit fly's wing change little, below they do (Navier-Stokes: Wu & Sun 2004, J. Exp.
+/// Biol. 207:1137, with the speed at the radius of gyration, 0.5 to 0.6 of that of the tip); in plane flow the wake
+/// changes between 64 and 32 (Miller & Peskin 2004, J. Exp. Biol. 207:3073).
+const VISCOUS: f64 = 100.0;
+
 /// Reynolds numbers that the air was not made for; none of what does not move, or has no friction.
-fn see_reynolds(w: &WingEstimate, list: &mut Doubts) {
+fn see_reynolds(air: &AirModel, w: &WingEstimate, list: &mut Doubts) {
     let known = |re: &f64| w.speed > 0.0 && re.is_finite();
-    list.see(&REYNOLDS, "Reynolds number", w.reynolds.filter(known), "");
+    let reynolds = w.reynolds.filter(known);
+    let is_viscous = |re: &f64| w.tip_speed > 0.0 && (REYNOLDS.low..VISCOUS).contains(re);
+    match reynolds.filter(is_viscous).zip(without_viscosity(air)) {
+        Some((re, air)) => list.0.push(format!(
+            "Reynolds number {} is below {VISCOUS}: there the lift of beating wings falls and their drag rises (Wu & Sun 2004, J. Exp. Biol. 207:1137), which {air}: lift comes out too large, power to carry the weight too small",
+            rounded(re)
+        )),
+        None => list.see(&REYNOLDS, "Reynolds number", reynolds, ""),
+    }
+}
+
+/// What says that the lift in this air does not hang on the Reynolds number; none of coefficients of one's own.
+fn without_viscosity(air: &AirModel) -> Option<String> {
+    match air {
+        AirModel::VortexLattice(_) => Some("the lattice does not know".to_owned()),
+        AirModel::BladeElement(air) => {
+            let set = SETS.iter().find(|s| s.law == air.blade.translation)?;
+            let measured = set.reynolds.map_or(String::new(), |re| {
+                format!(", measured at a Reynolds number of {re}")
+            });
+            Some(format!(
+                "coefficients do not know (air.blade.coefficients = \"{}\"{measured}; your own: [air.blade.own])",
+                set.name
+            ))
+        }
+        _ => None,
+    }
 }
 
 /// The same of all wings, wings that say the same but once.
-pub(super) fn reynolds_doubts(wings: &[WingEstimate]) -> Vec<String> {
+pub(super) fn reynolds_doubts(air: &AirModel, wings: &[WingEstimate]) -> Vec<String> {
     let mut list: Vec<String> = vec![];
     for w in wings {
         let mut own = Doubts::default();
-        see_reynolds(w, &mut own);
+        see_reynolds(air, w, &mut own);
         let new = own
             .0
             .into_iter()
@@ -316,7 +349,7 @@ fn wing_doubts(setup: &FlightSetup, wing: &Wing, w: &WingEstimate) -> Vec<String
     list.see(&TIP_SPEED, "mean tip speed", flaps, " m/s");
     let stroke = w.stroke_amplitude.to_degrees();
     list.see(&STROKE, "stroke amplitude", stroke, " deg");
-    see_reynolds(w, &mut list);
+    see_reynolds(&setup.air, w, &mut list);
     let frequency = w.reduced_frequency;
     list.see(&REDUCED_FREQUENCY, "reduced frequency", frequency, "");
     let [away, turn] = deformation(wing);

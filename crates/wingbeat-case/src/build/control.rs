@@ -155,7 +155,7 @@ fn check(case: &Case) -> Built<()> {
 }
 
 /// Time steps in a wingbeat.
-fn interval(case: &Case) -> Built<usize> {
+pub(super) fn interval(case: &Case) -> Built<usize> {
     let time = &case.time;
     let steps = match (time.steps_per_beat, time.step_s) {
         (Some(steps), _) => steps as f64,
@@ -174,12 +174,12 @@ fn interval(case: &Case) -> Built<usize> {
 }
 
 /// Time constant of the actuators [s].
-fn lag(case: &Case, control: &ControlCase) -> f64 {
+pub(super) fn lag(case: &Case, control: &ControlCase) -> f64 {
     control.lag_beats / case.motion.frequency_hz.value()
 }
 
 /// When the controller looks, and when it acts.
-fn timing(case: &Case, control: &ControlCase) -> Built<Timing> {
+pub(super) fn timing(case: &Case, control: &ControlCase) -> Built<Timing> {
     let (steps, parts) = (interval(case)?, control.looks_per_beat);
     if !steps.is_multiple_of(parts) || steps / parts < MIN_INTERVAL {
         return Err(Fault::new(
@@ -239,7 +239,7 @@ fn stiffness(case: &StiffnessCase) -> Stiffness {
     }
 }
 
-fn sensors(case: &SensorsCase) -> Sensors {
+pub(super) fn sensors(case: &SensorsCase) -> Sensors {
     let degrees = |v: [f64; 3]| vector(v.map(f64::to_radians));
     Sensors {
         seed: case.seed.into(),

@@ -21,6 +21,7 @@ mod motion;
 mod names;
 mod numbers;
 mod output;
+mod own_control;
 mod program;
 mod refused;
 mod route;
@@ -37,6 +38,8 @@ pub(crate) use effects::check as check_effects;
 pub(crate) use motion::radians;
 pub use names::column_name;
 pub(crate) use output::output;
+pub use own_control::OwnControl;
+pub(crate) use own_control::own_control;
 pub(crate) use refused::refused;
 
 use wingbeat_flight::{CorrectorSettings, FlightSetup};

@@ -112,7 +112,7 @@ struct Conversation {
     names: Vec<WingName>,
     /// Of the wingbeat [s].
     period: f64,
-    /// Mass centre at the first look, as it was seen, N components [m].
+    /// Mass centre at the first look, the true one, N components [m].
     origin: Option<DVec3>,
     command: Vec<Adjustment>,
     /// Whether the limits cut what was asked for.
@@ -199,8 +199,8 @@ impl Conversation {
         }
     }
 
-    fn question(&mut self, sensed: &Sensed) -> String {
-        let origin = *self.origin.get_or_insert(sensed.centre);
+    /// What is asked where `sensed` is seen, of a flyer whose mass centre was at `origin` [m] at the release.
+    fn question(&self, sensed: &Sensed, origin: DVec3) -> String {
         let aim = self.aim_from(origin, sensed.time);
         let (model, root) = (&self.model, &sensed.root);
         let question = Question {
@@ -277,12 +277,16 @@ impl Conversation {
         Ok((asked, answer.memory))
     }
 
-    fn asked(&mut self, sensed: &Sensed) -> Result<(Vec<Adjustment>, Vec<f64>), String> {
+    fn asked(
+        &mut self,
+        sensed: &Sensed,
+        origin: DVec3,
+    ) -> Result<(Vec<Adjustment>, Vec<f64>), String> {
         if let Some(line) = self.partner.unasked() {
             let problem = format!("it says more than one line for a look: `{line}`");
             return Err(self.partner.complain(&problem));
         }
-        let question = self.question(sensed);
+        let question = self.question(sensed, origin);
         self.partner.say(question)?;
         let line = self.partner.hear()?;
         self.understood(&line)
@@ -312,8 +316,9 @@ fn limited(a: &Adjustment, limits: &Limits) -> Adjustment {
 impl Controller for Conversation {
     fn command(&mut self, sensed: &Sensed) -> Result<Vec<Adjustment>, String> {
         if sensed.look.is_multiple_of(self.model.every) {
+            let origin = *self.origin.get_or_insert(sensed.centre);
             let seen = self.model.sensors.map_or(*sensed, |s| s.seen(sensed));
-            let answer = self.asked(&seen);
+            let answer = self.asked(&seen, origin);
             let (wanted, memory) = answer.map_err(|problem| {
                 let look = sensed.look;
                 format!(

@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use wingbeat_air::Points;
 use wingbeat_math::ode::StepReport;
+use wingbeat_math::rotation_vector_of_matrix;
 
 use super::Simulation;
 use crate::air_probe::AirProbe;
@@ -43,7 +44,7 @@ impl Simulation {
         Ok(())
     }
 
-    /// Puts where the flyer is to be into the record.
+    /// Puts where the flyer is to be, and how far from the attitude to be held it is, into the record.
     fn write_reference(&mut self) {
         let since = self.state.step - self.stages[self.state.stage].from_step;
         let time = since as f64 * self.setup.time.step;
@@ -51,6 +52,13 @@ impl Simulation {
         let aim = feedback.and_then(|f| f.reference(time, self.record.mass_centre));
         self.record.reference.clear();
         self.record.reference.extend(aim);
+        let is_released = self.state.stage + 1 == self.stages.len();
+        let (since, time) = if is_released { (since, time) } else { (0, 0.0) };
+        let held = feedback.and_then(|f| f.attitude(since, time));
+        let turn = held.map(|held| held.transpose() * self.record.root_rotation());
+        self.record.attitude_departure.clear();
+        let angle = turn.map(|turn| rotation_vector_of_matrix(turn).length());
+        self.record.attitude_departure.extend(angle);
     }
 
     /// Asks the controller, where there is one and it is time; a flyer that is held is not steered.

@@ -133,23 +133,36 @@ class Flight:
             return self._with_angles({error.key: None} | keys)
 
     def with_controller(
-        self, controller: Controller, *, every_steps: int | None = None, latency_looks: int = 0
+        self, controller: Controller, *, every_steps: int | None = None, latency_looks: int | None = None
     ) -> Flight:
         """A new flight under ``controller``, called with what is sensed (:class:`wingbeat.Sensed`) at the release and
         every ``every_steps`` steps after it (a wingbeat if left out), never inside a step; it answers with one
         :class:`wingbeat.Adjustment` for all wings or one for each. Commands act ``latency_looks`` looks later, within
         20 wingbeats and the flight, and the wings go over to them smoothly until the next look. Of a case with
         ``air.mirror`` one half of the air is computed: commands that differ from side to side end its flight. A controller with a method ``reset`` is reset when a
-        flight begins. An exception in it stops the flight; ``error.run`` is what was flown. Flights that no wing steers are
+        flight begins. Of ``[control]`` in the case ``sensors``, ``looks_per_beat``, ``every_beats``, ``latency_beats`` and
+        ``lag_beats`` act on it as on an external program, unless ``every_steps`` and ``latency_looks`` say otherwise; a case with
+        other keys there has a controller already, and is refused unless ``control.controller`` is ``"none"``. An exception in it stops the flight; ``error.run`` is what was flown. Flights that no wing steers are
         refused when they begin: tethered ones, those without wings or in air by a table of derivatives.
         """
         if not callable(controller):
             raise CaseError("control: the controller cannot be called", key="control", remedy="a function of Sensed")
-        steps = whole("every_steps", self._interval() if every_steps is None else every_steps, 4, 2**31 - 1)
-        latency = whole("latency_looks", latency_looks, 0, self._most_looks(steps))
+        interval, every, due = self._core.control_times() or (None, 1, 0)
+        if every_steps is not None:
+            steps, every = whole("every_steps", every_steps, 4, 2**31 - 1), 1
+            if latency_looks is None and due * (interval or 0) % steps != 0:
+                raise CaseError(
+                    f"latency_looks: control.latency_beats is no whole number of looks of {steps} steps",
+                    key="latency_looks",
+                    remedy="give latency_looks, or another every_steps",
+                )
+            due = due * (interval or 0) // steps
+        else:
+            steps = whole("every_steps", self._interval() if interval is None else interval, 4, 2**31 - 1)
+        latency = whole("latency_looks", due if latency_looks is None else latency_looks, 0, self._most_looks(steps))
         steering = Steering(controller, len(self._core.wings))
         has_memory = callable(getattr(controller, "reset", None))
-        return Flight(self._core.with_controller(steering, (steps, latency), has_memory))
+        return Flight(self._core.with_controller(steering, (steps, every, latency), has_memory))
 
     def with_air(self, air: Air) -> Flight:
         """A new flight in the air that ``air`` computes: called with :class:`wingbeat.Motions`, it answers with forces [N]

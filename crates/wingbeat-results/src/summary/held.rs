@@ -28,7 +28,8 @@ pub struct Departures {
     pub limited: f64,
     /// Of the mass centre from where it is to be, in lengths of the longest wing \[1\]; none where that is not known.
     pub place_wing_lengths: Option<Departure>,
-    /// Of the attitude from that at the release, turned to where the flyer is to head \[deg\].
+    /// Of the attitude from the one that is held \[deg\]: the trimmed one where it is known, otherwise that at the
+    /// release, turned to where the flyer is to head.
     pub attitude_deg: Departure,
     release: Option<Release>,
 }
@@ -72,8 +73,11 @@ impl Departures {
         let now = r.root_rotation();
         let turned = (turn * rotation_of(release.attitude)).transpose() * now;
         let cosine = 0.5 * (turned.x_axis.x + turned.y_axis.y + turned.z_axis.z - 1.0);
-        self.attitude_deg
-            .take(cosine.clamp(-1.0, 1.0).acos().to_degrees());
+        let from_release = cosine.clamp(-1.0, 1.0).acos();
+        // Histories of older builds lack the departure from the trimmed attitude.
+        let known = r.attitude_departure.first().filter(|x| x.is_finite());
+        let angle = known.copied().unwrap_or(from_release);
+        self.attitude_deg.take(angle.to_degrees());
         let straight = |v: DVec3| release.centre + (r.time - release.time) * v;
         let place = aim.map(|aim| aim.position);
         let place = place.or_else(|| feedback.controller.velocity().map(straight));

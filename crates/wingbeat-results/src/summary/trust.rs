@@ -184,8 +184,9 @@ fn deformation(setup: &FlightSetup, list: &mut Warnings) {
 /// Wing lengths from its place at which a flyer under feedback is lost.
 const LOST: f64 = 20.0;
 
-/// The same of one that is turned by more than these degrees from its attitude at the release: one that was
-/// released tumbling and came back to its place is turned from that, too.
+/// The same of one that is turned by more than these degrees from the attitude that it is to hold, as many wing lengths
+/// from its place: where the attitude at the release is held, one that was released tumbling and came back to its place
+/// is turned from that, too.
 const TURNED: [f64; 2] = [90.0, 5.0];
 
 /// How far a flight under feedback was from what it is to hold.
@@ -207,8 +208,13 @@ fn feedback(setup: &FlightSetup, summary: &Summary, list: &mut Warnings) {
         None => (String::new(), None),
     };
     let limited = 100.0 * departures.limited;
+    let feedback = setup.feedback.as_ref();
+    let held = match feedback.is_some_and(|f| f.controller.holds_attitude()) {
+        true => "that of trim",
+        false => "that of the release",
+    };
     let text = format!(
-        "commands stood at their limits at {limited:.0} % of the looks; at these it was {place}{:.0} deg from the attitude that it is to hold (that of the release, turned by the heading of waypoints) at most and {:.0} in the end.",
+        "commands stood at their limits at {limited:.0} % of the looks; at these it was {place}{:.0} deg from the attitude that it is to hold ({held}, turned by the heading of waypoints) at most and {:.0} in the end.",
         turn.largest, turn.last
     );
     let [over, near] = TURNED;

@@ -72,6 +72,15 @@ pub(super) const LOOKS: &[Quantity] = &[
     ),
 ];
 
+/// How far from the attitude to be held the flyer is.
+pub(super) const HELD: &[Quantity] = &[scalar(
+    "attitude_departure",
+    Unit::Radian,
+    "angle from the trimmed attitude that feedback held at its newest look",
+    |r, _, _| Real(&mut r.attitude_departure[0]),
+)
+.new_here()];
+
 /// Where feedback is to bring the flyer.
 pub(super) const REFERENCE: &[Quantity] = &[
     scalar(

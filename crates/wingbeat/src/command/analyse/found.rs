@@ -3,7 +3,7 @@
 use serde_json::{Map, Value, json};
 use wingbeat::analysis::{
     Bound, Lost, Residuals, TrimProblem, TrimSolution, UNKNOWNS, Unknown, UnknownKind,
-    stroke_amplitude, turned_inside_out,
+    doubtful_reynolds_numbers, stroke_amplitude, turned_inside_out,
 };
 use wingbeat::case::LoadedCase;
 use wingbeat::flight::FlightSetup;
@@ -139,6 +139,9 @@ fn warn(report: &mut Report, t: &TrimSolution, setup: &FlightSetup) {
         tell!("warning: {text}");
     }
     report.value("derivatives_in_doubt", jumps);
+    let reynolds = doubtful_reynolds_numbers(setup);
+    reynolds.iter().for_each(|text| tell!("warning: {text}"));
+    report.value("reynolds_numbers_in_doubt", reynolds);
     report.value("stroke_deg", stroke);
     report.value("crossing_wings", crossing_wings);
     if let Some(unknown) = turned_inside_out(&t.unknowns, &t.values) {

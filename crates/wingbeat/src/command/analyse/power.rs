@@ -10,6 +10,9 @@ use crate::command::failure::Failure;
 use crate::command::options;
 use crate::command::report::{Report, line};
 
+/// Part of the aerodynamic power from which on the inertial one is said to be as good as the mass of the wings.
+const INERTIAL: f64 = 0.25;
+
 /// Arguments of `wingbeat power`.
 #[derive(Args)]
 pub(crate) struct PowerArgs {
@@ -69,6 +72,12 @@ fn tell(report: &mut Report, p: &Power, muscle: f64) {
         report,
         "  muscle counted as {muscle} of the mass of the whole animal"
     );
+    if p.inertial_positive > INERTIAL * p.aerodynamic {
+        line!(
+            report,
+            "  the inertial part goes with the wings' mass and how it is spread along them: where these are\n  estimates (all cases of `wingbeat new`), so is the power without elastic storage"
+        );
+    }
     report.value("power", values);
     report.value("muscle_share", muscle);
 }
