@@ -224,7 +224,9 @@ pub struct AirCase {
     pub max_wake_rows: Option<usize>,
     /// Nodes of a row of wake move alike, with the air in the middle of the row: plane flow.
     ///
-    /// Change it to true for sections: wings of one panel along the span, a hundred times as long as their chord.
+    /// Change it to true for sections: wings of one panel along the span, a hundred times as long as their chord,
+    /// with `mirror = false` and without tips and roots in `shed` (docs/lattice-settings.md, "Plane flow"). The ends
+    /// of a section move no air.
     #[schemars(extend("with" = [LATTICE, SHEDDING]))]
     pub plane_wakes: bool,
     /// Longest displacement of a wake node in a step; left out: no limit.
