@@ -11,6 +11,7 @@
 //! | trailing edges ahead, wings that stroke broadside | `edge_ahead` |
 //! | vorticity of one sign from leading edges, tips of attached wings | `shed_by_motion` |
 //! | cores of wings that are wide beside the panels | `bound_core` |
+//! | liquids with the viscosity of air | `fluid` |
 //! | gusts that a flight never meets | `late_gusts` |
 //!
 //! `air_past`: the undisturbed air past a wing in its prescribed motion, by which the motion is judged. `said`: names
@@ -19,6 +20,7 @@
 mod air_past;
 mod bound_core;
 mod edge_ahead;
+mod fluid;
 mod impossible;
 mod late_gusts;
 mod on_bodies;

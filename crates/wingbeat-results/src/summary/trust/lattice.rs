@@ -105,6 +105,9 @@ fn inputs(setup: &FlightSetup, air: &AirOptions, summary: &Summary, list: &mut W
     } else if has_wings {
         list.note("No edge of the wings sheds a wake (air.shed is empty): circulation about the wings stays zero. Forces are those of added mass; there is neither lift nor induced drag in a steady stream.");
     }
+    if let Some(text) = setup.liquid_with_viscosity_of_air() {
+        list.limit(format!("Two fluids: {text}."));
+    }
     if let Some(text) = setup.wide_bound_core() {
         list.note(format!("Lift that is high: {text}."));
     }
