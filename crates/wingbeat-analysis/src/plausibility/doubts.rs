@@ -216,6 +216,7 @@ pub(super) fn doubts(setup: &FlightSetup, e: &Estimate) -> Vec<String> {
     list.extend(setup.one_sided_leading_edges());
     list.extend(setup.long_steps_one_way());
     list.extend(setup.tips_of_attached_wings());
+    list.extend(setup.attached_beyond_stall());
     list.extend(setup.wide_bound_core());
     list.extend(setup.liquid_with_viscosity_of_air());
     list.extend(cut_wake(setup));

@@ -95,9 +95,13 @@ fn motion(setup: &FlightSetup, summary: &Summary, list: &mut Warnings) {
         setup.one_sided_leading_edges().filter(|_| sheds),
         setup.long_steps_one_way().filter(|_| sheds),
         setup.tips_of_attached_wings(),
+        setup.attached_beyond_stall(),
     ];
     for text in by_motion.into_iter().flatten() {
         list.limit(format!("By the prescribed motion {text}."));
+    }
+    if let Some(text) = setup.attached_strokes_beyond_stall() {
+        list.note(format!("By the prescribed motion {text}."));
     }
 }
 
