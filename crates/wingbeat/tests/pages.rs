@@ -136,9 +136,9 @@ fn agrees_the_foil_of_the_page_on_settings_with_garrick() {
     let page = page("lattice-settings.md");
     let scratch = Scratch::new("foil");
     let dir = &scratch.0;
-    let case = blocks(&page, "toml").into_iter();
-    let case = case.filter(|b| b.contains("name = \"foil\"")).next_back();
-    fs::write(dir.join("foil.toml"), case.unwrap()).unwrap();
+    let is_foil = |b: &&str| b.contains("name = \"foil\"");
+    let case = blocks(&page, "toml").into_iter().find(is_foil).unwrap();
+    fs::write(dir.join("foil.toml"), case).unwrap();
     assert!(page.contains("wingbeat run foil.toml --out foil"));
     run(dir, "wingbeat run foil.toml --out foil");
     let history = fs::read_to_string(dir.join("foil/history.csv")).unwrap();

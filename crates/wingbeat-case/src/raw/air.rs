@@ -223,11 +223,11 @@ pub struct AirCase {
     #[schemars(range(min = 1), extend("with" = [LATTICE, SHEDDING]))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub max_wake_rows: Option<usize>,
-    /// Nodes of a row of wake move alike, with the air in the middle of the row: plane flow.
+    /// Nodes of a row of wake move alike, with the air in the middle of the row, and ends of sections move no
+    /// air: plane flow.
     ///
     /// Change it to true for sections: wings of one panel along the span, a hundred times as long as their chord,
-    /// with `mirror = false` and without tips and roots in `shed` (docs/lattice-settings.md, "Plane flow"). The ends
-    /// of a section move no air.
+    /// with `mirror = false` and without tips and roots in `shed` (docs/lattice-settings.md, "Plane flow").
     #[schemars(extend("with" = [LATTICE, SHEDDING]))]
     pub plane_wakes: bool,
     /// Longest displacement of a wake node in a step; left out: no limit.
