@@ -128,7 +128,7 @@ fn agrees_tips_of_attached_wings_shed_what_is_told_of_them() {
 /// beyond it, one at 10 deg is not; one that plunges fast by a twentieth of its chord, with more incidence than that for an
 /// instant, has the forces of attached flow.
 #[test]
-fn behaves_attached_flow_beyond_stall_is_told() {
+fn behaves_attached_flow_beyond_stall_is_named() {
     for preset in PRESETS {
         let setup = LoadedCase::find(preset.name, &[]).unwrap().setup;
         let said = setup.attached_beyond_stall();

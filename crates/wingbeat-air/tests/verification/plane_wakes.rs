@@ -114,7 +114,7 @@ fn gaining(span: f64, periods: usize) -> Vec<[f64; 2]> {
 }
 
 /// The gain of circulation runs along the ends of a section, which plane flow has not: a section of 30 chords has the
-/// lift of one of 3000, to the square of the chord over the span. With ends that move air, mean lift of the third period
+/// lift of one of 3000, to the square of the chord over the span. With ends that move air mean lifts of the third period
 /// are 0.58 and 0.19.
 #[test]
 fn limit_lift_of_sections_that_gain_circulation_does_not_hang_on_their_span() {
