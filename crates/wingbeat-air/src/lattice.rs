@@ -79,13 +79,16 @@ impl Lattice {
         settings.validate()?;
         let mut settings = settings;
         settings.shedding.leading &= settings.leading.sheds();
-        let topology = Topology::new(&surfaces, joined, settings.shedding)?;
+        let mut topology = Topology::new(&surfaces, joined, settings.shedding)?;
         require(
             !settings.plane_wakes || topology.sheets.iter().all(|s| s.panels.len() == 1),
             "plane_wakes",
             settings.plane_wakes,
             "true only for wings of one panel along the span (mesh.spanwise = 1), whose flow is that of a section",
         )?;
+        if settings.plane_wakes {
+            topology.mark_ends(&surfaces);
+        }
         let mut strips = strips(&topology, &surfaces);
         let rings = rings(&topology, &surfaces, &strips, &settings);
         let controls = Controls::new(&topology, &surfaces, &strips, &settings);

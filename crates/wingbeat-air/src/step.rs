@@ -279,6 +279,6 @@ impl Lattice {
     pub fn impulse(&self, state: &AirState, ws: &mut AirWorkspace) -> Result<DVec3, AirError> {
         self.check_state(state)?;
         self.gather_accepted(state, ws);
-        Ok(self.settings().density * ws.filaments.impulse(state.position[0]))
+        Ok(self.settings().density * ws.filaments.impulse(self, state.position[0]))
     }
 }

@@ -19,6 +19,9 @@ const BEATS: f64 = 5.0;
 /// Distance that wakes keep from surfaces where the case does not say, mean chords.
 const CLEARANCE: f64 = 0.1;
 
+/// Radius of cores of the wake where the case gives another of their keys alone, mean chords.
+const WAKE_CORE: f64 = 0.07;
+
 /// Fills in what the case leaves open.
 pub(crate) fn resolve(case: &mut Case) -> Result<(), Fault> {
     let shares_plane =
@@ -82,6 +85,9 @@ pub(crate) fn air(case: &mut AirCase) {
     case.ring_inset.decide(scheme.inset);
     if let CoreCase::LambOseen(core) | CoreCase::Algebraic(core) = &mut case.wake_core {
         core.viscosity_m2_s.get_or_insert(AIR_VISCOSITY);
+        if core.radius_m.is_none() {
+            core.radius_chords.get_or_insert(WAKE_CORE);
+        }
     }
     let has_radius = !matches!(case.wake_core, CoreCase::CutOff { .. });
     case.wake_overlap.decide(if has_radius { 1.0 } else { 0.0 });

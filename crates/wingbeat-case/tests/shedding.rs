@@ -123,3 +123,100 @@ fn agrees_tips_of_attached_wings_shed_what_is_told_of_them() {
     assert_eq!(with("always"), None);
     assert_eq!(with("0.02"), None);
 }
+
+/// Incidence beyond stall with leading edges that shed nothing, which attached presets do not have. A plate held at 20 deg is
+/// beyond it, one at 10 deg is not; one that plunges fast by a twentieth of its chord, with more incidence than that for an
+/// instant, has the forces of attached flow.
+#[test]
+fn behaves_attached_flow_beyond_stall_is_named() {
+    for preset in PRESETS {
+        let setup = LoadedCase::find(preset.name, &[]).unwrap().setup;
+        let said = setup.attached_beyond_stall();
+        // 25 deg of flapping in a stream: tips meet the air at 38 deg.
+        let is_beyond = preset.name == "flapping-rectangles";
+        assert_eq!(said.is_some(), is_beyond, "{}: {said:?}", preset.name);
+    }
+    let foil = |pitch: f64, heave: f64, hertz: f64, shed: &str| {
+        let text = format!(
+            "format = 1\n[time]\nsteps_per_beat = 60\nbeats = 2\n[flight]\nmode = \"tethered\"\npitch_deg = {pitch}\n\
+             tether.z = {{ frequency_hz = {hertz}, cosine_m = [{heave}] }}\n[motion]\nfrequency_hz = {hertz}\n\
+             [air]\nstream_m_s = [-1, 0, 0]\nplane_wakes = true\nshed = {shed}\n\
+             [body]\nmass_kg = 1\ninertia_about_centre_kg_m2 = [1, 1, 1, 0, 0, 0]\n\
+             [wing.right]\nhinge_m = [0, 0, 0]\nmass_kg = 0\nmirror = false\nmotion.phi.constant_deg = 0\n\
+             planform.rectangle = {{ chord_m = 1, span_m = 100 }}\n\
+             mesh = {{ chordwise = 4, spanwise = 1, spanwise_spacing = \"uniform\" }}\n"
+        );
+        let case = LoadedCase::from_text("foil", &text, Path::new(""), &[]);
+        case.unwrap().setup
+    };
+    let said =
+        |pitch, heave, hertz| foil(pitch, heave, hertz, r#"["trailing"]"#).attached_beyond_stall();
+    assert!(
+        said(20.0, 1e-6, 0.1)
+            .unwrap()
+            .contains("20 deg of incidence")
+    );
+    assert_eq!(said(10.0, 1e-6, 0.1), None);
+    // Reduced frequencies of 0.25 and 3.93, 27 and 21 deg at most.
+    let slow = 0.25 / std::f64::consts::PI;
+    assert!(said(0.0, 1.0, slow).unwrap().contains("27 deg"));
+    assert_eq!(said(0.0, 0.05, 3.93 / std::f64::consts::PI), None);
+    let sheds = foil(20.0, 1e-6, 0.1, r#"["trailing", "leading"]"#);
+    assert_eq!(sheds.attached_beyond_stall(), None);
+    // Plane flow has neither roots nor tips that could hold: what is left is that edges shed by the step before.
+    let said = sheds.one_sided_leading_edges().unwrap();
+    assert!(said.contains("the step before"), "{said}");
+}
+
+/// Joined roots let circulation through, but tips that hold keep what strokes of one sign leave, too.
+#[test]
+fn behaves_tips_that_hold_are_told_where_leading_edges_shed_one_sign() {
+    let plate = |shed: &str| {
+        let text = format!(
+            "format = 1\n[time]\nsteps_per_beat = 50\nbeats = 1\n[flight]\nmode = \"tethered\"\npitch_deg = 8\n\
+             tether.z = {{ frequency_hz = 0.08, cosine_m = [-0.5] }}\n[motion]\nfrequency_hz = 0.08\n\
+             [air]\nstream_m_s = [-1, 0, 0]\nleading_edge = \"suction_implicit\"\nshed = {shed}\n\
+             [body]\nmass_kg = 1\ninertia_about_centre_kg_m2 = [1, 1, 1, 0, 0, 0]\n\
+             [wing.right]\nhinge_m = [0, 0, 0]\nmass_kg = 0\njoined = true\nmotion.phi.constant_deg = 0\n\
+             planform.rectangle = {{ chord_m = 1, span_m = 3 }}\nmesh = {{ chordwise = 4, spanwise = 6 }}\n"
+        );
+        let case = LoadedCase::from_text("plate", &text, Path::new(""), &[]);
+        case.unwrap().setup.one_sided_leading_edges()
+    };
+    let said = plate(r#"["trailing", "leading"]"#).unwrap();
+    assert!(
+        said.contains("as tips hold") && said.contains("let tips shed"),
+        "{said}"
+    );
+    assert_eq!(plate(r#"["trailing", "tip", "leading"]"#), None);
+}
+
+/// A viscosity alone leaves the core its default radius; a liquid with the viscosity of air is named.
+#[test]
+fn behaves_liquids_with_the_viscosity_of_air_are_told() {
+    let water = |more: &str| {
+        let text = format!(
+            "format = 1\n[time]\nstep_s = 0.1\nsteps = 5\n[flight]\nmode = \"tethered\"\npitch_deg = 5\n\
+             [air]\nstream_m_s = [-1, 0, 0]\ndensity_kg_m3 = 1000\nshed = [\"trailing\"]\n{more}\n\
+             [body]\nmass_kg = 1\ninertia_about_centre_kg_m2 = [1, 1, 1, 0, 0, 0]\n\
+             [wing.right]\nhinge_m = [0, 0, 0]\nmass_kg = 0\njoined = true\nmotion.phi.constant_deg = 0\n\
+             planform.rectangle = {{ chord_m = 1, span_m = 3 }}\nmesh = {{ chordwise = 4, spanwise = 6 }}\n"
+        );
+        let case = LoadedCase::from_text("plate", &text, Path::new(""), &[]);
+        case.unwrap().setup
+    };
+    let said = water("").liquid_with_viscosity_of_air().unwrap();
+    assert!(said.contains("viscosity_m2_s (1e-6 for water)"), "{said}");
+    let given = water("wake_core.algebraic.viscosity_m2_s = 1e-6");
+    assert_eq!(given.liquid_with_viscosity_of_air(), None);
+    let AirModel::VortexLattice(air) = &given.air else {
+        panic!("a lattice");
+    };
+    let chord = given.animal.wings[0].report().mean_chord;
+    let radius = air.lattice.wake_core.radius().unwrap();
+    assert!((radius - 0.07 * chord).abs() < 1e-12 * chord); // roundings
+    for preset in PRESETS {
+        let setup = LoadedCase::find(preset.name, &[]).unwrap().setup;
+        assert_eq!(setup.liquid_with_viscosity_of_air(), None);
+    }
+}

@@ -128,3 +128,48 @@ fn behaves_the_first_elastic_wing_of_the_page_is_what_it_says() {
     let modes = said(dir, &["modes", "my-wing.toml"]);
     assert!(modes.contains("20.1206"), "{modes}");
 }
+
+/// The foil in plane flow has Garrick's thrust [NACA TR 567], `pi (k h)^2 abs(C)^2` of 1/2 rho U^2 c for a plunge by h half
+/// chords, and gives as much more power to the water as its wake takes: `pi (k h)^2 Re C`.
+#[test]
+fn agrees_the_foil_of_the_page_on_settings_with_garrick() {
+    let page = page("lattice-settings.md");
+    let scratch = Scratch::new("foil");
+    let dir = &scratch.0;
+    let is_foil = |b: &&str| b.contains("name = \"foil\"");
+    let case = blocks(&page, "toml").into_iter().find(is_foil).unwrap();
+    fs::write(dir.join("foil.toml"), case).unwrap();
+    assert!(page.contains("wingbeat run foil.toml --out foil"));
+    run(dir, "wingbeat run foil.toml --out foil");
+    let history = fs::read_to_string(dir.join("foil/history.csv")).unwrap();
+    let mut lines = history.lines();
+    let names: Vec<&str> = lines.next().unwrap().split(',').collect();
+    let rows: Vec<Vec<&str>> = lines.map(|l| l.split(',').collect()).collect();
+    let column = |name: &str| {
+        let c = names.iter().position(|n| *n == name).unwrap();
+        let last = &rows[rows.len() - 81..];
+        last.iter()
+            .map(|r| r[c].parse().unwrap())
+            .collect::<Vec<f64>>()
+    };
+    let forward = column("air_wing_right_force_n1_newton");
+    let mean = forward[1..].iter().sum::<f64>() / 80.0;
+    let work = column("applied_work_joule");
+    let power = (work[80] - work[0]) * 1.2732;
+    let (pressure, speed) = (0.5 * 1000.0 * 0.4 * 0.4, 0.4);
+    let friction = 2.656 / (0.4 * 0.1 / 1e-6_f64).sqrt();
+    let thrust = mean / pressure + friction;
+    let power = power / (pressure * speed);
+    let [real, imaginary] = [0.5394, -0.1003]; // Theodorsen's function at k = 1
+    let scale = std::f64::consts::PI * 0.2 * 0.2;
+    let garrick = scale * (real * real + imaginary * imaginary);
+    println!(
+        "thrust {thrust} for {garrick}, power {power} for {}",
+        scale * real
+    );
+    // Cores of 0.01 chords take 2 % of the velocity of what is shed; the friction is that along the strip.
+    assert!((thrust / garrick - 1.0).abs() < 0.05, "{thrust} {garrick}");
+    assert!((power / (scale * real) - 1.0).abs() < 0.05, "{power}");
+    let shown = said(dir, &["show", "foil"]);
+    assert!(shown.starts_with("green"), "{shown}");
+}

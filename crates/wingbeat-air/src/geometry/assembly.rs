@@ -172,6 +172,7 @@ impl Topology {
                             plus: first + p,
                             minus: None,
                             wake: None,
+                            is_end: false,
                         });
                         self.edges.len() - 1
                     }

@@ -11,9 +11,9 @@ use crate::geometry::control::has_cosine_columns;
 use crate::geometry::node_motion::NodeMotion;
 use crate::geometry::strips::Strip;
 use crate::geometry::surface::Surface;
-use crate::geometry::topology::Topology;
+use crate::geometry::topology::{Topology, edge_kinds};
 use crate::settings::AirSettings;
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 use wingbeat_math::DVec3;
 
 /// A ring node lies off its surface node, towards the node `to`, by a part of the way (away from it if
@@ -75,6 +75,8 @@ fn inset(
             Some(EdgeKind::Tip | EdgeKind::Root) => to_the_tips[s],
             _ => false,
         };
+        // Plane flow has no side edges, however many columns reach from end to end.
+        let kept = kept || edge.is_end;
         if edge.minus.is_some() || edge.wake.is_some() || kept || surfaces[s].closed {
             continue;
         }
@@ -172,17 +174,4 @@ impl Rings {
             rings.velocity[n] += d;
         }
     }
-}
-
-/// What the surfaces call their border edges (global nodes).
-fn edge_kinds(topology: &Topology, surfaces: &[Surface]) -> BTreeMap<[usize; 2], EdgeKind> {
-    let mut kinds = BTreeMap::new();
-    for (s, surface) in surfaces.iter().enumerate() {
-        let offset = topology.first_node[s];
-        for g in surface.shedding.iter().flatten() {
-            let (a, b) = (g.from + offset, g.to + offset);
-            kinds.insert([a.min(b), a.max(b)], g.kind);
-        }
-    }
-    kinds
 }

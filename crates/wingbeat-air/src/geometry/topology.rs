@@ -1,6 +1,8 @@
 //! What is joined to what: edges of the lattice, the panels they bound, the wakes they shed.
 
 use crate::edges::EdgeKind;
+use crate::geometry::surface::Surface;
+use std::collections::BTreeMap;
 
 /// One edge of the lattice: a straight vortex filament from node `from` to node `to`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -15,6 +17,8 @@ pub struct Edge {
     pub minus: Option<usize>,
     /// The wake ring column it sheds into, if it sheds.
     pub wake: Option<WakeColumn>,
+    /// Whether it is an end of a section of plane flow (`AirSettings::plane_wakes`), which moves no air.
+    pub is_end: bool,
 }
 
 /// A column of a wake sheet, seen from the edge that sheds it.
@@ -89,6 +93,19 @@ pub struct Topology {
 }
 
 impl Topology {
+    /// Marks the ends of sections of plane flow, those free edges of open surfaces at tips and roots that shed
+    /// nothing; `surfaces` are those of the topology.
+    pub(crate) fn mark_ends(&mut self, surfaces: &[Surface]) {
+        let kinds = edge_kinds(self, surfaces);
+        for edge in &mut self.edges {
+            let pair = [edge.from.min(edge.to), edge.from.max(edge.to)];
+            let is_side = matches!(kinds.get(&pair), Some(EdgeKind::Tip | EdgeKind::Root));
+            let is_free = edge.minus.is_none() && edge.wake.is_none();
+            let is_open = !surfaces[self.panel_surface[edge.plus]].closed;
+            edge.is_end = is_side && is_free && is_open;
+        }
+    }
+
     /// Name of the surface of a node, and the node's number there.
     pub(crate) fn locate_node(&self, node: usize) -> (String, usize) {
         let s = self.first_node.partition_point(|&f| f <= node) - 1;
@@ -100,4 +117,20 @@ impl Topology {
         let s = self.panel_surface[panel];
         (self.surface_names[s].clone(), panel - self.first_panel[s])
     }
+}
+
+/// What the surfaces call their border edges (global nodes).
+pub(crate) fn edge_kinds(
+    topology: &Topology,
+    surfaces: &[Surface],
+) -> BTreeMap<[usize; 2], EdgeKind> {
+    let mut kinds = BTreeMap::new();
+    for (s, surface) in surfaces.iter().enumerate() {
+        let offset = topology.first_node[s];
+        for g in surface.shedding.iter().flatten() {
+            let (a, b) = (g.from + offset, g.to + offset);
+            kinds.insert([a.min(b), a.max(b)], g.kind);
+        }
+    }
+    kinds
 }

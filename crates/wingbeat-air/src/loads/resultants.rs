@@ -40,7 +40,7 @@ pub(crate) fn impulse(
     out: &mut AirLoads,
 ) {
     let inner: DVec3 = out.inner.iter().map(|i| i.momentum).sum();
-    let present = lattice.settings().density * filaments.impulse(DVec3::ZERO) - inner;
+    let present = lattice.settings().density * filaments.impulse(lattice, DVec3::ZERO) - inner;
     out.impulse = present + state.impulse.dropped();
     out.attached_impulse = present - state.free_impulse;
     out.account = state.impulse;

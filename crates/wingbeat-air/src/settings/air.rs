@@ -66,8 +66,11 @@ pub struct AirSettings {
     /// Free wake nodes keep this distance [m] from surfaces and do not pass through them; the
     /// core radius is the natural choice. 0 lets them pass (the published benchmark).
     pub clearance: f64,
-    /// Whether all nodes of a row of wake move alike, with the air in the middle of the row: plane flow. Where
-    /// long straight filaments end in nodes that move each by itself, these part within beats.
+    /// Whether the flow is plane: all nodes of a row of wake move alike, with the air in the middle of the row, and
+    /// what closes the rings of lattice and wakes at the ends of the section moves no air. Where long straight
+    /// filaments end in nodes that move each by itself, these part within beats; and with a circulation G of all
+    /// rings that leading edges feed, ends L apart would move the air by G / (pi L), which grows with every beat. What
+    /// is left of the ends is of the order of the square of the chord over the span.
     pub plane_wakes: bool,
     /// Convection of the wakes.
     pub convection: Convection,

@@ -25,7 +25,8 @@ pub(crate) fn is_computed(lattice: &Lattice, panel: usize) -> bool {
     lattice.symmetry().is_none_or(|s| panel <= s.panel[panel])
 }
 
-/// The columns that the normal velocities of an edge go to, those of the panels it bounds, and what part of them.
+/// The columns that the normal velocities of an edge go to, those of the panels it bounds, and what part of them:
+/// none of an end of plane flow, which moves no air.
 pub(crate) fn columns(
     lattice: &Lattice,
     edge: &Edge,
@@ -33,7 +34,9 @@ pub(crate) fn columns(
 ) -> impl Iterator<Item = (usize, f64)> {
     let plus = (unknown(lattice, edge.plus), keeps);
     let minus = edge.minus.map(|p| (unknown(lattice, p), -1.0));
-    std::iter::once(plus).chain(minus)
+    let moves_air = !edge.is_end;
+    let both = std::iter::once(plus).chain(minus);
+    both.filter(move |_| moves_air)
 }
 
 /// Adds a part of the normal velocities of an edge or ring.

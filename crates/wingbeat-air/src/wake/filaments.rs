@@ -244,7 +244,10 @@ impl Filaments {
                     None => wake,
                 }
             });
-            *net = gamma[edge.plus] - minus - wake;
+            *net = match edge.is_end {
+                true => 0.0,
+                false => gamma[edge.plus] - minus - wake,
+            };
         }
         for (share, net) in self.shares.iter().zip(&mut self.near_wake.gamma) {
             *net = share.net([gamma, leaving]);
@@ -283,7 +286,9 @@ impl Filaments {
                 for c in strip(columns).filter(|&c| there(r, c, true)) {
                     push([r, c], [r, c + 1], sheet.between_rows(r, c));
                 }
-                let inner = |&c: &usize| r + 1 < rows && there(r, c, false);
+                // The ends of plane flow move no air.
+                let has_sides = r + 1 < rows && !settings.plane_wakes;
+                let inner = |&c: &usize| has_sides && there(r, c, false);
                 for c in strip(columns + 1).filter(inner) {
                     push([r, c], [r + 1, c], sheet.between_columns(r, c));
                 }
@@ -302,21 +307,31 @@ impl Filaments {
 
     /// Half the sum of circulation x moment of every filament about `origin`, which is the vector
     /// impulse per density [m4/s], N: `1/2 sum Gamma a x b` for filaments from a to b, and
-    /// `1/2 x cross alpha` for blobs and particles.
-    pub(crate) fn impulse(&self, origin: DVec3) -> DVec3 {
-        let of = |net: &Network| {
+    /// `1/2 x cross alpha` for blobs and particles. In plane flow filaments along the span count twice, for what
+    /// closes their rings at the ends of the section has the other half.
+    pub(crate) fn impulse(&self, lattice: &Lattice, origin: DVec3) -> DVec3 {
+        let is_plane = lattice.settings().plane_wakes;
+        let whole = |is_closed: bool| if is_closed || !is_plane { 0.5 } else { 1.0 };
+        let of = |net: &Network, part: &dyn Fn(usize) -> f64| {
             let mut sum = DVec3::ZERO;
-            for (&[a, b], &gamma) in net.edges.iter().zip(&net.gamma) {
+            for (e, (&[a, b], &gamma)) in net.edges.iter().zip(&net.gamma).enumerate() {
                 let a = net.nodes.get(a as usize) - origin;
                 let b = net.nodes.get(b as usize) - origin;
-                sum += 0.5 * gamma * a.cross(b);
+                sum += part(e) * gamma * a.cross(b);
             }
             sum
         };
+        let topology = lattice.topology();
+        let bound = |e: usize| {
+            let surface = topology.panel_surface[topology.edges[e].plus];
+            whole(lattice.surfaces()[surface].closed)
+        };
+        let wakes = |_| whole(false);
         let of_blob = |b: &Blob| 0.5 * (b.position - origin).cross(b.strength);
         let particles: DVec3 = self.particles.iter().map(of_blob).sum();
         let blobs: DVec3 = self.blobs.iter().map(of_blob).sum();
-        of(&self.bound) + of(&self.near_wake) + of(&self.wake) + blobs + particles
+        let attached = of(&self.bound, &bound) + of(&self.near_wake, &wakes);
+        attached + of(&self.wake, &wakes) + blobs + particles
     }
 }
 

@@ -288,6 +288,9 @@ pub(crate) fn add_near_wake(
 /// The edge between the columns `c - 1` and `c` in strip `k`.
 fn across(row: &Row, c: usize, k: usize) -> Share {
     let mut share = Share::default();
+    if row.lattice.settings().plane_wakes {
+        return share; // an end, which moves no air
+    }
     if c > 0 {
         share.add(0, 1.0, &strip(row, c - 1, k));
     }

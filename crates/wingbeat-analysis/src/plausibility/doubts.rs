@@ -1,6 +1,6 @@
 //! What of an estimate is implausible: a number outside wide limits.
 
-use wingbeat_blade::{Rotation, SETS};
+use wingbeat_blade::SETS;
 use wingbeat_flight::{AirModel, AirOptions, DoubtKind, FlightSetup, MotionMode};
 use wingbeat_math::DVec3;
 use wingbeat_model::{DeformingMesh, Wing};
@@ -203,7 +203,11 @@ pub(super) fn doubts(setup: &FlightSetup, e: &Estimate) -> Vec<String> {
     // A stroke with the wrong sign has the trailing edge ahead, however right the feathering is.
     let is_explained = strokes_against_each_other(&setup.animal.wings);
     let of_setup = setup.doubts().into_iter();
-    let of_setup = of_setup.filter(|d| !(is_explained && d.kind == DoubtKind::EdgeAhead));
+    let of_setup = of_setup.filter(|d| match d.kind {
+        DoubtKind::EdgeAhead => !is_explained,
+        DoubtKind::AttachedStrokes => false, // a choice, which the summary notes
+        _ => true,
+    });
     list.extend(of_setup.map(|d| d.said));
     list
 }

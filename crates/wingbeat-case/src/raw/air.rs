@@ -29,7 +29,8 @@ pub struct AirCase {
     pub model: AirModel,
     /// Density of the air; of derivatives, those of `air.derivatives.dimensionless` ask for it.
     ///
-    /// Change it for another altitude or fluid.
+    /// Change it for another altitude or fluid; of another fluid give the lattice the viscosity, too:
+    /// `air.wake_core.algebraic.viscosity_m2_s` (1e-6 in water).
     #[default = 1.225]
     #[schemars(extend("exclusiveMinimum" = 0, "with" = FLUID))]
     pub density_kg_m3: f64,
@@ -66,7 +67,7 @@ pub struct AirCase {
     #[schemars(extend("with" = LATTICE))]
     pub bound_core: CoreCase,
     /// Core of the vortex filaments in the wakes: a physical input of hover. Default:
-    /// algebraic, from 0.07 mean chords on.
+    /// algebraic, from 0.07 mean chords on, which the radius is where a table gives the viscosity alone.
     ///
     /// Change it by a factor of two both ways to see what hangs on it; for the drag of attached wings in a
     /// stream to 0.01 chords, with `wake_overlap_slope` = 0.03 (docs/lattice-settings.md,
@@ -222,9 +223,11 @@ pub struct AirCase {
     #[schemars(range(min = 1), extend("with" = [LATTICE, SHEDDING]))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub max_wake_rows: Option<usize>,
-    /// Nodes of a row of wake move alike, with the air in the middle of the row: plane flow.
+    /// Nodes of a row of wake move alike, with the air in the middle of the row, and ends of sections move no
+    /// air: plane flow.
     ///
-    /// Change it to true for sections: wings of one panel along the span, a hundred times as long as their chord.
+    /// Change it to true for sections: wings of one panel along the span, a hundred times as long as their chord,
+    /// with `mirror = false` and without tips and roots in `shed` (docs/lattice-settings.md, "Plane flow").
     #[schemars(extend("with" = [LATTICE, SHEDDING]))]
     pub plane_wakes: bool,
     /// Longest displacement of a wake node in a step; left out: no limit.

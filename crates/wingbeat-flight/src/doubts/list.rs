@@ -36,6 +36,12 @@ pub enum DoubtKind {
     LongSteps,
     /// Tips of wings whose flow is attached.
     AttachedTips,
+    /// Wings far beyond stall whose flow is attached.
+    AttachedBeyondStall,
+    /// The same of strokes of insects, whose trailing edges and tips shed: as they are flown attached on purpose.
+    AttachedStrokes,
+    /// A liquid with the viscosity of air.
+    ViscosityOfAir,
     /// Cores of wings that are wide beside the panels.
     WideBoundCore,
     /// Vortex lift of edges that are swept.
@@ -78,6 +84,9 @@ impl FlightSetup {
         add(OneSidedEdges, one(self.one_sided_leading_edges()));
         add(LongSteps, one(self.long_steps_one_way()));
         add(AttachedTips, one(self.tips_of_attached_wings()));
+        add(AttachedBeyondStall, one(self.attached_beyond_stall()));
+        add(AttachedStrokes, one(self.attached_strokes_beyond_stall()));
+        add(ViscosityOfAir, one(self.liquid_with_viscosity_of_air()));
         add(WideBoundCore, one(self.wide_bound_core()));
         list
     }

@@ -10,7 +10,9 @@
 //! | angles that scatter, jump or have gaps | `scattered` |
 //! | trailing edges ahead, wings that stroke broadside | `edge_ahead` |
 //! | vorticity of one sign from leading edges, tips of attached wings | `shed_by_motion` |
+//! | attached flow beyond stall | `beyond_stall` |
 //! | cores of wings that are wide beside the panels | `bound_core` |
+//! | liquids with the viscosity of air | `fluid` |
 //! | gusts that a flight never meets | `late_gusts` |
 //! | forces of blade elements that jump | `jumps` |
 //!
@@ -18,8 +20,10 @@
 //! of wings, and those of which the same is said.
 
 mod air_past;
+mod beyond_stall;
 mod bound_core;
 mod edge_ahead;
+mod fluid;
 mod impossible;
 mod jumps;
 mod late_gusts;

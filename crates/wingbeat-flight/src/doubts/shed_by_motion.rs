@@ -87,10 +87,10 @@ impl FlightSetup {
     }
 
     /// Says which wings shed vorticity of one sign from their leading edges in their prescribed motion
-    /// ([`Self::one_sided_part`]) where roots hold, or where leading edges shed by the suction of the step
+    /// ([`Self::one_sided_part`]) where roots or tips hold, or where leading edges shed by the suction of the step
     /// before, and what to do about it. Wings with joints of their own, whose motion is not known beforehand,
     /// are left out; of wings joined at their roots, or whose circulation goes on through a body, no root
-    /// holds.
+    /// holds, and plane flow has neither roots nor tips.
     pub fn one_sided_leading_edges(&self) -> Option<String> {
         let air = self.air.lattice()?;
         let shedding = air.lattice.shedding;
@@ -102,7 +102,10 @@ impl FlightSetup {
         let pairs: Vec<&[usize; 2]> = air.joined.iter().chain(through).collect();
         let is_joined = |w: usize| pairs.iter().any(|pair| pair.contains(&w));
         let is_late = matches!(air.lattice.leading, LeadingEdge::Suction { .. });
-        let holds = |w: usize| !shedding.root && !is_joined(w);
+        let has_sides = !air.lattice.plane_wakes;
+        let root_holds = |w: usize| has_sides && !shedding.root && !is_joined(w);
+        let tips_hold = has_sides && !shedding.tip;
+        let holds = |w: usize| tips_hold || root_holds(w);
         let wings = 0..self.animal.wings.len();
         let known = wings.filter(|&w| !self.has_own_joint(w) && (is_late || holds(w)));
         let parts = known.map(|w| (w, self.one_sided_part(w)));
@@ -114,12 +117,20 @@ impl FlightSetup {
             true => ["strokes are unlike back and forth", "in every beat"],
             false => ["the motion goes more one way than the other", "in all"],
         };
-        let [why, remedy] = match found.iter().any(|(w, _)| holds(*w)) {
-            true => [
+        let [why, remedy] = match (found.iter().any(|(w, _)| root_holds(*w)), tips_hold) {
+            (true, false) => [
                 "as roots hold, the lift drifts with it",
                 "let roots shed (air.shed with \"root\", air.leading_edge = \"suction_implicit\")",
             ],
-            false => [
+            (false, true) => [
+                "as tips hold, the lift drifts with it",
+                "let tips shed (air.shed with \"tip\", air.leading_edge = \"suction_implicit\")",
+            ],
+            (true, true) => [
+                "as roots and tips hold, the lift drifts with it",
+                "let both shed (air.shed with \"root\" and \"tip\", air.leading_edge = \"suction_implicit\")",
+            ],
+            (false, false) => [
                 "as edges shed by the suction of the step before, the lift hangs on the step",
                 "take air.leading_edge = \"suction_implicit\"",
             ],

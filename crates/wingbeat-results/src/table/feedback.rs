@@ -78,8 +78,7 @@ pub(super) const HELD: &[Quantity] = &[scalar(
     Unit::Radian,
     "angle from the trimmed attitude that feedback held at its newest look",
     |r, _, _| Real(&mut r.attitude_departure[0]),
-)
-.new_here()];
+)];
 
 /// Where feedback is to bring the flyer.
 pub(super) const REFERENCE: &[Quantity] = &[

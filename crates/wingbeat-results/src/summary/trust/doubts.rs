@@ -65,7 +65,9 @@ fn heard(kind: DoubtKind, is_lattice: bool) -> (Place, Verdict, &'static str, &'
         DoubtKind::RootsOnBodies => (Air, Amber, "A wing on a body is a limit of the lattice: ", ""),
         DoubtKind::UnjoinedRoots => (Air, Amber, "A gap is a limit of the lattice: ", ""),
         DoubtKind::SweptVortexLift => (Air, Amber, "Outside of what it was made for: ", ""),
-        DoubtKind::OneSidedEdges | DoubtKind::LongSteps | DoubtKind::AttachedTips => (Air, Amber, "By the prescribed motion ", ""),
+        DoubtKind::OneSidedEdges | DoubtKind::LongSteps | DoubtKind::AttachedTips | DoubtKind::AttachedBeyondStall => (Air, Amber, "By the prescribed motion ", ""),
+        DoubtKind::AttachedStrokes => (Air, Green, "By the prescribed motion ", ""),
+        DoubtKind::ViscosityOfAir => (Air, Amber, "Two fluids: ", ""),
         DoubtKind::WideBoundCore => (Air, Green, "Lift that is high: ", ""),
     }
 }

@@ -1,0 +1,180 @@
+//! Wings that meet the air, in their prescribed motion, beyond the suction that leading edges hold, in a lattice whose
+//! leading edges shed nothing.
+//!
+//! The suction parameter A0 of a section is that of the undisturbed air past it, less what the wing's own trailing
+//! vortices take of the incidence: the part `2 / (2 + AR)` at the aspect ratio AR [Prandtl's elliptic wing], none in
+//! plane flow. Flow that has more suction than the edge holds leaves it, but a vortex forms only while the section
+//! goes some chords: excursions over less than half a one, as those of a foil that heaves fast by a small part of its chord, are
+//! not meant.
+
+use super::said::names;
+use crate::setup::{FlightSetup, MotionMode};
+use wingbeat_air::{AirSettings, LeadingEdge, LoadMethod};
+use wingbeat_math::DVec3;
+use wingbeat_model::{DeformingMesh, Wing};
+
+/// Suction parameter that few edges hold: flat plates and SD7003 0.11 to 0.19, the round noses of NACA 0012 and 63A015 0.25
+/// and 0.26 (docs/separated-flow.md, "Which threshold") \[1\].
+const STALLS: f64 = 0.25;
+
+/// Way in chords while the suction is larger, from which on a vortex counts: an eighth of the way in which it forms
+/// (`air.leading_edge_formation_chords`), half a period of a plunge at a reduced frequency of 3.
+const FORMS: f64 = 0.5;
+
+/// Part of the square of the speed past the wing, summed over strips and time, above which it is said: strokes that turn
+/// have less for an instant.
+const PART: f64 = 0.1;
+
+/// Instants of a beat that are looked at.
+const INSTANTS: usize = 100;
+
+impl FlightSetup {
+    /// Says which wings meet the air beyond stall in their prescribed motion though the lattice lets nothing leave
+    /// their leading edges. Wings with joints of their own, elastic ones and those whose tips shed
+    /// ([`Self::attached_strokes_beyond_stall`]) are left out, and so are forces by Polhamus's analogy.
+    pub fn attached_beyond_stall(&self) -> Option<String> {
+        let found = self.beyond_stall(false)?;
+        Some(format!(
+            "{found}, and attached flow has too much lift, thrust and suction; let leading edges shed (air.shed with \
+             \"leading\", docs/separated-flow.md, \"Which choice for which flight\")"
+        ))
+    }
+
+    /// The same of wings whose tips shed, as insects are flown attached for trim and modes.
+    pub fn attached_strokes_beyond_stall(&self) -> Option<String> {
+        let found = self.beyond_stall(true)?;
+        Some(format!(
+            "{found}; attached flow, chosen by air.shed = [\"trailing\", \"tip\"], has neither its vortex nor its stall"
+        ))
+    }
+
+    fn beyond_stall(&self, tips_shed: bool) -> Option<String> {
+        let air = &self.air.lattice()?.lattice;
+        if !is_of_attached_flow(air) || air.shedding.tip != tips_shed {
+            return None;
+        }
+        let wings = self.animal.wings.iter().enumerate();
+        let known = wings.filter(|(w, wing)| !self.has_own_joint(*w) && wing.structure.is_none());
+        let judged = known.map(|(w, wing)| (&wing.name[..], self.stall(w, wing)));
+        let found: Vec<_> = judged.filter(|(_, stall)| stall[0] > PART).collect();
+        let [part, most] = [0, 1].map(|k| {
+            let values = found.iter().map(|(_, stall)| stall[k]);
+            values.fold(0.0, f64::max)
+        });
+        (!found.is_empty()).then(|| {
+            format!(
+                "wings ({}) meet the air with up to {:.0} deg of incidence (what their trailing vortices take of it is \
+                 taken off), for half a chord or more at a time with a suction parameter above {STALLS} (thin edges hold \
+                 0.11 to 0.19, that of NACA 0012 0.25), over {:.0} % of the squares of their speeds: the flow leaves the leading edges there",
+                names(found.iter().map(|(name, _)| *name), ", "),
+                most.min(1.0).asin().to_degrees(),
+                100.0 * part
+            )
+        })
+    }
+
+    /// Part of the squares of the speeds that wing `w` has beyond stall, and its largest suction parameter there \[1\].
+    fn stall(&self, w: usize, wing: &Wing) -> [f64; 2] {
+        let motion = wing.motion.impulsive();
+        let (count, step) = match (&self.mode, motion.frequency > 0.0) {
+            (MotionMode::Free(_), true) => (INSTANTS, 1.0 / (motion.frequency * INSTANTS as f64)),
+            _ => (self.time.steps, self.time.step),
+        };
+        let shape = wing.deformation.as_ref();
+        let shape = shape.map(|d| DeformingMesh::new(&wing.mesh, d));
+        let rest = &wing.mesh.nodes;
+        let mut nodes: Vec<[DVec3; 2]> = rest.iter().map(|x| [*x, DVec3::ZERO]).collect();
+        let remains = self.remains_of_incidence(w);
+        let mut ways = vec![0.0; wing.mesh.cols];
+        let [mut all, mut beyond, mut most] = [0.0, 0.0, 0.0_f64];
+        for k in 0..count {
+            let t = k as f64 * step;
+            if let Some(shape) = &shape {
+                shape.visit(motion.phase_at(t), |n, [x, v, _]| nodes[n] = [x, v]);
+            }
+            let past = self.air_past(wing, &motion, t);
+            for (j, way) in ways.iter_mut().enumerate() {
+                let Some(section) = section(wing, &nodes, j, &past) else {
+                    continue;
+                };
+                let suction = remains * section.suction;
+                *way = match suction > STALLS {
+                    true => *way + section.speed * step / section.chord,
+                    false => 0.0,
+                };
+                let counts = section.speed * section.speed * section.area;
+                all += counts;
+                if *way >= FORMS {
+                    beyond += counts;
+                    most = most.max(suction);
+                }
+            }
+        }
+        match all > 0.0 {
+            true => [beyond / all, most],
+            false => [0.0; 2],
+        }
+    }
+
+    /// What trailing vortices leave of the incidence of wing `w`, joined or not \[1\].
+    fn remains_of_incidence(&self, w: usize) -> f64 {
+        let Some(air) = self.air.lattice() else {
+            return 1.0;
+        };
+        if air.lattice.plane_wakes {
+            return 1.0;
+        }
+        let report = self.animal.wings[w].report();
+        let is_joined = air.joined.iter().any(|pair| pair.contains(&w));
+        let sides = if is_joined { 2.0 } else { 1.0 };
+        let aspect = sides * report.length / report.mean_chord;
+        aspect / (aspect + 2.0)
+    }
+}
+
+/// Whether nothing leaves leading edges, and forces are those of attached flow.
+fn is_of_attached_flow(air: &AirSettings) -> bool {
+    let is_held = !air.shedding.leading || air.leading == LeadingEdge::Never;
+    air.shedding.trailing && is_held && air.loads != LoadMethod::Polhamus
+}
+
+/// How a chordwise strip meets the air.
+struct Section {
+    /// Past the quarter chord, in the plane of the section [m/s].
+    speed: f64,
+    /// Size of the suction parameter of plane flow \[1\].
+    suction: f64,
+    /// [m]
+    chord: f64,
+    /// [m2]
+    area: f64,
+}
+
+/// Strip `j` of the wing, whose nodes have these places [m] and velocities [m/s] in wing components, `past` the air past
+/// its places [m/s]; none of a strip without a chord, or that meets no air.
+fn section(
+    wing: &Wing,
+    nodes: &[[DVec3; 2]],
+    j: usize,
+    past: impl Fn(DVec3) -> DVec3,
+) -> Option<Section> {
+    let mesh = &wing.mesh;
+    let at = |i: usize, j: usize| nodes[mesh.node(i, j)];
+    let middle = |i: usize| [0, 1].map(|k| at(i, j)[k].midpoint(at(i, j + 1)[k]));
+    let (front, rear) = (middle(0), middle(mesh.rows));
+    let across = at(0, j + 1)[0] - at(0, j)[0];
+    let chord = front[0].distance(rear[0]);
+    let aft = (rear[0] - front[0]).try_normalize()?;
+    let normal = aft.cross(across).try_normalize()?;
+    let relative = |s: f64| past(front[0].lerp(rear[0], s)) - front[1].lerp(rear[1], s);
+    let quarter = relative(0.25);
+    let speed = quarter.dot(aft).hypot(quarter.dot(normal));
+    let suction = (relative(0.5).dot(normal) / speed).abs();
+    let width = across.reject_from(aft).length();
+    (speed > 0.0).then(|| Section {
+        speed,
+        suction,
+        chord,
+        area: chord * width,
+    })
+}
