@@ -25,6 +25,7 @@ mod sizes;
 mod wake;
 
 pub use doubts::jumping_rotation;
+pub(crate) use elastic::bent_by_weight;
 pub(crate) use joints::{chain, slowest_on_springs};
 pub use numbers::stroke_amplitude;
 pub use numbers::{Estimate, WingEstimate};
