@@ -56,13 +56,15 @@ pub enum AnalysisError {
     },
     /// The flight to the steady state of a wing in a stream ended.
     #[error(
-        "at {speed} m/s no steady state was found, about which vibrations are sought: {error}. The wing may be beyond static divergence there: try lower speeds, or no incidence"
+        "at {speed} m/s no steady state was found, about which vibrations are sought: {error}. {remedy}"
     )]
     NoSteadyState {
         /// Speed of the stream [m/s].
         speed: f64,
         /// How the flight ended.
         error: FlightError,
+        /// What to try.
+        remedy: &'static str,
     },
     /// A number is not finite or a matrix singular.
     #[error("{0}")]

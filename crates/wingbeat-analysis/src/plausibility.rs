@@ -24,6 +24,7 @@ mod sides;
 mod sizes;
 mod wake;
 
+pub(crate) use elastic::bent_by_weight;
 pub(crate) use joints::{chain, slowest_on_springs};
 pub use numbers::stroke_amplitude;
 pub use numbers::{Estimate, WingEstimate};

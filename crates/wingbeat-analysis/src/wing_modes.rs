@@ -24,6 +24,7 @@ use wingbeat_structure::{Configuration, FrameMotion, Mode, Slowest, slowest_mode
 use crate::AnalysisError;
 use crate::flutter::{ElasticRig, FlutterSettings};
 use crate::moving::{enough, moving, only_turns};
+use crate::plausibility::bent_by_weight;
 use crate::progress;
 
 /// The state that wings vibrate about.
@@ -138,6 +139,9 @@ pub struct WingModes {
     /// Frequencies of those left out in vacuum that move, too, if less than they turn: waves of the sheet mixed
     /// with turns [rad/s].
     pub mixed: Vec<f64>,
+    /// About rest, displacement of the tip by weight across the wing over its length, were it linear, as an even cantilever
+    /// of its first frequency has it; none about a steady state, which is bent by it \[1\].
+    pub bent_by_weight: Option<f64>,
     /// Fastest growth in vacuum of a mode in which nodes turn and nothing moves; 0 if none grows [1/s].
     pub turning_growth: f64,
 }
@@ -162,7 +166,16 @@ pub fn wing_modes(
         About::Steady => steady(setup)?,
     };
     let wings = 0..flight.elastic_wings().wings().len();
-    wings.map(|k| of_wing(&flight, k, count)).collect()
+    let of = |k: usize| -> Result<WingModes, AnalysisError> {
+        let mut found = of_wing(&flight, k, count)?;
+        if about == About::Rest {
+            let first = found.vacuum.first().map(|m| m.frequency);
+            let wing = &setup.animal.wings[found.wing];
+            found.bent_by_weight = bent_by_weight(wing, first, setup.gravity.length());
+        }
+        Ok(found)
+    };
+    wings.map(of).collect()
 }
 
 /// A flight of no steps: wings that are too soft for the first ones have modes, too.
@@ -211,6 +224,7 @@ fn of_wing(flight: &Simulation, k: usize, count: usize) -> Result<WingModes, Ana
         air,
         left_out: [left_out.count, left_out_in_air.map_or(0, |l| l.count)],
         mixed: left_out.mixed,
+        bent_by_weight: None,
         turning_growth,
     })
 }

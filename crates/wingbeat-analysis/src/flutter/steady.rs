@@ -18,6 +18,10 @@ const LONG: usize = 4;
 /// Long steps before the steady state is looked at, a quarter of the short ones after them.
 const LEAST: usize = 60;
 
+/// Part of a period of the slowest mode before which a wing that ends has not diverged: loads bend it that were there at
+/// once.
+const SUDDEN: f64 = 0.25;
+
 /// Difference of two shapes, or of two frequencies, that is none \[1\].
 pub(super) const SAME: f64 = 1e-6;
 
@@ -118,23 +122,39 @@ impl ElasticRig {
             least,
             most: settings.settling,
         };
-        let ended = |e| self.ended(e);
-        let long = settling(LONG, LEAST).to_rest(None).map_err(ended)?;
-        let state = settling(1, 4 * LEAST).to_rest(Some(long)).map_err(ended)?;
+        let ended = |e| self.ended(e, TAU / first);
+        // Steps that are too long for loads that act at once are none where a flight of the setup is.
+        let long = match settling(LONG, LEAST).to_rest(None) {
+            Err(AnalysisError::Flight(e)) if !matches!(e, FlightError::Setup { .. }) => None,
+            found => Some(found.map_err(ended)?),
+        };
+        let state = settling(1, 4 * LEAST).to_rest(long).map_err(ended)?;
         let wings = (0..self.count()).map(|k| self.steady(&state, k, settings));
         let steady = wings.collect::<Result<_, _>>()?;
         Ok((state, steady))
     }
 
-    /// The error of a flight to the steady state, of which the speed is said.
-    fn ended(&self, error: AnalysisError) -> AnalysisError {
-        match error {
-            AnalysisError::Flight(FlightError::Setup { .. }) => error,
-            AnalysisError::Flight(error) => AnalysisError::NoSteadyState {
-                speed: self.speed,
-                error,
+    /// The error of a flight to the steady state, of which the speed is said; `period` of the slowest mode \[s\].
+    fn ended(&self, error: AnalysisError, period: f64) -> AnalysisError {
+        let AnalysisError::Flight(error) = error else {
+            return error;
+        };
+        let time = match error {
+            FlightError::Setup { .. } => return AnalysisError::Flight(error),
+            FlightError::ElasticNotConverged { time, .. } => time,
+            _ => f64::INFINITY,
+        };
+        AnalysisError::NoSteadyState {
+            speed: self.speed,
+            error,
+            remedy: match time < SUDDEN * period {
+                true => {
+                    "That is long before it could have come there: loads that act from the start bend it too fast for the step. Take a smaller step (time.step_s)"
+                }
+                false => {
+                    "The wing may be beyond static divergence there: try lower speeds, or no incidence"
+                }
             },
-            error => error,
         }
     }
 

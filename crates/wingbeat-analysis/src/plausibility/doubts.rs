@@ -366,7 +366,7 @@ fn wing_doubts(setup: &FlightSetup, wing: &Wing, w: &WingEstimate) -> Vec<String
         list.see(&TIP_STEP, "way of the tip in a step", step, " chords");
         lattice_sizes(air, wing, chord, &mut list);
     }
-    elastic::doubts(wing, w, &mut list);
+    elastic::doubts(wing, w, setup.gravity.length(), &mut list);
     let Doubts(mut list) = list;
     let outward = wing.side.sign() * wing.hinge_b.y;
     // One wing alone may span both sides.

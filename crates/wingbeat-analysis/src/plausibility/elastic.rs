@@ -27,6 +27,20 @@ const IN_STREAM: Limit = Limit {
     hints: RATIO.hints,
 };
 
+/// Beyond a tenth of the length the wing turns by some ten degrees, and modes about rest are those of another wing.
+const WEIGHT: Limit = Limit {
+    low: 0.0,
+    high: 0.1,
+    hints: [
+        "",
+        "it hangs down before the air bends it, or falls where a flight begins; `wingbeat modes` leaves weight out but for --steady; are moduli in Pa, EI in N m2, masses in kg?",
+    ],
+};
+
+/// Displacement of the tip of an even cantilever by its weight times `omega^2 / g`, omega its first angular frequency:
+/// `1.8751^4 / 8` [Blevins, Formulas for natural frequency and mode shape, 1979, table 8-1].
+const CANTILEVER: f64 = 1.5453;
+
 const THICKNESS: Limit = Limit {
     low: 0.0,
     high: 0.25,
@@ -94,11 +108,42 @@ fn are_alike(a: &Wing, b: &Wing) -> bool {
     a.structure == b.structure && shape(a) == shape(b) && weight && alike
 }
 
-/// Doubts about what `wing` is made of.
-pub(super) fn doubts(wing: &Wing, w: &WingEstimate, list: &mut Doubts) {
+/// Displacement of the tip over the length of an elastic wing \[1\] that `gravity` \[m/s2\] across it would give, were it
+/// linear, from the first frequency `omega` \[rad/s\] as an even cantilever has it; of beams that twist more easily than
+/// they bend from the stiffness in flap at half of the length. None where that frequency is not known.
+pub(crate) fn bent_by_weight(wing: &Wing, omega: Option<f64>, gravity: f64) -> Option<f64> {
+    let report = wing.report();
+    let omega = match wing.structure.as_ref().map(|s| &s.members)? {
+        Members::Beam(beam) => {
+            let [bending, twist] = alone(wing, beam, [report.length, report.mean_chord]);
+            omega.map(|first| if twist < bending { bending } else { first })
+        }
+        Members::Shell(_) => omega,
+    };
+    let of = |omega: f64| CANTILEVER * gravity / (omega * omega * report.length);
+    omega.filter(|omega| *omega > 0.0).map(of)
+}
+
+/// Angular frequencies \[rad/s\] of bending and twist alone, of an even beam as stiff as this one is at half of its
+/// length.
+fn alone(wing: &Wing, beam: &WingBeam, [length, chord]: [f64; 2]) -> [f64; 2] {
+    let mass = wing.mass.mass;
+    let middle = |law: &SpanLaw| law.at(0.5, 0.0);
+    let bending = 3.516 * (middle(&beam.flap) / (mass * length.powi(3))).sqrt();
+    let inertia = mass * chord * chord / 12.0;
+    let twist = 0.5 * PI * (middle(&beam.torsion) / (inertia * length)).sqrt();
+    [bending, twist]
+}
+
+/// Doubts about what `wing` is made of, in this `gravity` \[m/s2\].
+pub(super) fn doubts(wing: &Wing, w: &WingEstimate, gravity: f64, list: &mut Doubts) {
     let Some(structure) = &wing.structure else {
         return;
     };
+    let omega = w.first_frequency.map(|f| 2.0 * PI * f);
+    let bent = bent_by_weight(wing, omega, gravity);
+    let what = "displacement of the tip by weight across the wing, were it linear, over its length";
+    list.see(&WEIGHT, what, bent, "");
     let ratio = "first frequency in vacuum over the wingbeat frequency";
     let before = list.0.len();
     list.see(&RATIO, ratio, w.frequency_ratio, "");
@@ -127,11 +172,7 @@ fn each_way(wing: &Wing, beam: &WingBeam, w: &WingEstimate, list: &mut Doubts) {
     let Some(beat) = w.first_frequency.zip(w.frequency_ratio).map(|(f, r)| f / r) else {
         return;
     };
-    let [length, chord, mass] = [w.report.length, w.report.mean_chord, wing.mass.mass];
-    let middle = |law: &SpanLaw| law.at(0.5, 0.0);
-    let bending = 3.516 * (middle(&beam.flap) / (mass * length.powi(3))).sqrt();
-    let inertia = mass * chord * chord / 12.0;
-    let twist = 0.5 * PI * (middle(&beam.torsion) / (inertia * length)).sqrt();
+    let [bending, twist] = alone(wing, beam, [w.report.length, w.report.mean_chord]);
     for (what, omega) in [("flap", bending), ("torsion", twist)] {
         let what = format!(
             "frequency that structure.beam.{what}_newton_m2 alone gives over the wingbeat frequency"

@@ -20,6 +20,9 @@ use crate::command::terminal::tell as announce;
 /// Relative difference of frequencies up to which two wings count as one \[1\]: rounding of mirror images.
 const SAME: f64 = 1e-6;
 
+/// Displacement by weight over the length of a wing above which modes about rest are those of another wing \[1\].
+const FAR: f64 = 0.1;
+
 /// Likeness below which a mode in air is called like none in vacuum \[1\]: it has most of its shape from others.
 const ALIKE: f64 = 0.5;
 
@@ -106,6 +109,12 @@ fn tell(
         if steady {
             let most = deflection.fold(0.0, f64::max);
             line!(report, "  bent by at most {most:.4e} m");
+        }
+        if let Some(bent) = w.bent_by_weight.filter(|bent| *bent > FAR) {
+            line!(
+                report,
+                "  weight is left out: across the wing it would bend it by some {bent:.2} of its length, were that linear; --steady has the modes about the bent wing"
+            );
         }
         table(report, "in vacuum", wing, &w.vacuum, None);
         tell_left_out(report, w.left_out[0]);
@@ -260,6 +269,7 @@ fn values(wing: &Wing, w: &WingModes) -> Value {
         "name": wing.name,
         "mass_kg": w.mass,
         "deflection_m": deflection.fold(0.0, f64::max),
+        "tip_by_weight_over_length": w.bent_by_weight,
         "vacuum": w.vacuum.iter().map(mode).collect::<Vec<_>>(),
         "air": w.air.as_ref().map(air),
         "vacuum_left_out": w.left_out[0],
