@@ -60,6 +60,20 @@ pub enum FlightError {
         /// Allowed distance [m].
         limit: f64,
     },
+    /// The edge of an elastic wing that lies on a plane of images bends off it.
+    #[error(
+        "t = {time:.6e} s: the edge of `{wing}` on the plane of air.ground is {gap:.3e} m off it, allowed {limit:.3e} m (a quarter of a panel): hold the wing there (wing.{wing}.structure), or move it off the plane (hinge_m)"
+    )]
+    OffPlane {
+        /// Name of the wing.
+        wing: String,
+        /// Time [s].
+        time: f64,
+        /// Largest distance of a node from the plane [m].
+        gap: f64,
+        /// Allowed distance [m].
+        limit: f64,
+    },
     /// The surface of a wing that changes its shape has folded over.
     #[error(
         "t = {time:.6e} s: the surface of wing `{wing}` has folded over: at panel {panel} its sides cross or have no length; {}",

@@ -11,6 +11,7 @@ use wingbeat_model::{
     root_gap,
 };
 
+use super::on_plane::{EdgeOnPlane, OnPlane, columns_of};
 use crate::error::FlightError;
 use crate::interface::Instant;
 
@@ -27,6 +28,8 @@ pub struct SurfaceMap {
     deforming: Vec<Option<Deforming>>,
     /// Roots of wings that are joined.
     roots: Vec<Roots>,
+    /// Edges of wings that are joined to their images.
+    on_planes: Vec<OnPlane>,
     /// Strips through bodies.
     carried: Vec<CarryThrough>,
     /// Per surface: range of its nodes in `local`.
@@ -81,6 +84,7 @@ impl SurfaceMap {
             body: vec![],
             deforming: vec![],
             roots: vec![],
+            on_planes: vec![],
             carried: vec![],
             local: vec![],
             nodes: vec![],
@@ -117,6 +121,25 @@ impl SurfaceMap {
             map.carry([b, a], pair.aside, animal);
         }
         map
+    }
+
+    /// The same with these edges of wings joined to their images.
+    pub fn with_planes(
+        mut self,
+        animal: &Animal,
+        edges: impl Iterator<Item = EdgeOnPlane>,
+    ) -> Self {
+        for edge in edges {
+            let columns = self.columns_of(animal, edge.wing, edge.kind);
+            let name = &animal.wings[edge.wing].name;
+            (self.on_planes).push(OnPlane::new(name, &edge, columns, &self.local));
+        }
+        self
+    }
+
+    /// Nodes among all nodes of the root or tip of a wing, and of the next column ([`columns_of`]).
+    pub fn columns_of(&self, animal: &Animal, wing: usize, kind: EdgeKind) -> [Vec<usize>; 2] {
+        columns_of(&animal.wings[wing].mesh, self.nodes[wing].start, kind)
     }
 
     /// Adds the strip from the root of the first of these wings to the middle between both roots, which lies
@@ -169,8 +192,13 @@ impl SurfaceMap {
                 nodes: r.nodes.iter().map(local).collect(),
             }
         };
+        let on_plane = |p: &OnPlane| p.joined_edge(self.nodes[p.wing].start);
         let of_roots = self.roots.iter().map(edge);
-        of_roots.chain(self.carried_edges()).collect()
+        let of_planes = self.on_planes.iter().map(on_plane);
+        of_roots
+            .chain(self.carried_edges())
+            .chain(of_planes)
+            .collect()
     }
 
     /// Both sides of the strips through bodies: at the root, and in the middle.
@@ -197,7 +225,7 @@ impl SurfaceMap {
     /// deformation of the wings, prescribed or by loads.
     ///
     /// # Errors
-    /// Joined roots are too far apart.
+    /// Joined roots are too far apart, or an edge on a plane of images too far from it.
     pub fn node_motion(&self, at: &Instant<'_>, out: &mut NodeMotion) -> Result<(), FlightError> {
         out.position.resize(self.local.len(), DVec3::ZERO);
         out.velocity.resize(self.local.len(), DVec3::ZERO);
@@ -222,6 +250,7 @@ impl SurfaceMap {
             }
         }
         (self.roots.iter()).try_for_each(|r| r.join(at.time, self, out))?;
+        (self.on_planes.iter()).try_for_each(|edge| edge.place(at.time, out))?;
         (self.carried.iter()).for_each(|strip| strip.place(&at.motions[0], self, out));
         Ok(())
     }
@@ -259,7 +288,8 @@ impl SurfaceMap {
     ) {
         out.fill(0.0);
         for (s, panels) in self.panels.iter().enumerate() {
-            let joined = self.roots.iter().any(|r| r.wings.contains(&s));
+            let joined = self.roots.iter().any(|r| r.wings.contains(&s))
+                || self.on_planes.iter().any(|edge| edge.wing == s);
             if self.deforming[s].is_none() && !joined {
                 continue;
             }
@@ -280,7 +310,8 @@ impl SurfaceMap {
 
     /// Whether any surface moves otherwise than its body.
     pub fn deforms(&self) -> bool {
-        !self.roots.is_empty() || self.deforming.iter().any(Option::is_some)
+        !(self.roots.is_empty() && self.on_planes.is_empty())
+            || self.deforming.iter().any(Option::is_some)
     }
 
     /// Panel forces gathered into one wrench per body about the body's origin, in N.

@@ -1,9 +1,10 @@
-//! Wings whose roots meet and are not joined: the lattice has a gap there, through which air passes.
+//! Wings whose roots meet, or that stand on a plane of images, and are not joined there: the lattice has a gap there,
+//! through which air passes.
 
 use wingbeat_model::{Spacing, are_joined, pairs, roots_meet};
 
-use crate::air::check_joined;
-use crate::setup::FlightSetup;
+use crate::air::{EdgeOnPlane, ON_PLANE, check_joined};
+use crate::setup::{FlightSetup, MotionMode};
 
 /// How near roots are that meet, and those that lie on each other, whose filaments cancel, over their chords \[1\].
 const NEAR: f64 = 0.1;
@@ -26,6 +27,33 @@ impl FlightSetup {
             |pair: [usize; 2]| pair.into_iter().all(reach) && roots_meet(&self.animal, pair, SAME);
         let found = apart.filter(|&pair| roots_meet(&self.animal, pair, NEAR) && !closes(pair));
         found.map(|pair| self.say_unjoined(pair)).collect()
+    }
+
+    /// Says which wings stand on a plane of images (air.ground) and are not joined to their mirror images there, why, and
+    /// what to do about it.
+    pub fn edges_off_planes(&self) -> Vec<String> {
+        let edges = (self.air.lattice()).map(|air| self.edges_on_planes(air));
+        let edges = edges.into_iter().flatten();
+        edges.filter_map(|e| self.say_off_plane(&e)).collect()
+    }
+
+    fn say_off_plane(&self, edge: &EdgeOnPlane) -> Option<String> {
+        let [first, most] = edge.off;
+        let why = match (edge.is_joined(), first > ON_PLANE, &self.mode) {
+            (true, ..) => return None,
+            (_, true, _) => format!("lies {first:.1e} of its length off the plane of air.ground"),
+            (.., MotionMode::Free(_)) => {
+                "lies on the plane of air.ground, where a free body does not stay".to_owned()
+            }
+            _ => format!(
+                "lies on the plane of air.ground at the start and leaves it by {most:.1e} of its length"
+            ),
+        };
+        let name = &self.animal.wings[edge.wing].name;
+        Some(format!(
+            "the {} of wing `{name}` {why}: it is not joined to its mirror image, and its circulation ends there, so that lift is low, by a seventh in a stream at an aspect ratio (with the image) of 6; for half a model keep the edge on the plane all along (hinge_m, wing.{name}.motion, flight.tether), for a gap that is meant look at the lift on more panels along the span",
+            edge.edge()
+        ))
     }
 
     fn say_unjoined(&self, pair: [usize; 2]) -> String {

@@ -78,7 +78,11 @@ fn motion(setup: &FlightSetup, summary: &Summary, list: &mut Warnings) {
             "A wing on a body is a limit of the lattice: {text}."
         ));
     }
-    for text in setup.unjoined_roots() {
+    for text in setup
+        .unjoined_roots()
+        .into_iter()
+        .chain(setup.edges_off_planes())
+    {
         list.limit(format!("A gap is a limit of the lattice: {text}."));
     }
     if let Some(text) = setup.vortex_lift_of_swept_edges() {
