@@ -25,7 +25,8 @@ pub struct WingCase {
     /// Change it to false for a single wing, or for a joint on one side alone.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub mirror: Option<bool>,
-    /// Hinge in body axes.
+    /// Hinge in body axes. Left out of a wing that another wing carries (`joint.NAME.parent`): its place is `at_m` of the
+    /// joint, and another one is refused.
     ///
     /// Change it to what was measured.
     #[serde(skip_serializing_if = "Option::is_none")]
