@@ -47,7 +47,7 @@ pub enum FlightError {
     Blade(#[from] BladeError),
     /// Wings that are joined at their roots moved apart there.
     #[error(
-        "t = {time:.6e} s: the joined roots of `{}` and `{}` are {gap:.3e} m apart, allowed {limit:.3e} m (half a panel): bring the hinges and the surfaces' roots together, feather less there (twist the wing instead), or do not join them",
+        "t = {time:.6e} s: the joined roots (or tip and root) of `{}` and `{}` are {gap:.3e} m apart, allowed {limit:.3e} m (half a panel): bring the hinges and the surfaces' roots together, feather less there (twist the wing instead), or do not join them",
         wings[0], wings[1]
     )]
     RootsApart {

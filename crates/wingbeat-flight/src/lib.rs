@@ -57,7 +57,7 @@ mod turned_over;
 mod turns;
 mod validate;
 
-pub use air::{EdgeOnPlane, check_joined, strips};
+pub use air::{EdgeOnPlane, check_joined, check_joined_tip, strips};
 pub use air_probe::AirProbe;
 pub use bodies::{
     JointCoordinate, WingLaw, check_assembly, doubtful_masses, joint_coordinates, loop_names,

@@ -213,6 +213,7 @@ pub(super) fn doubts(setup: &FlightSetup, e: &Estimate) -> Vec<String> {
     list.extend(setup.wings_inside_parts());
     list.extend(setup.roots_on_bodies());
     list.extend(setup.unjoined_roots());
+    list.extend(setup.unjoined_tips());
     list.extend(setup.edges_off_planes());
     list.extend(setup.one_sided_leading_edges());
     list.extend(setup.long_steps_one_way());

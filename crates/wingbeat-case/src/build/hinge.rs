@@ -9,9 +9,9 @@ use crate::error::Fault;
 use crate::raw::Case;
 
 /// The wing that carries another one, and the place of the joint in its axes, from its hinge \[m\].
-struct Carrier {
-    joint: String,
-    wing: String,
+pub(super) struct Carrier {
+    pub joint: String,
+    pub wing: String,
     at: DVec3,
 }
 
@@ -74,7 +74,7 @@ fn place(case: &Case, name: &str, joints: usize) -> Option<DVec3> {
 }
 
 /// What carries a wing, if that is a wing: its own first joint, or the image of that of the wing on the other side.
-fn carrier(case: &Case, name: &str) -> Option<Carrier> {
+pub(super) fn carrier(case: &Case, name: &str) -> Option<Carrier> {
     let of = |child: &str| case.joint.iter().find(|(_, j)| j.child == child);
     let new = |joint: &str, wing: String, at: [f64; 3]| Carrier {
         joint: joint.to_owned(),

@@ -36,6 +36,7 @@ impl LatticeAir {
         let pairs = (&options.joined[..], &carried[..]);
         let on_planes = setup.edges_on_planes(options).into_iter();
         let map = SurfaceMap::new(&setup.animal, options.body_surfaces, pairs)
+            .with_tips(&setup.animal, &options.joined_tips)
             .with_planes(&setup.animal, on_planes.filter(EdgeOnPlane::is_joined));
         let (surfaces, settings) = (map.surfaces.clone(), options.lattice.clone());
         let lattice = Lattice::joined(surfaces, &map.joined_edges(), settings)?;

@@ -81,6 +81,7 @@ fn motion(setup: &FlightSetup, summary: &Summary, list: &mut Warnings) {
     for text in setup
         .unjoined_roots()
         .into_iter()
+        .chain(setup.unjoined_tips())
         .chain(setup.edges_off_planes())
     {
         list.limit(format!("A gap is a limit of the lattice: {text}."));
