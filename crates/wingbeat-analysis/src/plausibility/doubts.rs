@@ -207,6 +207,7 @@ pub(super) fn doubts(setup: &FlightSetup, e: &Estimate) -> Vec<String> {
     if !strokes_against_each_other(&setup.animal.wings) {
         list.extend(setup.trailing_edges_ahead());
     }
+    list.extend(setup.revolves_backwards());
     list.extend(setup.scattered_angles());
     list.extend(setup.gaps_in_angles());
     list.extend(setup.crossing_wings().into_iter().map(|c| c.said));
