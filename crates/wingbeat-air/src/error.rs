@@ -287,6 +287,20 @@ pub enum AirError {
         /// Distance [m].
         distance: f64,
     },
+    /// An edge on a plane of images that leaves it.
+    #[error(
+        "air step {step}: node {node} of surface {surface} lies on a plane of images and has left it by {distance:e} m; move the surface so that this edge stays on the plane"
+    )]
+    OffPlane {
+        /// Accepted steps so far.
+        step: u64,
+        /// Name of the surface.
+        surface: String,
+        /// Node, counted in its surface.
+        node: usize,
+        /// Distance from the plane [m].
+        distance: f64,
+    },
     /// A state that does not belong to the lattice.
     #[error(
         "the air state does not fit the lattice ({what}); restart with the case the state was written by"

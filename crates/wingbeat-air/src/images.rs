@@ -35,9 +35,14 @@ impl Plane {
         a.cross(b).length() <= ROUNDING && self.height(other.point).abs() <= ROUNDING * size
     }
 
-    /// The foot of the perpendicular from `x` [m].
-    pub(crate) fn foot(&self, x: DVec3) -> DVec3 {
+    /// The foot of the perpendicular from `x` [m], N components.
+    pub fn foot(&self, x: DVec3) -> DVec3 {
         x - self.height(x) * self.normal.normalize()
+    }
+
+    /// The part of a vector along the plane, N components.
+    pub fn along(&self, v: DVec3) -> DVec3 {
+        v.reject_from(self.normal)
     }
 }
 

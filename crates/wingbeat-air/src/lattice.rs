@@ -7,7 +7,7 @@ use crate::geometry::{
     Surface, Symmetry, Topology, WakeColumn, carried, joined_groups, middle_columns, rings,
     shed_around, spanwise, strips,
 };
-use crate::images::{Mirror, mirrors};
+use crate::images::{Mirror, Plane, mirrors};
 use crate::settings::AirSettings;
 use std::ops::Range;
 use std::sync::Arc;
@@ -15,6 +15,9 @@ use wingbeat_math::{DVec3, largest};
 
 /// How far behind a plane a node may be that touches it, over the distance of the farthest one: far above round-off.
 const TOUCHING: f64 = 1e-7;
+
+/// How far off its plane an edge on a plane of images may be, in panel sizes: as joined nodes may be apart.
+const ON_PLANE: f64 = 1e-6;
 
 /// Vortex rings on the panels of any number of surfaces, with their wakes' roots.
 #[derive(Clone, Debug, PartialEq)]
@@ -80,6 +83,12 @@ impl Lattice {
         let mut settings = settings;
         settings.shedding.leading &= settings.leading.sheds();
         let mut topology = Topology::new(&surfaces, joined, settings.shedding)?;
+        if let Some(edge) = joined.iter().position(JoinedEdge::is_on_plane)
+            && settings.images.is_empty()
+        {
+            let problem = "there is no plane of images on which it could lie";
+            return Err(AirError::JoinedEdge { edge, problem });
+        }
         require(
             !settings.plane_wakes || topology.sheets.iter().all(|s| s.panels.len() == 1),
             "plane_wakes",
@@ -159,6 +168,40 @@ impl Lattice {
                 node,
                 depth,
             });
+        }
+        Ok(())
+    }
+
+    /// The plane of images nearest to `x` [m], N components.
+    pub(crate) fn nearest_plane(&self, x: DVec3) -> Option<&Plane> {
+        let far = |p: &&Plane| p.height(x).abs();
+        (self.settings.images.iter()).min_by(|a, b| far(a).total_cmp(&far(b)))
+    }
+
+    /// Checks that edges on planes of images are there, panels having this mean `size` [m].
+    ///
+    /// # Errors
+    /// [`AirError::OffPlane`] names the first node that is not.
+    pub(crate) fn check_on_planes(
+        &self,
+        position: &[DVec3],
+        size: f64,
+        step: u64,
+    ) -> Result<(), AirError> {
+        for line in &self.topology.plane_lines {
+            let Some(plane) = self.nearest_plane(position[line[0]]) else {
+                continue;
+            };
+            let off = |n: &&usize| plane.height(position[**n]).abs() > ON_PLANE * size;
+            if let Some(&n) = line.iter().find(off) {
+                let (surface, node) = self.topology.locate_node(n);
+                return Err(AirError::OffPlane {
+                    step,
+                    surface,
+                    node,
+                    distance: plane.height(position[n]).abs(),
+                });
+            }
         }
         Ok(())
     }

@@ -14,6 +14,7 @@ use wingbeat_math::DVec3;
 use crate::AnalysisError;
 use crate::departure::{Limits, Reference};
 use crate::part::Orbit;
+use crate::plausibility::lift_over_weight;
 use crate::problem::{TrimProblem, TrimSettings};
 use crate::regulator::observer::ProcessNoise;
 use crate::regulator::{Regulator, Timing, Weights};
@@ -96,9 +97,16 @@ impl Design {
         if found.solution.is_as_asked() {
             return Ok(found);
         }
+        // Held as it begins it may fail already, which says more than what is left over.
+        let cause = match lift_over_weight(&plain) {
+            Err(e) => format!(
+                "; held as it begins, the flight ends in its second wingbeat or before: {e}"
+            ),
+            Ok(_) => String::new(),
+        };
         Err(AnalysisError::not_covered(
             format!(
-                "no trimmed flight in blade elements was found to lay the controller out about: largest residual {:.1e} of weight, weight times wing length, radian and wing length per beat",
+                "no trimmed flight in blade elements was found to lay the controller out about: largest residual {:.1e} of weight, weight times wing length, radian and wing length per beat{cause}",
                 found.solution.error()
             ),
             "see what `wingbeat trim` says with air.model = \"blade_element\"; start nearer to it (flight.pitch_deg, motion.stroke_plane_pitch_deg), or change motion.frequency_hz, control.forward_m_s or the weight",

@@ -26,6 +26,7 @@ mod wake;
 
 pub(crate) use elastic::bent_by_weight;
 pub(crate) use joints::{chain, slowest_on_springs};
+pub(crate) use lift::lift_over_weight;
 pub use numbers::stroke_amplitude;
 pub use numbers::{Estimate, WingEstimate};
 pub use wake::{KeptWake, kept_wake, way_in_a_step};
@@ -33,7 +34,6 @@ pub use wake::{KeptWake, kept_wake, way_in_a_step};
 use wingbeat_flight::FlightSetup;
 
 use self::doubts::{doubts, reynolds_doubts};
-use self::lift::lift_over_weight;
 use self::sizes::sizes;
 
 /// Says which Reynolds numbers of the wings are so low that viscosity changes what the air of the flight computes, or

@@ -71,6 +71,7 @@ fn in_lattice(steps: usize) -> FlightSetup {
         body_surfaces: false,
         mirror: true,
         joined: vec![],
+        joined_tips: vec![],
     });
     setup.time.step = 0.005 / steps as f64;
     setup

@@ -268,6 +268,7 @@ fn expected_in_words(text: &str) -> String {
         ("a boolean", "true or false"),
         ("boolean", "the truth value"),
         ("an array of length 3", "a list of three numbers [x, y, z]"),
+        ("an array of length 2", "a list of two values"),
         ("an array of length", "a list of length"),
         ("a tuple of size", "a list of length"),
     ];
@@ -306,6 +307,8 @@ fn remedy(problem: &str, expected: &str) -> &'static str {
         "write the number without quotes and without a unit; the unit is part of the key"
     } else if expected.contains("length 3") {
         "vectors have three components, e.g. [0, 0, 9.81]"
+    } else if expected.contains("length 2") {
+        "give two values: of what varies along a wing or a vein those where it begins and where it ends, [root, tip], the same twice for a constant"
     } else {
         "give a value of the kind that is allowed"
     }

@@ -326,3 +326,21 @@ pub(crate) fn written(case: &raw::Case) -> String {
     let table = table(case);
     toml::to_string(&keys::effective(&table, &table)).expect("a table is TOML")
 }
+
+/// The same for a case that is to be flown on: without the numbers of one controller that are those of the default,
+/// which another controller refuses.
+pub(crate) fn written_to_change(case: &raw::Case) -> String {
+    let whole = table(case);
+    let mut table = keys::effective(&whole, &whole);
+    let default = raw::ControlCase::default();
+    let control = table.get_mut("control").and_then(toml::Value::as_table_mut);
+    if let (Some(control), Some(given)) = (control, &case.control) {
+        if given.stiffness == default.stiffness {
+            control.remove("stiffness");
+        }
+        if given.weights == default.weights {
+            control.remove("weights");
+        }
+    }
+    toml::to_string(&table).expect("a table is TOML")
+}

@@ -15,7 +15,7 @@ use super::raw::{
     DerivativesCase, DynamicsCase, FlightCase, Formulation, IntegratorCase, JointCase, JointKind,
     Mode, MotionCase, StabilisationCase, StartCase, TargetCase, TimeCase,
 };
-use crate::loaded::written;
+use crate::loaded::written_to_change as written;
 use crate::written::flight::tethered;
 
 /// The case of a trimmed flight as TOML: the given case with the adjusted wing motion, hinges and

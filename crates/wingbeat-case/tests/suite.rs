@@ -14,6 +14,7 @@ mod held;
 mod hinged;
 mod idle;
 mod insects;
+mod joined_wings;
 mod joints;
 mod joints_refused;
 mod keys;

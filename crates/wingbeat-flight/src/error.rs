@@ -47,7 +47,7 @@ pub enum FlightError {
     Blade(#[from] BladeError),
     /// Wings that are joined at their roots moved apart there.
     #[error(
-        "t = {time:.6e} s: the joined roots of `{}` and `{}` are {gap:.3e} m apart, allowed {limit:.3e} m (half a panel): bring the hinges and the surfaces' roots together, feather less there (twist the wing instead), or do not join them",
+        "t = {time:.6e} s: the joined roots (or tip and root) of `{}` and `{}` are {gap:.3e} m apart, allowed {limit:.3e} m (half a panel): bring the hinges and the surfaces' roots together, feather less there (twist the wing instead), or do not join them",
         wings[0], wings[1]
     )]
     RootsApart {
@@ -56,6 +56,20 @@ pub enum FlightError {
         /// Time [s].
         time: f64,
         /// Largest distance of two nodes that should be one [m].
+        gap: f64,
+        /// Allowed distance [m].
+        limit: f64,
+    },
+    /// The edge of an elastic wing that lies on a plane of images bends off it.
+    #[error(
+        "t = {time:.6e} s: the edge of `{wing}` on the plane of air.ground is {gap:.3e} m off it, allowed {limit:.3e} m (a quarter of a panel): hold the wing there (wing.{wing}.structure), or move it off the plane (hinge_m)"
+    )]
+    OffPlane {
+        /// Name of the wing.
+        wing: String,
+        /// Time [s].
+        time: f64,
+        /// Largest distance of a node from the plane [m].
         gap: f64,
         /// Allowed distance [m].
         limit: f64,

@@ -43,6 +43,7 @@ mod light;
 mod memory;
 mod mirrored;
 mod pairs;
+mod planes;
 mod prescribed;
 mod quadratures;
 pub mod record;
@@ -56,7 +57,7 @@ mod turned_over;
 mod turns;
 mod validate;
 
-pub use air::{check_joined, strips};
+pub use air::{EdgeOnPlane, check_joined, check_joined_tip, strips};
 pub use air_probe::AirProbe;
 pub use bodies::{
     JointCoordinate, WingLaw, check_assembly, doubtful_masses, joint_coordinates, loop_names,

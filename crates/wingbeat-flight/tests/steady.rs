@@ -68,6 +68,7 @@ impl Steady {
             body_surfaces: false,
             mirror: true,
             joined: vec![[0, 1]],
+            joined_tips: vec![],
         });
         let records = fly(setup);
         let force = records.last().unwrap().air.iter().map(|l| l.force);

@@ -113,6 +113,14 @@ impl Animal {
     /// # Errors
     /// The first thing that makes the animal unfit for simulation, see [`ModelError`].
     pub fn check(&self) -> Result<(), ModelError> {
+        self.check_with(|_| false)
+    }
+
+    /// The same; wings that others carry (`is_carried`) hinge far from the body.
+    ///
+    /// # Errors
+    /// As [`Self::check`].
+    pub fn check_with(&self, is_carried: impl Fn(&Wing) -> bool) -> Result<(), ModelError> {
         check_mass("body", &self.body)?;
         let m = self.mass();
         require("mass of the animal", m, m > 0.0, "> 0 kg")?;
@@ -137,21 +145,21 @@ impl Animal {
             if let Some(structure) = &wing.structure {
                 structure.check(&wing.name, wing.root())?;
             }
-            self.check_hinge(wing)?;
+            self.check_hinge(wing, is_carried(wing))?;
         }
         Ok(())
     }
 
     /// A hinge farther from every body surface than half the body length is a mistake of unit
-    /// or sign.
-    fn check_hinge(&self, wing: &Wing) -> Result<(), ModelError> {
+    /// or sign, but of a wing that another one carries.
+    fn check_hinge(&self, wing: &Wing, is_carried: bool) -> Result<(), ModelError> {
         for k in 0..3 {
             crate::error::finite(&format!("{}.hinge[{k}]", wing.name), wing.hinge_b[k])?;
         }
         let to_part = |p: &crate::BodyPart| distance(&p.mesh, wing.hinge_b);
         let nearest = self.parts.iter().map(to_part).fold(f64::INFINITY, f64::min);
         let limit = 0.5 * self.body_length();
-        if self.parts.is_empty() || nearest <= limit {
+        if self.parts.is_empty() || nearest <= limit || is_carried {
             return Ok(());
         }
         Err(ModelError::FarHinge {

@@ -258,7 +258,9 @@ impl Mesh {
     pub fn joined_edges(&self, setup: &FlightSetup) -> Vec<JoinedEdges> {
         match &setup.air {
             AirModel::VortexLattice(air)
-                if !(air.joined.is_empty() && setup.carried_pairs(air).is_empty()) =>
+                if !(air.joined.is_empty()
+                    && air.joined_tips.is_empty()
+                    && setup.carried_pairs(air).is_empty()) =>
             {
                 self.coincident_edges()
             }

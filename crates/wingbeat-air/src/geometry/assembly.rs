@@ -46,6 +46,7 @@ impl Topology {
             return Err(AirError::Empty);
         }
         t.joined_columns = joined_columns(&t.joined_nodes, &t.sheets);
+        t.plane_columns = plane_columns(&t.plane_lines, &t.sheets);
         t.join_panels_to_edges();
         Ok(t)
     }
@@ -62,6 +63,9 @@ impl Topology {
         let wrong = |problem: &'static str| AirError::JoinedEdge { edge: k, problem };
         let [a, b] = joined.surfaces;
         let offset = [a, b].map(|s| self.first_node[s]);
+        if joined.is_on_plane() {
+            return self.join_to_image(k, joined, &directed[a]);
+        }
         for ends in joined.nodes.windows(2) {
             let run = |side: usize| {
                 let [m, n] = [ends[0][side], ends[1][side]];
@@ -96,6 +100,29 @@ impl Topology {
         let nodes = joined.nodes.iter();
         self.joined_nodes
             .extend(nodes.map(|n| [n[0] + offset[0], n[1] + offset[1]]));
+        Ok(())
+    }
+
+    /// Makes the edges of a line on a plane of images those of a panel and its own image.
+    fn join_to_image(
+        &mut self,
+        k: usize,
+        joined: &JoinedEdge,
+        directed: &DirectedEdges,
+    ) -> Result<(), AirError> {
+        let wrong = |problem: &'static str| AirError::JoinedEdge { edge: k, problem };
+        for ends in joined.nodes.windows(2) {
+            let [m, n] = [ends[0][0], ends[1][0]];
+            let edge = directed.get(&[m, n]).or_else(|| directed.get(&[n, m]));
+            let &e = edge.ok_or_else(|| wrong("two nodes in succession are no edge"))?;
+            if self.edges[e].minus.is_some() {
+                return Err(wrong("an edge is shared already"));
+            }
+            self.edges[e].minus = Some(self.edges[e].plus);
+        }
+        let first = self.first_node[joined.surfaces[0]];
+        let nodes = joined.nodes.iter().map(|n| n[0] + first);
+        self.plane_lines.push(nodes.collect());
         Ok(())
     }
 
@@ -216,7 +243,7 @@ impl Topology {
                 let edge = edge.or_else(|| directed.get(&[g.to, g.from]));
                 edge.map(|&e| &self.edges[e]).is_some_and(|e| {
                     let surface = |p: usize| self.panel_surface[p];
-                    e.minus.is_some_and(|p| surface(p) != surface(e.plus))
+                    e.is_on_plane() || e.minus.is_some_and(|p| surface(p) != surface(e.plus))
                 })
             };
             let sheds: Vec<bool> = segments
@@ -286,7 +313,7 @@ impl Topology {
                 self.panel_edges[panel].push(PanelEdge { edge: e, sign });
             };
             join(edge.plus, 1.0);
-            if let Some(panel) = edge.minus {
+            if let Some(panel) = edge.minus.filter(|_| !edge.is_on_plane()) {
                 join(panel, -1.0);
             }
         }
@@ -315,6 +342,16 @@ fn joined_columns(joined: &[[usize; 2]], sheets: &[Sheet]) -> Vec<JoinedColumns>
     };
     let closed = sheets.iter().enumerate().filter_map(around);
     joined.iter().flat_map(pairs).chain(closed).collect()
+}
+
+/// Columns of wake nodes that leave lines on planes of images.
+fn plane_columns(lines: &[Vec<usize>], sheets: &[Sheet]) -> Vec<(usize, usize)> {
+    let columns = |(s, sheet): (usize, &Sheet)| -> Vec<(usize, usize)> {
+        let nodes = sheet.nodes.iter().enumerate();
+        let here = nodes.filter(|(_, n)| lines.iter().flatten().any(|m| m == *n));
+        here.map(|(column, _)| (s, column)).collect()
+    };
+    sheets.iter().enumerate().flat_map(columns).collect()
 }
 
 /// Directed edges of the ring of a panel, `c0 -> c3 -> c2 -> c1 -> c0`: left-handed about the

@@ -8,13 +8,29 @@ use crate::edges::EdgeKind;
 use crate::error::AirError;
 use crate::geometry::surface::{SheddingSegment, Surface};
 
-/// An edge line that two open surfaces share. Their normals must agree across it.
+/// An edge line that two open surfaces share, whose normals must agree across it; or that one surface shares with its
+/// own mirror image, on one of [`crate::AirSettings::images`].
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct JoinedEdge {
-    /// Numbers of the surfaces.
+    /// Numbers of the surfaces; twice the same of an edge on a plane.
     pub surfaces: [usize; 2],
     /// Nodes along the line, each counted in its surface: one of the first, one of the second.
     pub nodes: Vec<[usize; 2]>,
+}
+
+impl JoinedEdge {
+    /// The edge of a surface with these nodes, in succession, that lies on a plane of images.
+    pub fn on_plane(surface: usize, nodes: impl IntoIterator<Item = usize>) -> Self {
+        Self {
+            surfaces: [surface; 2],
+            nodes: nodes.into_iter().map(|n| [n; 2]).collect(),
+        }
+    }
+
+    /// Whether it lies on a plane of images.
+    pub(crate) fn is_on_plane(&self) -> bool {
+        self.surfaces[0] == self.surfaces[1] && self.nodes.iter().all(|n| n[0] == n[1])
+    }
 }
 
 /// Checks joined edges against the surfaces.
@@ -31,8 +47,10 @@ pub(crate) fn check_joined_edges(
         let (Some(first), Some(second)) = (surfaces.get(a), surfaces.get(b)) else {
             return wrong("there is no such surface");
         };
-        if a == b || first.closed || second.closed {
-            return wrong("a joined edge belongs to two different open surfaces");
+        if (a == b && !j.is_on_plane()) || first.closed || second.closed {
+            return wrong(
+                "a joined edge belongs to two different open surfaces, or lies on a plane of images",
+            );
         }
         if j.nodes.len() < 2 {
             return wrong("a joined edge needs at least two pairs of nodes");

@@ -13,7 +13,8 @@ pub struct Edge {
     pub to: usize,
     /// The panel whose ring runs this edge from `from` to `to` (global).
     pub plus: usize,
-    /// The panel whose ring runs it the other way, none at a free edge (global).
+    /// The panel whose ring runs it the other way, none at a free edge (global). On a plane of images it is the panel
+    /// of `plus`: what lies behind the plane is that panel's image, which has the same circulation.
     pub minus: Option<usize>,
     /// The wake ring column it sheds into, if it sheds.
     pub wake: Option<WakeColumn>,
@@ -90,6 +91,17 @@ pub struct Topology {
     pub joined_nodes: Vec<[usize; 2]>,
     /// Columns of wake nodes that leave them.
     pub joined_columns: Vec<JoinedColumns>,
+    /// Lines of nodes that lie on a plane of images, joined to their own mirror images there (global).
+    pub plane_lines: Vec<Vec<usize>>,
+    /// Columns of wake nodes that leave them: (sheet, column).
+    pub plane_columns: Vec<(usize, usize)>,
+}
+
+impl Edge {
+    /// Whether it lies on a plane of images, with its own panel's image behind it.
+    pub(crate) fn is_on_plane(&self) -> bool {
+        self.minus == Some(self.plus)
+    }
 }
 
 impl Topology {

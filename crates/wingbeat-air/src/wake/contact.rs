@@ -163,7 +163,8 @@ impl Obstacle {
                     let edge = &topology.edges[e.edge];
                     let ends = [edge.from, edge.to];
                     let others = [Some(edge.plus), edge.minus].into_iter().flatten();
-                    others.filter(|&q| q != p).all(is_within)
+                    !edge.is_on_plane()
+                        && others.filter(|&q| q != p).all(is_within)
                         && (ends == side || ends == [side[1], side[0]])
                 })
             });

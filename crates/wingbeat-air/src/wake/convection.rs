@@ -8,7 +8,7 @@ use crate::wake::account::{SheetAccount, free_rings, impulse_with};
 use crate::wake::contact::Obstacles;
 use crate::wake::filaments::Filaments;
 use crate::wake::force_free::ForceFree;
-use crate::wake::joined_nodes::merge_joined_nodes;
+use crate::wake::joined_nodes::{merge_joined_nodes, put_on_planes};
 use crate::wake::mover::Mover;
 use crate::wake::near_wake::RowShape;
 use crate::wake::particle_flow::ParticleFlow;
@@ -117,9 +117,12 @@ impl WakeMotion {
         (self.from, self.to, self.unhindered) = (mover.from, mover.to, mover.unhindered);
         let mut sum = SheetAccount::default();
         self.accounts.iter().for_each(|account| sum += *account);
-        if moved.is_ok() && !lattice.topology().joined_columns.is_empty() {
+        let topology = lattice.topology();
+        let is_joined = !topology.joined_columns.is_empty() || !topology.plane_columns.is_empty();
+        if moved.is_ok() && is_joined {
             let before = impulses(lattice, state, &sheets);
             merge_joined_nodes(lattice, &mut sheets);
+            put_on_planes(lattice, &state.position, &mut sheets);
             let after = impulses(lattice, state, &sheets);
             sum.impulse.moved += after[0] - before[0];
             sum.free += after[1] - before[1];

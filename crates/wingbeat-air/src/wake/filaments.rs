@@ -152,24 +152,32 @@ impl Filaments {
         }
     }
 
-    /// Mean squared core radius [m2] of the newest free nodes, those of joined columns counted once; that of new ones
-    /// where there are none yet, that of the lattice where no edge sheds any.
+    /// Mean squared core radius [m2] of the newest free nodes, those of joined columns counted once, as are those on a
+    /// plane with their images; that of new ones where there are none yet, that of the lattice where no edge sheds any.
     fn attached_core(&self, lattice: &Lattice, state: &AirState) -> f64 {
         let joined = &lattice.topology().joined_columns;
         let is_counted = |k: usize, c: usize| !joined.iter().any(|j| j.0[1] == (k, c));
-        let (mut sum, mut count, mut end) = (0.0, 0, 0);
+        let planes = &lattice.topology().plane_columns;
+        let weight = |k: usize, c: usize| match planes.contains(&(k, c)) {
+            true => 0.5,
+            false => 1.0,
+        };
+        let (mut sum, mut count, mut end) = (0.0, 0.0, 0);
         for (k, sheet) in state.sheets.iter().enumerate() {
             end += sheet.nodes.len();
             let first = end - (sheet.columns + 1).min(sheet.nodes.len());
             let newest = self.wake.nodes.core[first..end].iter().enumerate();
-            let once = newest.filter(|(c, _)| is_counted(k, *c)).map(|(_, x)| x);
-            count += once.clone().count();
-            sum += once.sum::<f64>();
+            let once = newest.filter(|(c, _)| is_counted(k, *c));
+            let once = once.map(|(c, core)| (weight(k, c), core));
+            count += once.clone().map(|(weight, _)| weight).sum::<f64>();
+            sum += once.map(|(weight, core)| weight * core).sum::<f64>();
         }
-        match count {
-            0 if state.sheets.is_empty() => lattice.settings().bound_core.core(0.0, 0.0),
-            0 => lattice.settings().wake_core.core(0.0, 0.0),
-            _ => sum / count as f64,
+        if count > 0.0 {
+            return sum / count;
+        }
+        match state.sheets.is_empty() {
+            true => lattice.settings().bound_core.core(0.0, 0.0),
+            false => lattice.settings().wake_core.core(0.0, 0.0),
         }
     }
 

@@ -89,8 +89,8 @@ pub(crate) struct ForceFree {
     joined: Vec<Option<usize>>,
     /// Whether it left the root of a wing whose circulation goes on through a body.
     at_body: Vec<bool>,
-    /// Whether it lies where the sheet meets its own mirror image.
-    on_plane: Vec<bool>,
+    /// The plane, if it lies where the sheet meets its own mirror image.
+    on_plane: Vec<Option<Mirror>>,
     near: Vec<[(Option<usize>, f64); 2]>,
     /// Nodes at two ends of a filament, and the part of it that is here.
     joints: Vec<([usize; 2], f64)>,
@@ -138,7 +138,7 @@ impl ForceFree {
             bound.gamma[e].abs() * a.distance(b)
         };
         self.whole = ROUNDING * (0..bound.len()).map(lattice_size).fold(0.0, f64::max);
-        self.annul(velocity, lattice);
+        self.annul(velocity);
         for (i, &one) in self.same.iter().enumerate().filter(|(i, one)| i != *one) {
             velocity.set(i, velocity.get(one));
         }
@@ -171,10 +171,10 @@ impl ForceFree {
         self.same.extend(0..next);
         self.joined.clear();
         self.joined.resize(next, None);
-        for list in [&mut self.at_body, &mut self.on_plane] {
-            list.clear();
-            list.resize(next, false);
-        }
+        self.at_body.clear();
+        self.at_body.resize(next, false);
+        self.on_plane.clear();
+        self.on_plane.resize(next, None);
         self.join(lattice, state);
     }
 
@@ -185,6 +185,7 @@ impl ForceFree {
             Some(_) => 0,
             None => state.sheets[s].nodes.len() + state.sheets[s].columns + 1,
         };
+        let plane = lattice.symmetry().map(|s| s.mirror);
         let pairs = lattice.topology().joined_columns.iter().enumerate();
         for (k, JoinedColumns([(s, c), (t, d)])) in pairs {
             let first = |k: usize| (0..k).map(nodes).sum::<usize>();
@@ -202,14 +203,26 @@ impl ForceFree {
                         self.joined[self.same[one]] = Some(k);
                         self.at_body[self.same[one]] = at_body;
                     }
-                    (Some(one), None) if nodes(*t) == 0 => self.on_plane[one] = true,
-                    (None, Some(other)) if nodes(*s) == 0 => self.on_plane[other] = true,
+                    (Some(one), None) if nodes(*t) == 0 => self.on_plane[one] = plane,
+                    (None, Some(other)) if nodes(*s) == 0 => self.on_plane[other] = plane,
                     _ => break,
                 }
             }
         }
         for i in (0..self.same.len()).filter(|&i| self.same[i] != i) {
-            self.on_plane[self.same[i]] |= self.on_plane[i];
+            let plane = self.on_plane[self.same[i]].or(self.on_plane[i]);
+            self.on_plane[self.same[i]] = plane;
+        }
+        for &(s, c) in &lattice.topology().plane_columns {
+            let edge = state.position[lattice.sheets()[s].nodes[c]];
+            let plane = lattice.nearest_plane(edge).and_then(Mirror::of);
+            let (first, width) = (
+                (0..s).map(nodes).sum::<usize>(),
+                state.sheets[s].columns + 1,
+            );
+            for n in (c..nodes(s)).step_by(width) {
+                self.on_plane[self.same[first + n]] = plane;
+            }
         }
         let same = |node: &mut Option<usize>| *node = node.map(|n| self.same[n]);
         self.wake.iter_mut().for_each(same);
@@ -264,7 +277,9 @@ impl ForceFree {
         (ends, joint): (impl Iterator<Item = (usize, [f64; 2])> + Clone, f64),
         (between, part): ([Option<usize>; 2], f64),
     ) {
-        let in_plane = between.iter().all(|n| n.is_some_and(|n| self.on_plane[n]));
+        let in_plane = between
+            .iter()
+            .all(|n| n.is_some_and(|n| self.on_plane[n].is_some()));
         let [a, b] = between.map(|n| n.and_then(|n| self.joined[n]));
         let is_joined = a.is_some() && a == b;
         // The other half of the joint is on the other side.
@@ -326,7 +341,7 @@ impl ForceFree {
     }
 
     /// Sums the forces of the filaments at their nodes, and moves the nodes so that they vanish.
-    fn annul(&mut self, velocity: &mut Points, lattice: &Lattice) {
+    fn annul(&mut self, velocity: &mut Points) {
         let count = velocity.len();
         self.sums.clear();
         self.sums.resize(count, [DVec3::ZERO; 2]);
@@ -344,14 +359,12 @@ impl ForceFree {
             *vorticity += weight * end.vorticity;
             self.sizes[end.node] += weight * end.vorticity.length();
         }
-        let mirror = lattice.symmetry().map(|s| s.mirror);
-        if let Some(mirror) = mirror {
-            for i in (0..count).filter(|&i| self.on_plane[i]) {
-                let [force, vorticity] = &mut self.sums[i];
-                *force += mirror.vector(*force);
-                *vorticity -= mirror.vector(*vorticity); // an axial vector
-                self.sizes[i] *= 2.0;
-            }
+        let planes = self.on_plane.iter().enumerate();
+        for (i, mirror) in planes.filter_map(|(i, plane)| Some((i, plane.as_ref()?))) {
+            let [force, vorticity] = &mut self.sums[i];
+            *force += mirror.vector(*force);
+            *vorticity -= mirror.vector(*vorticity); // an axial vector
+            self.sizes[i] *= 2.0;
         }
         self.left.clear();
         for (i, ([force, vorticity], size)) in self.sums.iter().zip(&mut self.sizes).enumerate() {
@@ -368,7 +381,7 @@ impl ForceFree {
         self.look_around();
         self.yield_to_left(velocity);
         for _ in 0..HANDED_ON {
-            self.hand_on(mirror);
+            self.hand_on();
             self.yield_to_left(velocity);
         }
     }
@@ -382,7 +395,7 @@ impl ForceFree {
             self.around[b] += part * self.sizes[a];
         }
         let on_plane = self.around.iter_mut().zip(&self.on_plane);
-        for (around, _) in on_plane.filter(|(_, on_plane)| **on_plane) {
+        for (around, _) in on_plane.filter(|(_, on_plane)| on_plane.is_some()) {
             *around *= 2.0;
         }
     }
@@ -408,7 +421,7 @@ impl ForceFree {
 
     /// Each node hands what is left to the nodes around it; one that has none keeps it. Nodes in the plane of a
     /// mirror get as much from the other side.
-    fn hand_on(&mut self, mirror: Option<Mirror>) {
+    fn hand_on(&mut self) {
         let Self {
             sizes,
             around,
@@ -427,9 +440,9 @@ impl ForceFree {
                 }
             }
         }
-        if let Some(mirror) = mirror {
-            let given = handed.iter_mut().zip(around).zip(on_plane);
-            for ((given, _), _) in given.filter(|((_, a), on_plane)| **on_plane && **a > 0.0) {
+        let given = handed.iter_mut().zip(around).zip(on_plane);
+        for ((given, around), plane) in given {
+            if let (Some(mirror), true) = (plane, *around > 0.0) {
                 *given += mirror.vector(*given);
             }
         }

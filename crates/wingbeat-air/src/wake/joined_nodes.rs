@@ -1,4 +1,4 @@
-//! Wake nodes that left joined edges: two columns in one place.
+//! Wake nodes that left joined edges: two columns in one place, or one on a plane of images.
 
 use crate::geometry::JoinedColumns;
 use crate::lattice::Lattice;
@@ -44,6 +44,26 @@ pub(crate) fn merge_joined_nodes(lattice: &Lattice, sheets: &mut [WakeSheet]) {
                 if let Some(v) = velocity {
                     sheets[s].velocity.set(n, v);
                 }
+            }
+        }
+    }
+}
+
+/// Puts wake nodes that left an edge on a plane of images on that plane, as they are with their images midway between
+/// both. Surfaces have their nodes at `position` [m, N].
+pub(crate) fn put_on_planes(lattice: &Lattice, position: &[DVec3], sheets: &mut [WakeSheet]) {
+    for &(s, column) in &lattice.topology().plane_columns {
+        let edge = position[lattice.sheets()[s].nodes[column]];
+        let Some(plane) = lattice.nearest_plane(edge) else {
+            continue;
+        };
+        let (width, sheet) = (sheets[s].columns + 1, &mut sheets[s]);
+        for n in (column..sheet.nodes.len()).step_by(width) {
+            let x = sheet.nodes.get(n);
+            sheet.nodes.set(n, plane.foot(x));
+            if n < sheet.velocity.len() {
+                let v = sheet.velocity.get(n);
+                sheet.velocity.set(n, plane.along(v));
             }
         }
     }

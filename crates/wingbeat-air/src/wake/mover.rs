@@ -1,6 +1,6 @@
 //! Moves wake nodes with the velocities of the accepted step.
 
-use crate::images::Plane;
+use crate::images::{Plane, ROUNDING};
 use crate::lattice::Lattice;
 use crate::state::{WakeEvents, WakeSheet};
 use crate::wake::contact::Obstacles;
@@ -144,8 +144,11 @@ fn keep_on_side(
     let mut count = [0; 2];
     for (i, (a, b)) in from.iter().zip(to).enumerate() {
         if plane.height(*a) * plane.height(*b) < 0.0 {
+            // What moves along the plane lies now on one side of it, now on the other, by roundings.
+            let changed = plane.height(*b).abs() > ROUNDING * a.distance(*b);
             *b = plane.foot(*b);
-            count = [count[0] + 1, count[1] + u64::from(strength(i))];
+            let of = [changed, changed && strength(i)].map(u64::from);
+            count = [count[0] + of[0], count[1] + of[1]];
         }
     }
     count

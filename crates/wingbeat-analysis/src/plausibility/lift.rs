@@ -37,7 +37,7 @@ fn steps(setup: &FlightSetup) -> Result<usize, AnalysisError> {
 
 /// Mean lift over weight of the second wingbeat of a tethered flight in blade elements, all wings rigid; none
 /// where these cannot follow a measured surface.
-pub(super) fn lift_over_weight(setup: &FlightSetup) -> Result<Option<f64>, AnalysisError> {
+pub(crate) fn lift_over_weight(setup: &FlightSetup) -> Result<Option<f64>, AnalysisError> {
     let weight = setup.animal.mass() * setup.gravity.length();
     let (Some(period), Some(density)) = (setup.time.period, setup.air.density()) else {
         return Ok(None);

@@ -1,11 +1,12 @@
 //! `[wing.NAME.deformation]` and `wing.NAME.joined`.
 
-use wingbeat_flight::check_joined;
+use wingbeat_flight::{check_joined, check_joined_tip};
 use wingbeat_model::deformation::{MovingSurface, SpanLaw, Term};
 use wingbeat_model::motion::Fourier;
 use wingbeat_model::{Animal, Deformation, ModelError, Wing, mirror_name};
 
 use super::fault::Built;
+use super::hinge;
 use crate::error::Fault;
 use crate::raw::{Case, CourseCase, DeformationCase, SurfaceCase};
 
@@ -168,7 +169,9 @@ fn course(case: &CourseCase) -> Fourier {
 /// Pairs of wings, by their numbers, that share the edge at their roots.
 pub(super) fn joined(case: &Case, animal: &Animal) -> Built<Vec<[usize; 2]>> {
     let mut pairs: Vec<[usize; 2]> = vec![];
-    for (name, _) in case.wing.iter().filter(|(_, w)| w.joined == Some(true)) {
+    let on_body = |name: &str| hinge::carrier(case, name).is_none();
+    let joined = case.wing.iter().filter(|(_, w)| w.joined == Some(true));
+    for (name, _) in joined.filter(|(name, _)| on_body(name)) {
         let number = |n: &str| animal.wings.iter().position(|w| w.name == n);
         let counterpart = mirror_name(name).and_then(|t| number(&t));
         let fault = |problem: String, remedy: &str| {
@@ -188,6 +191,35 @@ pub(super) fn joined(case: &Case, animal: &Animal) -> Built<Vec<[usize; 2]>> {
             check_joined(animal, pair).map_err(|e| fault(e.to_string(), remedy))?;
             pairs.push(pair);
         }
+    }
+    Ok(pairs)
+}
+
+/// Pairs of wings, by their numbers, of which the tip of the first is the root of the second, which it carries.
+pub(super) fn joined_tips(case: &Case, animal: &Animal) -> Built<Vec<[usize; 2]>> {
+    let mut pairs = vec![];
+    for (number, wing) in animal.wings.iter().enumerate() {
+        let given = |name: String| Some((case.wing.get(&name)?.joined?, name));
+        let own = given(wing.name.clone());
+        let said = own.or_else(|| mirror_name(&wing.name).and_then(given));
+        let Some((true, name)) = said else { continue };
+        let Some(carrier) = hinge::carrier(case, &wing.name) else {
+            continue;
+        };
+        let by = animal.wings.iter().position(|w| w.name == carrier.wing);
+        let pair = by.map(|by| [by, number]);
+        if let Some(e) = pair.and_then(|pair| check_joined_tip(animal, pair).err()) {
+            return Err(Fault::new(
+                format!("wing.{name}.joined"),
+                e.to_string(),
+                "the wing whose tip is the root of this one carries it, with the same chord and panels there",
+                format!(
+                    "joint.{}.at_m at the tip of `{}`, the same mesh.chordwise, one chord",
+                    carrier.joint, carrier.wing
+                ),
+            ));
+        }
+        pairs.extend(pair);
     }
     Ok(pairs)
 }

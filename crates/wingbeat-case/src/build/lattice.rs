@@ -28,6 +28,7 @@ pub(super) fn options(whole: &Case, animal: &Animal) -> Built<AirOptions> {
         body_surfaces: case.body,
         mirror: case.mirror,
         joined: deformation::joined(whole, animal)?,
+        joined_tips: deformation::joined_tips(whole, animal)?,
     })
 }
 

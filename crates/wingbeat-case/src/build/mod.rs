@@ -12,6 +12,7 @@ mod effects;
 mod element;
 mod fault;
 mod flight;
+mod hinge;
 mod joint;
 mod lattice;
 mod lengths;
@@ -43,7 +44,7 @@ pub(crate) use own_control::own_control;
 pub(crate) use refused::refused;
 
 use wingbeat_flight::{CorrectorSettings, FlightSetup};
-use wingbeat_model::{Animal, ModelError};
+use wingbeat_model::{Animal, ModelError, Wing};
 
 use fault::Built;
 
@@ -89,9 +90,10 @@ fn animal(case: &Case, name: &str) -> Built<Animal> {
         ..body
     };
     segment::split(case, &mut animal)?;
-    animal.check().map_err(|e| fault_of_animal(case, e))?;
+    let is_carried = |wing: &Wing| hinge::is_carried(case, &wing.name);
+    (animal.check_with(&is_carried)).map_err(|e| fault_of_animal(case, e))?;
     let scale = case.animal.scale;
-    let mut animal = scaled(&animal, scale)?;
+    let mut animal = scaled(&animal, scale, is_carried)?;
     if case.dynamics.wings == WingInertia::Massless {
         if let Some(wing) = animal.wings.iter().find(|w| w.structure.is_some()) {
             return Err(Fault::new(
@@ -113,11 +115,13 @@ fn animal(case: &Case, name: &str) -> Built<Animal> {
 
 /// The animal, so many times as large; one that was sound before, and is not any more, has numbers that are too
 /// large or small.
-fn scaled(animal: &Animal, scale: f64) -> Built<Animal> {
+fn scaled(animal: &Animal, scale: f64, is_carried: impl Fn(&Wing) -> bool) -> Built<Animal> {
     let fault = |e: ModelError| Fault::new("animal.scale", e.to_string(), "a number > 0", "");
     let scaled = animal.scaled(scale).map_err(fault)?;
     let masses = [animal, &scaled].map(Animal::mass);
-    match scaled.check().is_ok() && scaled.mass().is_normal() == animal.mass().is_normal() {
+    match scaled.check_with(is_carried).is_ok()
+        && scaled.mass().is_normal() == animal.mass().is_normal()
+    {
         true => Ok(scaled),
         false => Err(Fault::new(
             "animal.scale",

@@ -56,6 +56,10 @@ pub(crate) fn refused(case: &Case, setup: &FlightSetup, error: &FlightError) -> 
             format!("wing.{}.joined", wings[1]),
             "bring the roots together, or do not join them",
         ),
+        FlightError::OffPlane { wing, .. } => (
+            of_wing(case, wing, "structure"),
+            "the message says what to take",
+        ),
         FlightError::Setup { key: "control", .. } => (
             "control.controller".to_owned(),
             "change what the message names, or fly without: control.controller = \"none\"",

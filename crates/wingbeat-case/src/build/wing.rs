@@ -5,6 +5,7 @@ use wingbeat_model::planform::{Beta, ChordSize, Planform, WingShape};
 use wingbeat_model::{GridMesh, MassInput, Side, Spacing, Wing, WingMotion, mirror_name};
 
 use super::fault::{Built, fault_at};
+use super::hinge::hinge;
 use super::numbers::{given_mass, symmetric, vector};
 use super::{deformation, motion, structure};
 use crate::decode::nearest;
@@ -37,7 +38,12 @@ pub(super) fn build_all(case: &Case) -> Built<Vec<Wing>> {
 /// The wing of the case a wing of the animal was made from.
 pub(super) fn source_of(case: &Case, wing: &str) -> String {
     match mirror_name(wing) {
-        Some(counterpart) if case.wing.get(wing).is_none_or(|w| w.hinge_m.is_none()) => counterpart,
+        Some(counterpart)
+            if case.wing.contains_key(&counterpart)
+                && case.wing.get(wing).is_none_or(|w| w.hinge_m.is_none()) =>
+        {
+            counterpart
+        }
         _ => wing.to_owned(),
     }
 }
@@ -98,7 +104,7 @@ fn build(
     let mass = mass(&source)?;
     let law = motion_of(case, &source, side)?;
     let path = format!("wing.{name}");
-    let wing = Wing::with_mesh(name, side, hinge(&source)?, mesh, &mass, law);
+    let wing = Wing::with_mesh(name, side, hinge(case, name)?, mesh, &mass, law);
     let wing = wing.map_err(|e| fault_of_wing(&path, &source, &e))?;
     let (from, deformed, _) = source.of(|w| w.deformation.is_some());
     let wing = match &deformed.deformation {
@@ -220,23 +226,6 @@ fn fault_of_wing(path: &str, source: &Source<'_>, error: &wingbeat_model::ModelE
         }
         _ => fault_at(path, source.own, error),
     }
-}
-
-fn hinge(source: &Source<'_>) -> Built<DVec3> {
-    let (name, wing, mirrored) = source.of(|w| w.hinge_m.is_some());
-    let missing = || {
-        Fault::missing(
-            format!("wing.{name}.hinge_m"),
-            "the hinge in body axes [forward, right, down] in metres",
-            "add `hinge_m = [..., ..., ...]`",
-        )
-    };
-    let hinge = vector(wing.hinge_m.ok_or_else(missing)?);
-    Ok(if mirrored {
-        wingbeat_math::mirrored(hinge)
-    } else {
-        hinge
-    })
 }
 
 fn mesh(source: &Source<'_>, side: Side) -> Built<GridMesh> {

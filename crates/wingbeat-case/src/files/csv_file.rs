@@ -98,7 +98,7 @@ impl CsvFile {
             if text.is_empty() {
                 let mut fault = self.bad(&format!("line {line}: a cell is empty"));
                 fault.remedy =
-                    "leave the row out: samples need not be evenly spaced; or write the number"
+                    "leave the row out: samples need not be evenly spaced, and each angle may have a file of its own where they lack in different rows; or write the number"
                         .into();
                 return fault;
             }

@@ -193,9 +193,9 @@ pub struct AirCase {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub shear_1_s: Option<[[f64; 3]; 3]>,
     /// A plane through which no air goes: stream, gusts and shear go along it, and bodies and wings stay on one
-    /// side; left out: none.
+    /// side; a root or tip that lies on it all along is joined to its mirror image. Left out: none.
     ///
-    /// Change it for take-off, landing and hovering near the ground.
+    /// Change it for take-off, landing and hovering near the ground, and for half a model on a wall.
     #[schemars(extend("with" = LATTICE, "always" = true))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub ground: Option<GroundCase>,

@@ -58,7 +58,7 @@ pub struct JointCase {
     /// Change it to name the body that moves.
     pub child: String,
     /// Joint point in body axes in the reference configuration; where the parent is a wing, in wing axes from
-    /// its hinge, and where a wing carries the parent, in wing axes from the joint at the wing. Left out for a wing: its hinge, which is no other place than `wing.NAME.hinge_m`.
+    /// its hinge, and where a wing carries the parent, in wing axes from the joint at the wing. Left out for a wing on the body: its hinge, which is no other place than `wing.NAME.hinge_m`. A wing on a wing hinges here and needs no `hinge_m`.
     ///
     /// Change it to what was measured.
     #[serde(skip_serializing_if = "Option::is_none")]

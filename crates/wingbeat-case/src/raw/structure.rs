@@ -331,7 +331,7 @@ pub struct VeinCase {
     #[default(_code = "[1.0, 0.0]")]
     #[schemars(inner(range(min = 0, max = 1)))]
     pub to: [f64; 2],
-    /// Radius: of it and the modulus are bending and torsion; stretching, `EA = 4 EI / r^2`, follows from it in
+    /// Radius [at `from`, at `to`]: of it and the modulus are bending and torsion; stretching, `EA = 4 EI / r^2`, follows from it in
     /// any case.
     ///
     /// Change it to what was measured.

@@ -25,7 +25,8 @@ pub struct WingCase {
     /// Change it to false for a single wing, or for a joint on one side alone.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub mirror: Option<bool>,
-    /// Hinge in body axes.
+    /// Hinge in body axes. Left out of a wing that another wing carries (`joint.NAME.parent`): its place is `at_m` of the
+    /// joint, and another one is refused.
     ///
     /// Change it to what was measured.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -84,9 +85,10 @@ pub struct WingCase {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub structure: Option<StructureCase>,
     /// Whether the wing shares the edge at its root with its counterpart on the other side: one lifting
-    /// surface without a vortex in the middle. The roots must meet. Left out: false.
+    /// surface without a vortex in the middle. The roots must meet. Of a wing that another one carries: with the tip
+    /// of that wing, which has to be its root where all angles are zero. Left out: false.
     ///
-    /// Change it to true for wings without a body between them.
+    /// Change it to true for wings without a body between them, and for hand wings on arm wings.
     #[schemars(extend("with" = "air.model = vortex_lattice"))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub joined: Option<bool>,

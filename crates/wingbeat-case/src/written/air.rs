@@ -197,6 +197,7 @@ fn lattice(options: &AirOptions) -> Written<AirCase> {
         body_surfaces,
         mirror,
         joined: _, // keys of the wings
+        joined_tips: _,
     } = options;
     let air = AirCase {
         model: Model::VortexLattice,

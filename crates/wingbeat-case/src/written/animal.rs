@@ -147,15 +147,17 @@ fn wing_case(wing: &Wing, all: &[Wing]) -> WingCase {
     }
 }
 
-/// Which wings share the edge at their roots.
+/// Which wings share the edge at their roots with another one.
 pub(super) fn join(case: &mut Case, animal: &Animal, air: &AirModel) {
-    let pairs = match air {
-        AirModel::VortexLattice(options) => &options.joined[..],
-        _ => &[],
+    let (roots, tips) = match air {
+        AirModel::VortexLattice(options) => (&options.joined[..], &options.joined_tips[..]),
+        _ => (&[][..], &[][..]),
     };
     for (name, wing) in &mut case.wing {
         let number = animal.wings.iter().position(|w| w.name == *name);
-        let is_joined = number.is_some_and(|k| pairs.iter().any(|pair| pair.contains(&k)));
+        let is_joined = number.is_some_and(|k| {
+            roots.iter().any(|pair| pair.contains(&k)) || tips.iter().any(|pair| pair[1] == k)
+        });
         wing.joined = is_joined.then_some(true);
     }
 }

@@ -7,6 +7,7 @@ use wingbeat_dynamics::{BodyAcceleration, BodyMotion, Wrench};
 use wingbeat_math::{DVec3, Six, SixBySix, six};
 
 use super::mirror::mirror_pairs;
+use super::on_plane::EdgeOnPlane;
 use super::surfaces::SurfaceMap;
 use crate::error::FlightError;
 use crate::interface::{Air, AirScratch, Instant, WingInertia, WingResponse, misfit};
@@ -33,7 +34,10 @@ impl LatticeAir {
     pub fn new(setup: &FlightSetup, options: &AirOptions) -> Result<Self, FlightError> {
         let carried = setup.carried_pairs(options);
         let pairs = (&options.joined[..], &carried[..]);
-        let map = SurfaceMap::new(&setup.animal, options.body_surfaces, pairs);
+        let on_planes = setup.edges_on_planes(options).into_iter();
+        let map = SurfaceMap::new(&setup.animal, options.body_surfaces, pairs)
+            .with_tips(&setup.animal, &options.joined_tips)
+            .with_planes(&setup.animal, on_planes.filter(EdgeOnPlane::is_joined));
         let (surfaces, settings) = (map.surfaces.clone(), options.lattice.clone());
         let lattice = Lattice::joined(surfaces, &map.joined_edges(), settings)?;
         if !options.mirror {

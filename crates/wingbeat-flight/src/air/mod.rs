@@ -15,6 +15,8 @@ mod blade;
 pub mod external;
 mod lattice;
 mod mirror;
+mod on_plane;
+mod shared_edge;
 mod strips;
 mod surfaces;
 mod table;
@@ -32,7 +34,12 @@ pub(crate) use self::mirror::wing_pairs;
 pub use crate::interface::{Air, AirScratch, Instant};
 pub use blade::BladeAir;
 pub use lattice::LatticeAir;
+pub use on_plane::EdgeOnPlane;
+pub(crate) use on_plane::ON_PLANE;
+pub use shared_edge::check_joined_tip;
+pub(crate) use shared_edge::tip_gap;
 pub use strips::strips;
+pub(crate) use surfaces::SurfaceMap;
 pub use surfaces::check_joined;
 
 /// No air at all.

@@ -8,9 +8,10 @@ use wingbeat_dynamics::{BodyMotion, Wrench};
 use wingbeat_math::{DVec3, RotationLaw};
 use wingbeat_model::{
     Animal, BodyPart, DeformingMesh, GridMesh, PairOnPart, Side, Spacing, Wing, WingMotion,
-    root_gap,
 };
 
+use super::on_plane::{EdgeOnPlane, OnPlane, columns_of};
+use super::shared_edge::SharedEdge;
 use crate::error::FlightError;
 use crate::interface::Instant;
 
@@ -25,8 +26,10 @@ pub struct SurfaceMap {
     local: Vec<DVec3>,
     /// Per surface: how it is deformed.
     deforming: Vec<Option<Deforming>>,
-    /// Roots of wings that are joined.
-    roots: Vec<Roots>,
+    /// Edges of wings that are joined.
+    joined: Vec<SharedEdge>,
+    /// Edges of wings that are joined to their images.
+    on_planes: Vec<OnPlane>,
     /// Strips through bodies.
     carried: Vec<CarryThrough>,
     /// Per surface: range of its nodes in `local`.
@@ -40,18 +43,6 @@ pub struct SurfaceMap {
 struct Deforming {
     mesh: DeformingMesh,
     motion: WingMotion,
-}
-
-/// Two wings that share the edge at their roots. Where their motions part the roots, the edge lies
-/// midway.
-#[derive(Clone, Debug)]
-struct Roots {
-    /// The wings.
-    wings: [usize; 2],
-    /// Nodes of the one and the other root among all nodes, from leading to trailing edge.
-    nodes: Vec<[usize; 2]>,
-    /// How far they may part [m]: half the width of the panels there.
-    limit: f64,
 }
 
 /// The strip from the root of a wing to the middle of the body it stands on, where that of the other wing begins.
@@ -80,7 +71,8 @@ impl SurfaceMap {
             surfaces: vec![],
             body: vec![],
             deforming: vec![],
-            roots: vec![],
+            joined: vec![],
+            on_planes: vec![],
             carried: vec![],
             local: vec![],
             nodes: vec![],
@@ -100,7 +92,7 @@ impl SurfaceMap {
         }
         for &[a, b] in joined {
             let nodes = [a, b].map(|k| map.nodes[k].clone());
-            map.roots.push(roots(animal, [a, b], nodes));
+            map.joined.push(SharedEdge::of_roots(animal, [a, b], nodes));
         }
         for part in animal.parts.iter().filter(|_| body_surfaces) {
             map.push(part_surface(part), &part.mesh.nodes, 0);
@@ -119,11 +111,41 @@ impl SurfaceMap {
         map
     }
 
+    /// The same with the tips of these wings joined to the roots of those that they carry.
+    pub fn with_tips(mut self, animal: &Animal, pairs: &[[usize; 2]]) -> Self {
+        for &wings in pairs {
+            let [tip, root] = [(0, EdgeKind::Tip), (1, EdgeKind::Root)]
+                .map(|(k, kind)| self.columns_of(animal, wings[k], kind));
+            let edge = SharedEdge::of_tip(animal, wings, [tip, root], &self.local);
+            self.joined.push(edge);
+        }
+        self
+    }
+
+    /// The same with these edges of wings joined to their images.
+    pub fn with_planes(
+        mut self,
+        animal: &Animal,
+        edges: impl Iterator<Item = EdgeOnPlane>,
+    ) -> Self {
+        for edge in edges {
+            let columns = self.columns_of(animal, edge.wing, edge.kind);
+            let name = &animal.wings[edge.wing].name;
+            (self.on_planes).push(OnPlane::new(name, &edge, columns, &self.local));
+        }
+        self
+    }
+
+    /// Nodes among all nodes of the root or tip of a wing, and of the next column ([`columns_of`]).
+    pub fn columns_of(&self, animal: &Animal, wing: usize, kind: EdgeKind) -> [Vec<usize>; 2] {
+        columns_of(&animal.wings[wing].mesh, self.nodes[wing].start, kind)
+    }
+
     /// Adds the strip from the root of the first of these wings to the middle between both roots, which lies
     /// `aside` by so much.
     fn carry(&mut self, wings: [usize; 2], aside: DVec3, animal: &Animal) {
         let nodes = wings.map(|k| self.nodes[k].clone());
-        let roots = roots(animal, wings, nodes).nodes;
+        let roots = SharedEdge::of_roots(animal, wings, nodes).nodes;
         let wing = &animal.wings[wings[0]];
         let strip = GridMesh {
             rows: wing.mesh.rows,
@@ -161,7 +183,7 @@ impl SurfaceMap {
 
     /// What is joined to what, in the words of the lattice.
     pub fn joined_edges(&self) -> Vec<JoinedEdge> {
-        let edge = |r: &Roots| {
+        let edge = |r: &SharedEdge| {
             let first = r.wings.map(|w| self.nodes[w].start);
             let local = |n: &[usize; 2]| [n[0] - first[0], n[1] - first[1]];
             JoinedEdge {
@@ -169,8 +191,13 @@ impl SurfaceMap {
                 nodes: r.nodes.iter().map(local).collect(),
             }
         };
-        let of_roots = self.roots.iter().map(edge);
-        of_roots.chain(self.carried_edges()).collect()
+        let on_plane = |p: &OnPlane| p.joined_edge(self.nodes[p.wing].start);
+        let of_wings = self.joined.iter().map(edge);
+        let of_planes = self.on_planes.iter().map(on_plane);
+        of_wings
+            .chain(self.carried_edges())
+            .chain(of_planes)
+            .collect()
     }
 
     /// Both sides of the strips through bodies: at the root, and in the middle.
@@ -197,7 +224,7 @@ impl SurfaceMap {
     /// deformation of the wings, prescribed or by loads.
     ///
     /// # Errors
-    /// Joined roots are too far apart.
+    /// Joined roots are too far apart, or an edge on a plane of images too far from it.
     pub fn node_motion(&self, at: &Instant<'_>, out: &mut NodeMotion) -> Result<(), FlightError> {
         out.position.resize(self.local.len(), DVec3::ZERO);
         out.velocity.resize(self.local.len(), DVec3::ZERO);
@@ -221,7 +248,8 @@ impl SurfaceMap {
                 }),
             }
         }
-        (self.roots.iter()).try_for_each(|r| r.join(at.time, self, out))?;
+        (self.joined.iter()).try_for_each(|edge| edge.join(at.time, out))?;
+        (self.on_planes.iter()).try_for_each(|edge| edge.place(at.time, out))?;
         (self.carried.iter()).for_each(|strip| strip.place(&at.motions[0], self, out));
         Ok(())
     }
@@ -259,7 +287,8 @@ impl SurfaceMap {
     ) {
         out.fill(0.0);
         for (s, panels) in self.panels.iter().enumerate() {
-            let joined = self.roots.iter().any(|r| r.wings.contains(&s));
+            let joined = self.joined.iter().any(|edge| edge.wings.contains(&s))
+                || self.on_planes.iter().any(|edge| edge.wing == s);
             if self.deforming[s].is_none() && !joined {
                 continue;
             }
@@ -280,7 +309,8 @@ impl SurfaceMap {
 
     /// Whether any surface moves otherwise than its body.
     pub fn deforms(&self) -> bool {
-        !self.roots.is_empty() || self.deforming.iter().any(Option::is_some)
+        !(self.joined.is_empty() && self.on_planes.is_empty())
+            || self.deforming.iter().any(Option::is_some)
     }
 
     /// Panel forces gathered into one wrench per body about the body's origin, in N.
@@ -334,28 +364,6 @@ pub fn check_joined(animal: &Animal, pair: [usize; 2]) -> Result<(), FlightError
     SurfaceMap::new(animal, false, (&[pair], &[])).node_motion(&at, &mut NodeMotion::default())
 }
 
-impl Roots {
-    /// Puts the shared nodes midway between the two roots.
-    fn join(&self, t: f64, map: &SurfaceMap, out: &mut NodeMotion) -> Result<(), FlightError> {
-        for &[a, b] in &self.nodes {
-            let gap = out.position[a].distance(out.position[b]);
-            if gap > self.limit {
-                return Err(FlightError::RootsApart {
-                    wings: self.wings.map(|w| map.surfaces[w].name.clone()),
-                    time: t,
-                    gap,
-                    limit: self.limit,
-                });
-            }
-            for x in [&mut out.position, &mut out.velocity] {
-                let middle = 0.5 * (x[a] + x[b]);
-                (x[a], x[b]) = (middle, middle);
-            }
-        }
-        Ok(())
-    }
-}
-
 impl CarryThrough {
     /// Puts its nodes on the root and between both roots.
     fn place(&self, body: &BodyMotion, map: &SurfaceMap, out: &mut NodeMotion) {
@@ -368,19 +376,6 @@ impl CarryThrough {
                 (x[first + 2 * i], x[first + 2 * i + 1]) = (middle, x[own]);
             }
         }
-    }
-}
-
-/// The roots of two wings, whose nodes are numbered as in `nodes`.
-fn roots(animal: &Animal, wings: [usize; 2], nodes: [std::ops::Range<usize>; 2]) -> Roots {
-    let meshes = wings.map(|w| &animal.wings[w].mesh);
-    let rows = 0..=meshes[0].rows.min(meshes[1].rows);
-    Roots {
-        wings,
-        limit: root_gap(meshes),
-        nodes: rows
-            .map(|i| [0, 1].map(|k| nodes[k].start + meshes[k].node(i, 0)))
-            .collect(),
     }
 }
 

@@ -16,6 +16,8 @@ pub enum DoubtKind {
     Masses,
     /// Wings with the trailing edge ahead, or broadside where they are fastest.
     EdgeAhead,
+    /// A body that turns so that still wings have the trailing edge ahead.
+    RevolvesBackwards,
     /// Samples of wing angles that scatter, or are wrong.
     ScatteredAngles,
     /// Parts of the beat without samples of wing angles.
@@ -28,8 +30,8 @@ pub enum DoubtKind {
     InsideParts,
     /// Roots on parts of the body, or a little off them.
     RootsOnBodies,
-    /// Roots that meet and are not joined.
-    UnjoinedRoots,
+    /// Roots or tips that meet, or nearly lie on a plane of images, and are not joined.
+    UnjoinedEdges,
     /// Leading edges that shed vorticity of one sign.
     OneSidedEdges,
     /// Leading edges that shed one way over long steps.
@@ -74,12 +76,15 @@ impl FlightSetup {
         add(ScatteredAngles, self.scattered_angles());
         add(GapsInAngles, self.gaps_in_angles());
         add(EdgeAhead, self.trailing_edges_ahead());
+        add(RevolvesBackwards, one(self.revolves_backwards()));
         add(StartsApart, one(self.starts_apart()));
         add(LateGusts, self.gusts_that_never_arrive());
         add(JumpingRotation, one(self.jumping_rotation()));
         add(InsideParts, self.wings_inside_parts());
         add(RootsOnBodies, self.roots_on_bodies());
-        add(UnjoinedRoots, self.unjoined_roots());
+        add(UnjoinedEdges, self.unjoined_roots());
+        add(UnjoinedEdges, self.unjoined_tips());
+        add(UnjoinedEdges, self.edges_off_planes());
         add(SweptVortexLift, one(self.vortex_lift_of_swept_edges()));
         add(OneSidedEdges, one(self.one_sided_leading_edges()));
         add(LongSteps, one(self.long_steps_one_way()));

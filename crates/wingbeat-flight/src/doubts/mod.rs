@@ -4,11 +4,12 @@
 //! | what is doubted | module |
 //! |---|---|
 //! | wings that pass through each other, or through parts of the body | `impossible` |
-//! | roots that meet and are not joined | `unjoined` |
+//! | roots that meet, tips and roots, edges on planes of images, that are not joined | `unjoined` |
 //! | roots on parts of the body, or a little off them | `on_bodies` |
 //! | tethers that start otherwise than the wings | `starts_apart` |
 //! | angles that scatter, jump or have gaps | `scattered` |
 //! | trailing edges ahead, wings that stroke broadside | `edge_ahead` |
+//! | wings that revolve with their body, trailing edge ahead | `revolving` |
 //! | vorticity of one sign from leading edges, tips of attached wings | `shed_by_motion` |
 //! | attached flow beyond stall | `beyond_stall` |
 //! | cores of wings that are wide beside the panels | `bound_core` |
@@ -29,6 +30,7 @@ mod jumps;
 mod late_gusts;
 mod list;
 mod on_bodies;
+mod revolving;
 mod said;
 mod scattered;
 mod shed_by_motion;

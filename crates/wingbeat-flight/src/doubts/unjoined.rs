@@ -1,9 +1,10 @@
-//! Wings whose roots meet and are not joined: the lattice has a gap there, through which air passes.
+//! Wings whose roots meet, or tip and root, or that stand on a plane of images, and are not joined there: the lattice has a gap there,
+//! through which air passes.
 
 use wingbeat_model::{Spacing, are_joined, pairs, roots_meet};
 
-use crate::air::check_joined;
-use crate::setup::FlightSetup;
+use crate::air::{EdgeOnPlane, ON_PLANE, check_joined, check_joined_tip, tip_gap};
+use crate::setup::{FlightSetup, MotionMode};
 
 /// How near roots are that meet, and those that lie on each other, whose filaments cancel, over their chords \[1\].
 const NEAR: f64 = 0.1;
@@ -26,6 +27,75 @@ impl FlightSetup {
             |pair: [usize; 2]| pair.into_iter().all(reach) && roots_meet(&self.animal, pair, SAME);
         let found = apart.filter(|&pair| roots_meet(&self.animal, pair, NEAR) && !closes(pair));
         found.map(|pair| self.say_unjoined(pair)).collect()
+    }
+
+    /// Says which wings of a lattice have a tip at which the root of another begins, and are not joined there: of a wing
+    /// and the one that it carries, where all angles are zero, and of two wings on the body as their motions begin.
+    pub fn unjoined_tips(&self) -> Vec<String> {
+        let air = match self.air.lattice() {
+            Some(air) if !air.lattice.shedding.root => air,
+            _ => return vec![],
+        };
+        let wings = &self.animal.wings;
+        let carrier = |w: usize| {
+            let own = self.joints.iter().find(|j| j.child == w + 1);
+            own.map(|joint| joint.parent.unwrap_or(0))
+        };
+        let reach = |w: usize| wings[w].mesh.columns == Spacing::Cosine || air.lattice.inset == 0.0;
+        let meets = |&[a, b]: &[usize; 2]| {
+            let gap = match (carrier(a), carrier(b)) {
+                (_, Some(by)) if by == a + 1 => tip_gap(&self.animal, [a, b], false),
+                (None, None) => tip_gap(&self.animal, [a, b], true),
+                _ => return false,
+            };
+            let closes = [a, b].into_iter().all(reach) && gap <= SAME;
+            gap <= NEAR && !closes && !air.joined_tips.contains(&[a, b])
+        };
+        let others = |a: usize| (0..wings.len()).map(move |b| [a, b]);
+        let all = (0..wings.len()).flat_map(others).filter(|[a, b]| a != b);
+        let say = |[a, b]: [usize; 2]| self.say_unjoined_tip([a, b], carrier(b) == Some(a + 1));
+        all.filter(meets).map(say).collect()
+    }
+
+    fn say_unjoined_tip(&self, pair: [usize; 2], is_carried: bool) -> String {
+        let [a, b] = pair.map(|w| &self.animal.wings[w].name);
+        let remedy = match (is_carried, check_joined_tip(&self.animal, pair)) {
+            (true, Ok(())) => "join them (joined = true of the wing that is carried)".to_owned(),
+            (true, Err(_)) => "give them one chord there and the same panels along it, with at_m of the joint at the tip, and join them (joined = true of the wing that is carried)".to_owned(),
+            (false, _) => format!(
+                "let `{a}` carry `{b}` (a joint with parent and child, a weld where it does not move) and join them (joined = true of `{b}`)"
+            ),
+        };
+        format!(
+            "the tip of wing `{a}` and the root of wing `{b}` meet and are not joined: the circulation of both ends there, so that lift is low, by a quarter for two halves of a wing of 3 chords in a stream, and drag high; {remedy}"
+        )
+    }
+
+    /// Says which wings stand on a plane of images (air.ground) and are not joined to their mirror images there, why, and
+    /// what to do about it.
+    pub fn edges_off_planes(&self) -> Vec<String> {
+        let edges = (self.air.lattice()).map(|air| self.edges_on_planes(air));
+        let edges = edges.into_iter().flatten();
+        edges.filter_map(|e| self.say_off_plane(&e)).collect()
+    }
+
+    fn say_off_plane(&self, edge: &EdgeOnPlane) -> Option<String> {
+        let [first, most] = edge.off;
+        let why = match (edge.is_joined(), first > ON_PLANE, &self.mode) {
+            (true, ..) => return None,
+            (_, true, _) => format!("lies {first:.1e} of its length off the plane of air.ground"),
+            (.., MotionMode::Free(_)) => {
+                "lies on the plane of air.ground, where a free body does not stay".to_owned()
+            }
+            _ => format!(
+                "lies on the plane of air.ground at the start and leaves it by {most:.1e} of its length"
+            ),
+        };
+        let name = &self.animal.wings[edge.wing].name;
+        Some(format!(
+            "the {} of wing `{name}` {why}: it is not joined to its mirror image, and its circulation ends there, so that lift is low, by a seventh in a stream at an aspect ratio (with the image) of 6; for half a model keep the edge on the plane all along (hinge_m, wing.{name}.motion, flight.tether), for a gap that is meant look at the lift on more panels along the span",
+            edge.edge()
+        ))
     }
 
     fn say_unjoined(&self, pair: [usize; 2]) -> String {

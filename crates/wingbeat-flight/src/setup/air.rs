@@ -185,6 +185,9 @@ pub struct AirOptions {
     pub mirror: bool,
     /// Pairs of wings, by their numbers, that share the edge at their roots.
     pub joined: Vec<[usize; 2]>,
+    /// Pairs of wings, by their numbers, of which the tip of the first is the root of the second, which a joint
+    /// carries there.
+    pub joined_tips: Vec<[usize; 2]>,
 }
 
 impl AirOptions {
@@ -217,6 +220,7 @@ impl AirOptions {
             body_surfaces: false,
             mirror: false,
             joined: vec![],
+            joined_tips: vec![],
         }
     }
 }

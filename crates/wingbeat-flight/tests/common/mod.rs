@@ -126,6 +126,7 @@ impl Fly {
             body_surfaces: false,
             mirror: false,
             joined: vec![],
+            joined_tips: vec![],
         });
         FlightSetup {
             mode: MotionMode::Free(StartState {

@@ -1,0 +1,249 @@
+//! Wings that are parts of one lifting surface: half a model on a wall, a hand wing on an arm wing; and edges that
+//! only seem to be joined.
+
+use std::path::Path;
+
+use wingbeat_case::LoadedCase;
+use wingbeat_flight::{FlightSetup, Simulation};
+use wingbeat_math::DVec3;
+
+/// A wing of 3 chords on a body at 5 deg in a stream: its root on the wall y = 0 of a wind tunnel.
+const HALF: &str = r#"
+format = 1
+[time]
+step_s = 0.002
+steps = 15
+[flight]
+mode = "tethered"
+pitch_deg = 5
+[air]
+stream_m_s = [-20, 0, 0]
+shed = ["trailing"]
+body = false
+[air.ground]
+normal = [0, 1, 0]
+point_m = [0, 0, 0]
+[body]
+mass_kg = 1
+inertia_about_centre_kg_m2 = [1, 1, 1, 0, 0, 0]
+[wing.right]
+hinge_m = [0, 0, 0]
+mirror = false
+mass_kg = 0.1
+motion.phi.constant_deg = 0
+planform.rectangle = { chord_m = 0.1, span_m = 0.3 }
+mesh = { chordwise = 3, spanwise = 6 }
+"#;
+
+/// Both halves of the same.
+const WHOLE: [&str; 3] = [
+    "wing.right.mirror=true",
+    "wing.right.joined=true",
+    "air.ground=",
+];
+
+/// An arm wing with a hand wing, in flight; `joined` stands last.
+const TWO: &str = r#"
+format = 1
+[time]
+step_s = 0.002
+steps = 15
+[flight]
+mode = "tethered"
+velocity_m_s = [5, 0, 0]
+pitch_deg = 5
+[air]
+shed = ["trailing"]
+mirror = true
+body = false
+[body]
+mass_kg = 0.018
+[body.part.trunk]
+length_m = 0.1
+diameter_m = 0.03
+[wing.right]
+hinge_m = [0, 0.02, 0]
+mass_kg = 0.001
+planform.rectangle = { chord_m = 0.05, span_m = 0.07 }
+mesh = { chordwise = 3, spanwise = 4 }
+[joint.wrist]
+parent = "right"
+child = "right-hand"
+at_m = [0, 0.07, 0]
+kind = "weld"
+[wing.right-hand]
+mass_kg = 0.0004
+planform.rectangle = { chord_m = 0.05, span_m = 0.07 }
+mesh = { chordwise = 3, spanwise = 4 }
+"#;
+
+fn setup(text: &str, keys: &[&str]) -> Result<FlightSetup, String> {
+    let keys: Vec<String> = keys.iter().map(|key| key.to_string()).collect();
+    let case = LoadedCase::from_text("case.toml", text, Path::new(""), &keys);
+    case.map(|c| c.setup).map_err(|e| e.to_string())
+}
+
+/// Force of the air on all wings at the end of the flight [N], N components.
+fn force(text: &str, keys: &[&str]) -> DVec3 {
+    let mut flight = Simulation::new(setup(text, keys).unwrap()).unwrap();
+    while !flight.finished() {
+        flight.step().unwrap();
+    }
+    flight.record().air.iter().map(|a| a.force).sum()
+}
+
+/// Lift and drag of half a model are half of those of the whole: still, and with a beat that keeps the root on the
+/// wall, of rigid and of elastic wings, and where the root would shed.
+#[test]
+fn exact_half_a_model_on_a_wall_is_half_of_the_whole() {
+    let beat = [
+        "motion.frequency_hz=20",
+        "wing.right.motion.phi={ fourier = { sine_deg = [15] } }",
+    ];
+    let beam = "wing.right.structure.beam={ flap_newton_m2 = [2, 2], torsion_newton_m2 = [2, 2] }";
+    let root = "air.shed=[\"trailing\", \"tip\", \"root\"]";
+    let few = "time.steps=8";
+    // Roundings, which elastic wings amplify over the steps.
+    for (keys, tolerance) in [
+        (&[][..], 5e-15),
+        (&["wing.right.mesh.spanwise_spacing=\"cosine\""], 5e-15),
+        (&[beat[0], beat[1], root, few], 5e-15),
+        (&[beat[0], beat[1], beam, few], 1.5e-9),
+    ] {
+        let half = force(HALF, keys);
+        let whole = force(HALF, &[&WHOLE, keys].concat());
+        let expected = 0.5 * whole.with_y(0.0);
+        let apart = (half.with_y(0.0) - expected).length() / expected.length();
+        println!("{keys:?}: half {half:.6}, of the whole {expected:.6}, apart {apart:.1e}");
+        assert!(apart < tolerance, "{keys:?}: {apart}");
+        assert!(setup(HALF, keys).unwrap().edges_off_planes().is_empty());
+    }
+}
+
+#[test]
+fn behaves_edges_that_do_not_stay_on_a_wall_are_named() {
+    let said = |keys: &[&str]| setup(HALF, keys).unwrap().edges_off_planes();
+    for (keys, word) in [
+        (&["wing.right.hinge_m=[0, 1e-3, 0]"][..], "off the plane"),
+        (
+            &[
+                "motion.frequency_hz=20",
+                "wing.right.motion.theta={ fourier = { sine_deg = [5] } }",
+            ],
+            "leaves it",
+        ),
+        (&["flight.position_m=[0, 2e-3, 0]"], "off the plane"),
+    ] {
+        let said = said(keys);
+        assert!(
+            said.len() == 1 && said[0].contains(word),
+            "{keys:?}: {said:?}"
+        );
+    }
+    // A wing that lies along a ground, and one far from it.
+    let flat = [
+        "air.ground={ normal = [0, 0, 1], point_m = [0, 0, 5e-3] }",
+        "flight.pitch_deg=0",
+    ];
+    assert!(said(&flat).is_empty());
+    assert!(said(&["wing.right.hinge_m=[0, 0.1, 0]"]).is_empty());
+}
+
+/// A hand wing that is welded to an arm wing and joined to its tip: one wing.
+#[test]
+fn exact_hand_wing_joined_to_an_arm_wing_is_one_wing() {
+    let one = TWO.split("[joint.wrist]").next().unwrap();
+    let whole = force(
+        &one.replace("span_m = 0.07", "span_m = 0.14")
+            .replace("spanwise = 4", "spanwise = 8"),
+        &[],
+    );
+    for mirror in ["air.mirror=true", "air.mirror=false"] {
+        let joined = force(TWO, &[mirror, "wing.right-hand.joined=true"]);
+        let apart = (joined - whole).length() / whole.length();
+        println!("{mirror}: joined {joined:.6}, one wing {whole:.6}, apart {apart:.1e}");
+        // Roundings of another order of elimination.
+        assert!(apart < 5e-15, "{mirror}: {apart}");
+    }
+    let parted = force(TWO, &[]);
+    println!("parted {parted:.6}");
+    assert!(parted.z / whole.z < 0.85);
+    let said = |keys: &[&str]| setup(TWO, keys).unwrap().unjoined_tips();
+    let named = said(&[]);
+    assert!(
+        named.len() == 2 && named[1].contains("joined = true of the wing that is carried"),
+        "{named:?}"
+    );
+    assert!(said(&["wing.right-hand.joined=true"]).is_empty());
+}
+
+#[test]
+fn refuses_to_join_a_root_to_a_tip_that_it_is_not() {
+    let joined = "wing.right-hand.joined=true";
+    for (key, word) in [
+        ("wing.right-hand.mesh.chordwise=2", "panels along the chord"),
+        (
+            "joint.wrist.at_m=[0, 0.08, 0]",
+            "apart where all angles are zero",
+        ),
+        (
+            "wing.right-hand.planform.rectangle.chord_m=0.04",
+            "apart where all angles are zero",
+        ),
+    ] {
+        let error = setup(TWO, &[joined, key]).unwrap_err();
+        assert!(
+            error.contains("wing.right-hand.joined") && error.contains(word),
+            "{error}"
+        );
+    }
+}
+
+/// A wing on a wing hinges at the joint, however far from the body.
+#[test]
+fn refuses_another_hinge_of_a_wing_on_a_wing_than_its_joint() {
+    let hinge = |setup: FlightSetup, name: &str| {
+        let wing = setup.animal.wings.into_iter().find(|w| w.name == name);
+        wing.unwrap().hinge_b
+    };
+    let place = DVec3::new(0.0, 0.09, 0.0);
+    for keys in [&[][..], &["wing.right-hand.hinge_m=[0, 0.09, 0]"]] {
+        let right = hinge(setup(TWO, keys).unwrap(), "right-hand");
+        assert!(right.distance(place) < 1e-15, "{keys:?}: {right}");
+        let left = hinge(setup(TWO, keys).unwrap(), "left-hand");
+        assert!(left.distance(-place) < 1e-15, "{keys:?}: {left}");
+    }
+    let error = setup(TWO, &["wing.right-hand.hinge_m=[0, 0.1, 0]"]).unwrap_err();
+    assert!(
+        error.contains("wing.right-hand.hinge_m") && error.contains("joint.wrist"),
+        "{error}"
+    );
+    let on_body = "joint.wrist.parent=\"body\"";
+    let error = setup(TWO, &[on_body, "joint.wrist.at_m=[0, 0.09, 0]"]).unwrap_err();
+    assert!(
+        error.contains("hinge_m") && error.contains("missing"),
+        "{error}"
+    );
+}
+
+/// A wing that turns about the vertical with its trailing edge ahead, and with its leading edge ahead.
+#[test]
+fn behaves_a_wing_that_revolves_backwards_is_named() {
+    let turning = |rate: &str, more: &[&str]| {
+        let yaw = format!("flight.tether.yaw.rate_deg_s={rate}");
+        let keys = [
+            &["air.ground=", "air.stream_m_s=[0, 0, -1]", &yaw][..],
+            more,
+        ]
+        .concat();
+        setup(HALF, &keys).unwrap().revolves_backwards()
+    };
+    let said = turning("1800", &[]).unwrap();
+    assert!(
+        said.contains("trailing edge is ahead") && said.contains("rate_deg_s"),
+        "{said}"
+    );
+    assert!(turning("-1800", &[]).is_none() && turning("0", &[]).is_none());
+    // Of a pair one goes ahead.
+    assert!(turning("1800", &["wing.right.mirror=true"]).is_none());
+}

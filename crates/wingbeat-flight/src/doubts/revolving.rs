@@ -1,0 +1,60 @@
+//! Wings that revolve with their body, trailing edge ahead.
+
+use wingbeat_dynamics::BodyMotion;
+use wingbeat_math::RotationLaw;
+use wingbeat_model::Wing;
+
+use super::air_past::strips;
+use super::said::names;
+use crate::setup::{FlightSetup, MotionMode};
+
+/// Mean cosine of the angle of attack below which the trailing edge is ahead \[1\], as of beating wings.
+const BACKWARDS: f64 = -0.2;
+
+/// Part of the dynamic pressure past the wings that the rotation of the body makes at least to count \[1\].
+const COUNTS: f64 = 0.1;
+
+impl FlightSetup {
+    /// Says that the wings, which do not beat, revolve with the trailing edge ahead: on a tether that turns, or a body
+    /// that is released turning. In the mean of all of them: of a pair one goes ahead as the body turns, one back.
+    pub fn revolves_backwards(&self) -> Option<String> {
+        let root = match &self.mode {
+            MotionMode::Tethered(motion) => motion.impulsive().at(0.0).motion,
+            MotionMode::Free(_) => self.root_at_start(),
+        };
+        let wings = self.animal.wings.iter().enumerate();
+        let still = wings.filter(|(w, wing)| wing.is_still() && !self.has_own_joint(*w));
+        let still: Vec<&Wing> = still.map(|(_, wing)| wing).collect();
+        let sums = still.iter().map(|wing| self.pressures(wing, &root));
+        let [all, along, turning] = sums.fold([0.0; 3], |a, b| [0, 1, 2].map(|k| a[k] + b[k]));
+        if !(turning > COUNTS * all && along < BACKWARDS * all) {
+            return None;
+        }
+        let key = match self.mode {
+            MotionMode::Tethered(_) => "flight.tether, as yaw.rate_deg_s",
+            MotionMode::Free(_) => "flight.angular_velocity_deg_s",
+        };
+        let wings = names(still.iter().map(|w| &w.name[..]), ", ");
+        Some(format!(
+            "the body turns so that the trailing edge is ahead (wings {wings}): turn it the other way ({key} with the other sign), or take the mirror image of the wing (a left one for a right one)"
+        ))
+    }
+
+    /// Dynamic pressure of the undisturbed air past a still wing times width over density, the same times the cosine of
+    /// the angle of attack, and what the rotation of the `root` alone would make \[m3/s2\].
+    fn pressures(&self, wing: &Wing, root: &BodyMotion) -> [f64; 3] {
+        let c = wing.motion.at(0.0).c;
+        let stream = root.r.transpose() * (self.air.stream().unwrap_or_default() - root.v);
+        let mut sums = [0.0; 3];
+        for [front, rear, across] in strips(wing) {
+            let (mid, aft) = (front.midpoint(rear), (rear - front).normalize_or_zero());
+            let of_turning = root.w.cross(wing.hinge_b + c * mid);
+            let past = c.transpose() * (stream - of_turning);
+            let width = across.reject_from(aft).length();
+            sums[0] += width * past.length_squared();
+            sums[1] += width * past.length() * past.dot(aft);
+            sums[2] += width * of_turning.length_squared();
+        }
+        sums
+    }
+}
