@@ -129,7 +129,11 @@ fn exact_wakes_have_the_half_strokes_of_their_wings() {
           return shortStrokes(k).map((w) => w[0]).sort(); })()",
     );
     assert!(
-        [json!(["fore down", "hind up"]), json!(["fore up", "hind down"])].contains(&short),
+        [
+            json!(["fore down", "hind up"]),
+            json!(["fore up", "hind down"])
+        ]
+        .contains(&short),
         "{short}"
     );
     content(&mut browser);
