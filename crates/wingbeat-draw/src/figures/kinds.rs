@@ -6,7 +6,7 @@ use wingbeat_math::DVec3;
 use super::bending::bending;
 use super::measure::{Kept, Line, Measure, Measured, Unit};
 use super::part::Part;
-use super::units::{length_floor, scaled};
+use super::units::{POWER_FLOOR, force_times_speed, length_floor, scaled};
 use super::wing_angles::wing_angles;
 use wingbeat_results::History;
 use wingbeat_results::columns::column_stems;
@@ -51,15 +51,23 @@ fn forces(setup: &FlightSetup, history: &History) -> Measured {
         Line::new("forward", air_force(history, DVec3::X)),
         Line::new("right", air_force(history, DVec3::Y)).kept(Kept::Felt),
     ];
-    let power = vec![Line::new("power", driving_power(history))];
+    let mut panels = vec![Measure::new("force of the air", Unit::Weight, lines)];
+    let name = driving_power_name(setup, history);
+    if let Some(name) = name {
+        let whole = Line::new("", force_times_speed(setup, history)).kept(Kept::Floor(POWER_FLOOR));
+        let power = vec![Line::new("power", driving_power(history)), whole];
+        panels.push(Measure::new(name, Unit::Prefixed("W"), power));
+    }
+    let title = if name.is_some() {
+        "forces and power"
+    } else {
+        "forces"
+    };
     Measured {
         name: "forces",
-        title: "forces and power".to_owned(),
+        title: title.to_owned(),
         shaded: true,
-        panels: vec![
-            Measure::new("force of the air", Unit::Weight, lines),
-            Measure::new(driving_power_name(history), Unit::Prefixed("W"), power),
-        ],
+        panels,
     }
 }
 
@@ -156,9 +164,10 @@ fn commands(setup: &FlightSetup, history: &History) -> Measured {
         shaded: false,
         panels: vec![
             Measure::new("stroke amplitude, relative change", Unit::Given, amplitude)
-                .floored(CHANGE_FLOOR),
-            Measure::new("mean stroke angle, forward", Unit::Degrees, offset),
-            Measure::new("pitch of the stroke plane", Unit::Degrees, plane),
+                .floored(CHANGE_FLOOR)
+                .of_alike(),
+            Measure::new("mean stroke angle, forward", Unit::Degrees, offset).of_alike(),
+            Measure::new("pitch of the stroke plane", Unit::Degrees, plane).of_alike(),
         ],
     }
 }
