@@ -224,6 +224,7 @@ mod tests {
     use crate::figures::{Chart, charts_of};
     use wingbeat_case::LoadedCase;
     use wingbeat_flight::Record;
+    use wingbeat_model::WingMotion;
     use wingbeat_results::columns::Columns;
 
     /// A history of a preset whose records `change` fills, step by step.
@@ -426,5 +427,40 @@ mod tests {
             let panel = &chart(&setup, &history, "forces").panels[1];
             assert_eq!((&panel.label[..], panel.series[0].values[2]), (name, power));
         }
+    }
+
+    /// Power of 1e-15 of weight times speed is rounding: its axis is wider by far. Without joints there is none; of
+    /// joined wings that do not move it is that of the hinges.
+    #[test]
+    fn behaves_power_that_is_rounding_is_flat() {
+        for (beats, name) in [
+            (true, "power of hinges and deformation"),
+            (false, "power of the hinges"),
+        ] {
+            let mut setup = LoadedCase::find("bird-cruise", &[]).unwrap().setup;
+            for wing in setup.animal.wings.iter_mut().filter(|_| !beats) {
+                wing.motion = WingMotion::fixed(0.0, [0.1, 0.0, 0.0]);
+                wing.deformation = None;
+            }
+            let weight = setup.animal.mass() * setup.gravity.length();
+            let history = history(&setup, true, 41, |k, r| {
+                r.hinges[0].power = 1e-15 * weight * (k as f64).sin();
+            });
+            let panel = &chart(&setup, &history, "forces").panels[1];
+            assert!(
+                panel.label.starts_with(&format!("{name} [")),
+                "{}",
+                panel.label
+            );
+            let most = panel.series[0]
+                .values
+                .iter()
+                .fold(0.0, |a: f64, v| a.max(v.abs()));
+            assert!(panel.least > 100.0 * most && most > 0.0, "{}", panel.least);
+        }
+        let mut setup = LoadedCase::find("fruit-fly-hover", &[]).unwrap().setup;
+        setup.animal.wings.clear();
+        let chart = chart(&setup, &history(&setup, false, 3, |_, _| {}), "forces");
+        assert_eq!(chart.panels.len(), 1);
     }
 }
