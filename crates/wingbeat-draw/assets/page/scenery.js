@@ -110,11 +110,10 @@ function placeLabel(label) {
   label.style.top = (middle ?? y) + "px";
   label.style.visibility = middle === undefined ? "hidden" : "";
 }
-// What the colours of pressure are: bodies have one side in the air.
+// What the colours of pressure are, from end to end: bodies have one side in the air.
 function pressureWords() {
-  const bodies = flight.solids.some((s) => s.first_panel !== null && s.quads.length);
-  if (!bodies) return "pressure jump";
-  return wingNodes ? "pressure jump, on bodies ambient less outer pressure," : "ambient less outer pressure";
+  const bodies = flight.solids.some((s) => s.first_panel !== null && s.quads.length), most = digits(flight.most.pressure), beyond = flight.frames.some((f) => f.pressure > flight.most.pressure);
+  return `${bodies && !wingNodes ? "ambient less outer pressure" : "pressure jump"} −${most} to ${most} Pa${beyond ? ", full colour beyond" : ""}${bodies && wingNodes ? "; of bodies ambient less outer pressure" : ""}`;
 }
 // What the colours mean: swatches and ramps, as [words, colours].
 function legend() {
@@ -125,7 +124,7 @@ function legend() {
     else list.push(["shed in the upstroke", [theme.up]], ["in the downstroke", [theme.down]]);
     if (state.colour !== "age" && flight.frames.some((f) => f.particles)) list.push(["vortex particles", [theme.plain]]);
   }
-  if (state.pressure && PANELS && flight.most.pressure > 0) list.push([`${pressureWords()} −${digits(flight.most.pressure)} to ${digits(flight.most.pressure)} Pa${flight.frames.some((f) => f.pressure > flight.most.pressure) ? ", full colour beyond" : ""}`, [theme.low, theme.zero, theme.high]]);
+  if (state.pressure && PANELS && flight.most.pressure > 0) list.push([pressureWords(), [theme.low, theme.zero, theme.high]]);
   if (flight.solids.some((s) => s.stand_in)) list.push(["no shape given: ellipsoid of mass and inertia", [theme.standIn]]);
   return list;
 }
