@@ -112,7 +112,7 @@ function placeLabel(label) {
 }
 // What the colours of pressure are, from end to end: bodies have one side in the air.
 function pressureWords() {
-  const bodies = flight.solids.some((s) => s.first_panel !== null && s.quads.length), most = digits(flight.most.pressure), beyond = flight.frames.some((f) => f.pressure > flight.most.pressure);
+  const bodies = flight.body_pressures && flight.solids.some((s) => s.first_panel !== null && s.quads.length), most = digits(flight.most.pressure), beyond = flight.frames.some((f) => f.pressure > flight.most.pressure);
   return `${bodies && !wingNodes ? "ambient less outer pressure" : "pressure jump"} −${most} to ${most} Pa${beyond ? ", full colour beyond" : ""}${bodies && wingNodes ? "; of bodies ambient less outer pressure" : ""}`;
 }
 // What the colours mean: swatches and ramps, as [words, colours].

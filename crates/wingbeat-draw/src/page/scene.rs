@@ -257,6 +257,8 @@ impl<'a> Scene<'a> {
         head["solids"] = json!(self.solids);
         head["posed"] = json!(self.posed());
         head["lattice"] = json!(self.framed);
+        let on_bodies = setup.air.lattice().is_some_and(|air| air.body_surfaces);
+        head["body_pressures"] = json!(on_bodies);
         head["sheets"] = json!(self.blob.columns);
         head["length_m"] = json!(self.length(case));
         head["down"] = json!(picture(down(setup)));
