@@ -286,7 +286,7 @@ fn joined(lines: Vec<(String, Vec<f64>)>, floor: f64) -> Vec<(String, Vec<f64>)>
     let all = lines.iter().flat_map(|l| &l.1).filter(|v| v.is_finite());
     let [low, high] = all.fold([0.0_f64; 2], |[low, high], v| [low.min(*v), high.max(*v)]);
     let least = APART * (high - low).max(floor);
-    let is_alike = |a: &[f64], b: &[f64]| a.iter().zip(b).all(|(a, b)| !((a - b).abs() > least));
+    let is_alike = |a: &[f64], b: &[f64]| a.iter().zip(b).all(|(a, b)| (a - b).abs() <= least);
     let (count, mut found) = (lines.len(), Vec::<(Vec<String>, Vec<f64>)>::new());
     for (name, values) in lines {
         match found.iter_mut().find(|f| is_alike(&f.1, &values)) {
