@@ -27,6 +27,7 @@ use std::path::Path;
 
 use wingbeat_flight::{AirModel, FlightSetup, Record};
 use wingbeat_math::{larger, smaller};
+use wingbeat_model::Wing;
 
 use super::Outcome;
 pub use beats::{BeatMeans, Beats, down, over_weight};
@@ -219,26 +220,32 @@ const PASSIVE_POWER: &str = "passive_power_watt";
 
 /// Total power of the actuators of all joints and of prescribed deformation, row by row \[W\].
 pub fn driving_power(history: &super::History) -> Vec<f64> {
-    let gives = |n: &str| {
-        ["hinge_", "loop_", "deformation_"]
-            .iter()
-            .any(|s| n.starts_with(s))
-    };
-    let mut power = history.sum(|n| gives(n) && n.ends_with("_power_watt"));
+    let mut power = history.sum(gives_power);
     let passive = history.sum(|n| n == PASSIVE_POWER);
     (power.iter_mut().zip(passive)).for_each(|(all, passive)| *all -= passive);
     power
 }
 
-/// What [`driving_power`] is the power of, in words.
-pub fn driving_power_name(history: &super::History) -> &'static str {
-    let deforms = |n: &String| n.starts_with("deformation_") && n.ends_with("_power_watt");
-    let names = history.names();
-    let has_springs = names.iter().any(|n| n == PASSIVE_POWER);
-    match (names.iter().any(deforms), has_springs) {
+/// Whether a column is the power at a joint or of prescribed deformation.
+fn gives_power(name: &str) -> bool {
+    let gives = ["hinge_", "loop_", "deformation_"];
+    gives.iter().any(|s| name.starts_with(s)) && name.ends_with("_power_watt")
+}
+
+/// What [`driving_power`] is the power of, in words; none where nothing is driven.
+pub fn driving_power_name(setup: &FlightSetup, history: &super::History) -> Option<&'static str> {
+    let names = || history.names().iter().filter(|n| gives_power(n));
+    // Joined roots have columns of their deformation even where nothing moves them.
+    let beats = |w: &Wing| w.deformation.is_some() || !w.motion.angles.are_constant();
+    let is_driven = setup.feedback.is_some() || !setup.joints.is_empty();
+    let moves = is_driven || setup.animal.wings.iter().any(beats);
+    let deforms = moves && names().any(|n| n.starts_with("deformation_"));
+    let has_springs = history.names().iter().any(|n| n == PASSIVE_POWER);
+    names().next()?;
+    Some(match (deforms, has_springs) {
         (false, false) => "power of the hinges",
         (true, false) => "power of hinges and deformation",
         (false, true) => "power of the actuators",
         (true, true) => "power of actuators and deformation",
-    }
+    })
 }

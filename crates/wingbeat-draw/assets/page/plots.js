@@ -133,7 +133,7 @@ function drawPlot(p) {
   }
   g.textAlign = "center"; g.textBaseline = "top"; g.fillStyle = of("--muted");
   const named = p === plots.list[plots.list.length - 1], last = w - (named ? PAD.right + g.measureText(chart.x_label).width + 14 : 0);
-  for (const t of ticks(x0, x1, Math.max(2, Math.floor(w / 64)))) if (X(t) < last) g.fillText(tickWords(t), Math.min(X(t), w - 8), h - 13);
+  for (const t of ticks(x0, x1, Math.max(2, Math.floor(w / 64)))) if (X(t) < last) g.fillText(tickWords(t), Math.min(X(t), w - 1 - g.measureText(tickWords(t)).width / 2), h - 13);
   g.textAlign = "right";
   if (named) g.fillText(chart.x_label, w - PAD.right, h - 13);
   const now = LAST >= 0 ? flight.frames[frameNow()].x : x1, at = plots.hover ?? now;

@@ -29,7 +29,7 @@ function drawPaths(k) {
 // A force over what an arrow of one length stands for: the weight, or the usual force of the flight.
 const forceUnit = flight.weight_newton > 0 && flight.most.force < 50 * flight.weight_newton ? flight.weight_newton : flight.most.force;
 const forceWords = (size) => (forceUnit === flight.weight_newton ? digits(size / forceUnit) + " × weight" : withPrefix(size, "N"));
-let arrowLabel = null; // where and what
+let arrowLabel = null; // of the largest arrow: where and what
 // Arrows of force: whence, how large [N], the way to the tip; small forces have none.
 function forceArrows(k) {
   const f = flight.frames[k].forces, arrows = [];
@@ -39,10 +39,10 @@ function forceArrows(k) {
     for (let i = 0; i < p.length; i++) c[i % 3] += p[i] / w.nodes;
     if (f[w.body]) arrows.push([c, f[w.body]]);
   });
-  const alone = arrows.length === 1;
+  const alone = arrows.length === 1, most = Math.max(...arrows.map(([, force]) => Math.hypot(...force)));
   return arrows.map(([from, force]) => {
     const size = Math.hypot(...force), length = Math.min(1.3, size / flight.most.force) * 0.6 * REACH;
-    return { from, size, alone, way: force.map((x) => length * x / size) };
+    return { from, size, alone, isLargest: size === most, way: force.map((x) => length * x / size) };
   }).filter(({ size }) => size > (alone ? 0.3 : 0.15) * forceUnit);
 }
 function drawForces(k) {
@@ -50,14 +50,14 @@ function drawForces(k) {
   arrowLabel = null;
   shafts.begin();
   let n = 0;
-  for (const { from, size, way, alone } of forceArrows(k)) {
+  for (const { from, size, way, isLargest } of forceArrows(k)) {
     const length = Math.hypot(...way), d = way.map((x) => x / length), tip = from.map((x, c) => x + way[c]), head = arrowHead(n++);
     shafts.add(from, tip, colour, [0.95, 0.95], [0.014, 0.014]);
     head.visible = true;
     head.material.color.set(theme.force);
     head.position.set(...tip.map((x, c) => x + 0.04 * d[c]));
     head.quaternion.setFromUnitVectors(new THREE.Vector3(0, 1, 0), new THREE.Vector3(...d));
-    if (alone) arrowLabel = { at: tip.map((x, c) => x + 0.13 * d[c]), text: forceWords(size) };
+    if (isLargest) arrowLabel = { at: tip.map((x, c) => x + 0.13 * d[c]), text: forceWords(size) };
   }
   for (let i = n; i < heads.length; i++) heads[i].visible = false;
   shafts.end();
@@ -110,6 +110,11 @@ function placeLabel(label) {
   label.style.top = (middle ?? y) + "px";
   label.style.visibility = middle === undefined ? "hidden" : "";
 }
+// What the colours of pressure are, from end to end: bodies have one side in the air.
+function pressureWords() {
+  const bodies = flight.body_pressures && flight.solids.some((s) => s.first_panel !== null && s.quads.length), most = digits(flight.most.pressure), beyond = flight.frames.some((f) => f.pressure > flight.most.pressure);
+  return `${bodies && !wingNodes ? "ambient less outer pressure" : "pressure jump"} −${most} to ${most} Pa${beyond ? ", full colour beyond" : ""}${bodies && wingNodes ? "; of bodies ambient less outer pressure" : ""}`;
+}
 // What the colours mean: swatches and ramps, as [words, colours].
 function legend() {
   const list = [];
@@ -119,7 +124,7 @@ function legend() {
     else list.push(["shed in the upstroke", [theme.up]], ["in the downstroke", [theme.down]]);
     if (state.colour !== "age" && flight.frames.some((f) => f.particles)) list.push(["vortex particles", [theme.plain]]);
   }
-  if (state.pressure && PANELS && flight.most.pressure > 0) list.push([`pressure jump −${digits(flight.most.pressure)} to ${digits(flight.most.pressure)} Pa${flight.frames.some((f) => f.pressure > flight.most.pressure) ? ", full colour beyond" : ""}`, [theme.low, theme.zero, theme.high]]);
+  if (state.pressure && PANELS && flight.most.pressure > 0) list.push([pressureWords(), [theme.low, theme.zero, theme.high]]);
   if (flight.solids.some((s) => s.stand_in)) list.push(["no shape given: ellipsoid of mass and inertia", [theme.standIn]]);
   return list;
 }
@@ -132,7 +137,18 @@ function drawLegend() {
     return span;
   }));
 }
+// Where wings beat apart, their strokes have a line of their own.
+const BEAT_APART = flight.frames.some((_, k) => strokesOf(k).length > 1);
+stage.classList.toggle("apart", BEAT_APART);
 function drawClock(k) {
-  const f = flight.frames[k], clock = byId("clock"), stroke = strokeOf(k);
-  clock.innerHTML = (flight.period ? `<b>${(f.time / flight.period).toFixed(2)}</b> beats · ` : "") + timeWords(f.time) + (stroke ? ` · <span class="${{ downstroke: "down", upstroke: "up" }[stroke] || ""}">${stroke}</span>` : "");
+  const f = flight.frames[k], clock = byId("clock"), strokes = document.createElement("span");
+  shortStrokes(k).forEach(([words, stroke], n) => {
+    const span = document.createElement("span");
+    span.className = { downstroke: "down", upstroke: "up" }[stroke];
+    span.textContent = words;
+    strokes.append(n ? ", " : BEAT_APART ? "" : " · ", span);
+  });
+  strokes.className = "strokes";
+  clock.innerHTML = (flight.period ? `<b>${(f.time / flight.period).toFixed(2)}</b> beats · ` : "") + timeWords(f.time);
+  clock.append(strokes);
 }

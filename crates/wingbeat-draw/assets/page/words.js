@@ -24,14 +24,24 @@ function roundDown(x) {
 const lengthWords = (m) => (m >= 1 ? +m.toPrecision(2) + " m" : m >= 0.01 ? +(100 * m).toPrecision(2) + " cm" : m >= 1e-3 ? +(1e3 * m).toPrecision(2) + " mm" : +(1e6 * m).toPrecision(2) + " µm");
 const timeWords = (s) => (Math.abs(s) < 1 ? minus((1e3 * s).toFixed(2)) + " ms" : minus(s.toFixed(3)) + " s");
 const ageWords = (age) => (flight.period ? age.toFixed(2) + " beats" : timeWords(age * BEAT * flight.step_s));
-// The half-stroke of the wings; where they differ, that of each pair that keeps together, or of each wing.
-function strokeOf(k) {
-  if (!hasStrokes) return "";
+// Half-strokes of the wings as [name, stroke]: one without a name where all wings keep together; else that of each
+// pair that does, or of each wing.
+const pairOf = (name) => name.replace(/[-_ ]*(left|right)$|^(left|right)[-_ ]*/, "");
+function strokesOf(k) {
+  if (!hasStrokes) return [];
   const words = WINGS.map((w, i) => [w.name, downOf(flight.frames[k].step, i) ? "downstroke" : "upstroke"]);
   const same = (list) => list.every(([, s]) => s === list[0][1]);
-  if (same(words)) return words[0][1];
-  const pair = (name) => name.replace(/[-_ ]*(left|right)$/, ""), pairs = [...new Set(words.map(([name]) => pair(name)))].map((p) => [p, words.filter(([name]) => pair(name) === p)]);
-  return pairs.flatMap(([p, list]) => (p && same(list) ? [[p, list[0][1]]] : list)).map((w) => w.join(" ")).join(", ");
+  if (same(words)) return [["", words[0][1]]];
+  const pairs = [...new Set(words.map(([name]) => pairOf(name)))].map((p) => [p, words.filter(([name]) => pairOf(name) === p)]);
+  return pairs.flatMap(([p, list]) => (p && same(list) ? [[p, list[0][1]]] : list));
+}
+const strokeOf = (k) => strokesOf(k).map((w) => w.join(" ").trim()).join(", ");
+// The same as [words, stroke] in as few words as the clock has room for.
+function shortStrokes(k) {
+  const list = strokesOf(k), named = (stroke) => list.filter((w) => w[1] === stroke).map((w) => w[0]);
+  if (list.length < 2) return list.map(([, stroke]) => [stroke, stroke]);
+  const [down, up] = [named("downstroke"), named("upstroke")], others = (names, few) => (names.length > 1 && few ? "others" : names.join(", "));
+  return [[others(down, down.length > up.length) + " down", "downstroke"], [others(up, down.length <= up.length) + " up", "upstroke"]];
 }
 function whenWords(k) {
   const f = flight.frames[k], beats = flight.period ? (f.time / flight.period).toFixed(2) + " beats, " : "";

@@ -8,14 +8,23 @@ use super::plot::{self, Band, Curve, Plot};
 use super::shades::Shades;
 use super::strokes::{downstrokes, stroke, strokes};
 use super::style::Look;
-use super::units::{force_unit, prefix, scaled};
+use super::units::{POWER_FLOOR, force_times_speed, force_unit, prefix, scaled};
 use wingbeat_results::History;
 use wingbeat_results::summary::{
     BeatMeans, LEFT_OUT, air_force, down, driving_power, driving_power_name,
 };
 
-/// What is drawn: name of the axis, over time, number and mean of every beat.
-type Quantity = (String, Vec<f64>, Vec<[f64; 2]>);
+/// What is drawn.
+struct Quantity {
+    /// Name of the axis.
+    label: String,
+    /// Over time.
+    values: Vec<f64>,
+    /// Number and mean of every beat.
+    means: Vec<[f64; 2]>,
+    /// Extent below which differences are rounding.
+    least: f64,
+}
 
 /// The figure of these whole wingbeats; none without any. `note` says which part of the flight it is.
 pub(super) fn beats(
@@ -31,6 +40,9 @@ pub(super) fn beats(
     let time = history.column("time_s");
     let x: Vec<f64> = time.iter().map(|t| t / period).collect();
     let quantities = quantities(setup, history, beats);
+    if quantities.is_empty() {
+        return None;
+    }
     let mut plots: Vec<Plot> = quantities
         .iter()
         .map(|q| over_phase(setup, history, &x, q, look))
@@ -62,13 +74,26 @@ fn quantities(setup: &FlightSetup, history: &History, beats: &[BeatMeans]) -> Ve
             _ => format!("force upward [{unit}]"),
         };
         let means = mean(&|b| b.mean.lift_newton * factor);
-        list.push((label, scaled(&up, factor), means));
+        list.push(Quantity {
+            label,
+            values: scaled(&up, factor),
+            means,
+            least: 0.0,
+        });
     }
-    let power = driving_power(history);
-    let (scale, prefix) = prefix(&power);
-    let means = mean(&|b| b.mean.power_watt / scale);
-    let label = format!("{} [{prefix}W]", driving_power_name(history));
-    list.push((label, scaled(&power, 1.0 / scale), means));
+    if let Some(name) = driving_power_name(setup, history) {
+        let power = driving_power(history);
+        let whole = force_times_speed(setup, history);
+        let floor = POWER_FLOOR * whole.into_iter().fold(0.0, f64::max);
+        let most = power.iter().copied().chain([floor]);
+        let (scale, prefix) = prefix(&most.collect::<Vec<f64>>());
+        list.push(Quantity {
+            label: format!("{name} [{prefix}W]"),
+            values: scaled(&power, 1.0 / scale),
+            means: mean(&|b| b.mean.power_watt / scale),
+            least: floor / scale,
+        });
+    }
     list
 }
 
@@ -78,7 +103,12 @@ fn over_phase(
     setup: &FlightSetup,
     history: &History,
     x: &[f64],
-    (label, values, means): &Quantity,
+    Quantity {
+        label,
+        values,
+        means,
+        least,
+    }: &Quantity,
     look: &Look,
 ) -> Plot {
     let beats: Vec<(f64, Vec<[f64; 2]>)> = (means.iter())
@@ -110,7 +140,7 @@ fn over_phase(
         .iter()
         .flat_map(|b| &b.points)
         .flat_map(|p| [p[1], p[2]]);
-    let y = plot::range(inside.chain(edges));
+    let y = plot::at_least(plot::range(inside.chain(edges)), *least);
     curves.push(mean);
     Plot {
         x_label: "time in the wingbeat".to_owned(),
@@ -174,15 +204,15 @@ fn shaded(setup: &FlightSetup, history: &History, x: &[f64], from: f64) -> Vec<[
 }
 
 /// The mean of every beat.
-fn over_beats((label, _, means): &Quantity, look: &Look) -> Plot {
-    let points = means.clone();
+fn over_beats(quantity: &Quantity, look: &Look) -> Plot {
+    let points = quantity.means.clone();
     let ends = [points[0][0] - 0.5, points[points.len() - 1][0] + 0.5];
     let values = points.iter().map(|p| p[1]);
-    let y = plot::range(values.chain([0.0]));
+    let y = plot::at_least(plot::range(values.chain([0.0])), quantity.least);
     let curve = plot::curve("", points, COLOURS[1], 0, look);
     Plot {
         x_label: "number of the wingbeat".to_owned(),
-        y_label: format!("mean {label}"),
+        y_label: format!("mean {}", quantity.label),
         x: ends,
         counts: true,
         y,
@@ -217,7 +247,12 @@ mod tests {
             let x: Vec<f64> = (0..=20 * count).map(|k| k as f64 / 20.0).collect();
             let history = History::of(&columns, &vec![columns.blank(); x.len()]);
             let means = (1..=count).map(|k| [k as f64, 0.0]).collect();
-            let quantity = ("power [W]".to_owned(), vec![0.0; x.len()], means);
+            let quantity = Quantity {
+                label: "power [W]".to_owned(),
+                values: vec![0.0; x.len()],
+                means,
+                least: 0.0,
+            };
             let plot = over_phase(&setup, &history, &x, &quantity, &look);
             let found: Vec<&str> = plot.curves.iter().map(|c| &c.label[..]).collect();
             assert_eq!(found, labels);
@@ -238,7 +273,12 @@ mod tests {
         let look = Style::Screen.look();
         for count in [1, 2, 3, 7, 40] {
             let means = (1..=count).map(|k| [f64::from(k), 1.0]).collect();
-            let quantity = ("power [W]".to_owned(), vec![], means);
+            let quantity = Quantity {
+                label: "power [W]".to_owned(),
+                values: vec![],
+                means,
+                least: 0.0,
+            };
             let drawing = grid(&[over_beats(&quantity, &look)], 1, 100.0, "", &look).0;
             let along = drawing.marks.iter().filter_map(|m| match m {
                 Mark::Text { text, anchor, .. } if *anchor == Anchor::Middle => Some(text),

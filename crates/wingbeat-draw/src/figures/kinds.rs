@@ -6,7 +6,7 @@ use wingbeat_math::DVec3;
 use super::bending::bending;
 use super::measure::{Kept, Line, Measure, Measured, Unit};
 use super::part::Part;
-use super::units::{length_floor, scaled};
+use super::units::{POWER_FLOOR, force_times_speed, length_floor, scaled};
 use super::wing_angles::wing_angles;
 use wingbeat_results::History;
 use wingbeat_results::columns::column_stems;
@@ -51,15 +51,23 @@ fn forces(setup: &FlightSetup, history: &History) -> Measured {
         Line::new("forward", air_force(history, DVec3::X)),
         Line::new("right", air_force(history, DVec3::Y)).kept(Kept::Felt),
     ];
-    let power = vec![Line::new("power", driving_power(history))];
+    let mut panels = vec![Measure::new("force of the air", Unit::Weight, lines)];
+    let name = driving_power_name(setup, history);
+    if let Some(name) = name {
+        let whole = Line::new("", force_times_speed(setup, history)).kept(Kept::Floor(POWER_FLOOR));
+        let power = vec![Line::new("power", driving_power(history)), whole];
+        panels.push(Measure::new(name, Unit::Prefixed("W"), power));
+    }
+    let title = if name.is_some() {
+        "forces and power"
+    } else {
+        "forces"
+    };
     Measured {
         name: "forces",
-        title: "forces and power".to_owned(),
+        title: title.to_owned(),
         shaded: true,
-        panels: vec![
-            Measure::new("force of the air", Unit::Weight, lines),
-            Measure::new(driving_power_name(history), Unit::Prefixed("W"), power),
-        ],
+        panels,
     }
 }
 
@@ -156,9 +164,10 @@ fn commands(setup: &FlightSetup, history: &History) -> Measured {
         shaded: false,
         panels: vec![
             Measure::new("stroke amplitude, relative change", Unit::Given, amplitude)
-                .floored(CHANGE_FLOOR),
-            Measure::new("mean stroke angle, forward", Unit::Degrees, offset),
-            Measure::new("pitch of the stroke plane", Unit::Degrees, plane),
+                .floored(CHANGE_FLOOR)
+                .of_alike(),
+            Measure::new("mean stroke angle, forward", Unit::Degrees, offset).of_alike(),
+            Measure::new("pitch of the stroke plane", Unit::Degrees, plane).of_alike(),
         ],
     }
 }
@@ -215,6 +224,7 @@ mod tests {
     use crate::figures::{Chart, charts_of};
     use wingbeat_case::LoadedCase;
     use wingbeat_flight::Record;
+    use wingbeat_model::WingMotion;
     use wingbeat_results::columns::Columns;
 
     /// A history of a preset whose records `change` fills, step by step.
@@ -417,5 +427,40 @@ mod tests {
             let panel = &chart(&setup, &history, "forces").panels[1];
             assert_eq!((&panel.label[..], panel.series[0].values[2]), (name, power));
         }
+    }
+
+    /// Power of 1e-15 of weight times speed is rounding: its axis is wider by far. Without joints there is none; of
+    /// joined wings that do not move it is that of the hinges.
+    #[test]
+    fn behaves_power_that_is_rounding_is_flat() {
+        for (beats, name) in [
+            (true, "power of hinges and deformation"),
+            (false, "power of the hinges"),
+        ] {
+            let mut setup = LoadedCase::find("bird-cruise", &[]).unwrap().setup;
+            for wing in setup.animal.wings.iter_mut().filter(|_| !beats) {
+                wing.motion = WingMotion::fixed(0.0, [0.1, 0.0, 0.0]);
+                wing.deformation = None;
+            }
+            let weight = setup.animal.mass() * setup.gravity.length();
+            let history = history(&setup, true, 41, |k, r| {
+                r.hinges[0].power = 1e-15 * weight * (k as f64).sin();
+            });
+            let panel = &chart(&setup, &history, "forces").panels[1];
+            assert!(
+                panel.label.starts_with(&format!("{name} [")),
+                "{}",
+                panel.label
+            );
+            let most = panel.series[0]
+                .values
+                .iter()
+                .fold(0.0, |a: f64, v| a.max(v.abs()));
+            assert!(panel.least > 100.0 * most && most > 0.0, "{}", panel.least);
+        }
+        let mut setup = LoadedCase::find("fruit-fly-hover", &[]).unwrap().setup;
+        setup.animal.wings.clear();
+        let chart = chart(&setup, &history(&setup, false, 3, |_, _| {}), "forces");
+        assert_eq!(chart.panels.len(), 1);
     }
 }

@@ -28,6 +28,8 @@ pub(super) struct Measure {
     logarithmic: bool,
     /// Extent below which differences are rounding, SI.
     floor: f64,
+    /// Whether lines that lie on each other are shown as one.
+    joins_alike: bool,
     /// Number of the wing whose downstrokes are shaded; none: those of the chart are.
     wing: Option<usize>,
 }
@@ -57,6 +59,8 @@ pub(super) enum Kept {
     Over(f64),
     /// Beside the other lines of its panel: more than 1e-9 of the largest.
     Felt,
+    /// Never; so many times its largest value is what is rounding in the others of its panel.
+    Floor(f64),
 }
 
 /// A quantity over time.
@@ -115,6 +119,7 @@ impl Measure {
                 Unit::Degrees => ANGLE_FLOOR.to_radians(),
                 _ => 0.0,
             },
+            joins_alike: false,
             wing: None,
         }
     }
@@ -129,6 +134,14 @@ impl Measure {
         let kept = Kept::Over(self.floor);
         self.lines.iter_mut().for_each(|line| line.kept = kept);
         self
+    }
+
+    /// The same with one line for those that cannot be told apart, which has all their names.
+    pub fn of_alike(self) -> Self {
+        Self {
+            joins_alike: true,
+            ..self
+        }
     }
 
     /// The same with the downstrokes of wing number `k` shaded.
@@ -149,26 +162,35 @@ impl Measure {
 
     /// The panel; none where no line is worth showing.
     fn panel(&self, setup: &FlightSetup, shades: &Shades) -> Option<Panel> {
-        let most = self.lines.iter().map(Line::way).fold(0.0, f64::max);
+        let shown = self
+            .lines
+            .iter()
+            .filter(|l| !matches!(l.kept, Kept::Floor(_)));
+        let most = shown.map(Line::way).fold(0.0, f64::max);
         let kept = |line: &&Line| match line.kept {
             Kept::Always => true,
             Kept::NotZero => line.values.iter().any(|v| *v != 0.0),
             Kept::Over(least) => most > least,
             Kept::Felt => line.way() > 1e-9 * most,
+            Kept::Floor(_) => false,
         };
         let lines = self.lines.iter().filter(kept);
-        let lines: Vec<(&str, Vec<f64>)> = lines
+        let mut lines: Vec<(String, Vec<f64>)> = lines
             .map(|l| {
                 let values = l.values.iter().map(|v| v - l.offset());
-                (&l.label[..], values.collect())
+                (l.label.clone(), values.collect())
             })
             .collect();
         if lines.is_empty() {
             return None;
         }
-        let (label, factor) = self.axis(setup, &lines);
+        let floor = self.floor();
+        if self.joins_alike {
+            lines = joined(lines, floor);
+        }
+        let (label, factor) = self.axis(setup, &lines, floor);
         let series = lines.iter().map(|(label, values)| Series {
-            label: (*label).to_owned(),
+            label: label.clone(),
             values: scaled(values, factor),
             measured: false,
         });
@@ -176,20 +198,29 @@ impl Measure {
             label,
             series: series.collect(),
             logarithmic: self.logarithmic,
-            least: self.floor * factor,
+            least: floor * factor,
             shaded: self.wing.and_then(|k| shades.own(k)),
         })
     }
 
+    /// Extent below which differences are rounding, SI.
+    fn floor(&self) -> f64 {
+        let of_line = |line: &Line| match line.kept {
+            Kept::Floor(part) => part * line.way(),
+            _ => 0.0,
+        };
+        self.lines.iter().map(of_line).fold(self.floor, f64::max)
+    }
+
     /// Name of the axis with its unit, and the factor from SI.
-    fn axis(&self, setup: &FlightSetup, lines: &[(&str, Vec<f64>)]) -> (String, f64) {
+    fn axis(&self, setup: &FlightSetup, lines: &[(String, Vec<f64>)], floor: f64) -> (String, f64) {
         let label = &self.label;
         match self.unit {
             Unit::Given => (label.clone(), 1.0),
             Unit::Degrees => (format!("{label} [deg]"), 1f64.to_degrees()),
             Unit::Prefixed(unit) => {
                 let all = lines.iter().flat_map(|l| &l.1).copied();
-                let all: Vec<f64> = all.chain([self.floor]).collect();
+                let all: Vec<f64> = all.chain([floor]).collect();
                 let (scale, prefix) = prefix(&all);
                 (format!("{label} [{prefix}{unit}]"), 1.0 / scale)
             }
@@ -247,6 +278,31 @@ impl Measured {
     }
 }
 
+/// Part of the extent of a panel by which lines differ at least where one can be told from the other \[1\].
+const APART: f64 = 2e-3;
+
+/// Lines with one in place of those that cannot be told from it, as they are named: all wings, or their names.
+fn joined(lines: Vec<(String, Vec<f64>)>, floor: f64) -> Vec<(String, Vec<f64>)> {
+    let all = lines.iter().flat_map(|l| &l.1).filter(|v| v.is_finite());
+    let [low, high] = all.fold([0.0_f64; 2], |[low, high], v| [low.min(*v), high.max(*v)]);
+    let least = APART * (high - low).max(floor);
+    let is_alike = |a: &[f64], b: &[f64]| a.iter().zip(b).all(|(a, b)| (a - b).abs() <= least);
+    let (count, mut found) = (lines.len(), Vec::<(Vec<String>, Vec<f64>)>::new());
+    for (name, values) in lines {
+        match found.iter_mut().find(|f| is_alike(&f.1, &values)) {
+            Some(like) => like.0.push(name),
+            None => found.push((vec![name], values)),
+        }
+    }
+    let named = |(names, values): (Vec<String>, Vec<f64>)| match names.len() {
+        1 => (names[0].clone(), values),
+        2 if count == 2 => ("both wings".to_owned(), values),
+        n if n == count => ("all wings".to_owned(), values),
+        _ => (names.join(", ").replace(", wing ", ", "), values),
+    };
+    found.into_iter().map(named).collect()
+}
+
 /// Smallest and largest number, the one that comes first first; what is not a number counts only
 /// where there is nothing else.
 fn extremes(values: &[f64]) -> [f64; 2] {
@@ -276,5 +332,23 @@ mod tests {
         assert_eq!(extremes(&[1.0, 4.0, -3.0]), [4.0, -3.0]);
         assert_eq!(extremes(&[5.0]), [5.0; 2]);
         assert!(extremes(&[f64::NAN]).iter().all(|v| v.is_nan()));
+    }
+
+    /// Lines on each other are one, which has all names; a difference that shows keeps them apart.
+    #[test]
+    fn behaves_lines_that_lie_on_each_other_are_one() {
+        let names = |values: &[f64]| {
+            let wings = ["left a", "left b", "right a", "right b"]
+                .iter()
+                .zip(values);
+            let lines = wings.map(|(n, v)| (format!("wing {n}"), vec![0.0, *v]));
+            let found = joined(lines.collect(), 0.0).into_iter();
+            found.map(|l| l.0).collect::<Vec<String>>()
+        };
+        assert_eq!(names(&[1.0; 4]), ["all wings"]);
+        assert_eq!(names(&[1.0, 0.9999]), ["both wings"]);
+        assert_eq!(names(&[1.0, 0.99]), ["wing left a", "wing left b"]);
+        let pairs = ["wing left a, left b", "wing right a, right b"];
+        assert_eq!(names(&[1.0, 1.0, -1.0, -1.0]), pairs);
     }
 }

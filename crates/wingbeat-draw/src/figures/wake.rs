@@ -12,6 +12,8 @@ use super::units::prefix;
 use wingbeat_case::IoError;
 use wingbeat_case::LoadedCase;
 use wingbeat_results::frames::{self, Frame, JoinedEdges, Mesh, Sheet};
+use wingbeat_results::poses::{Poses, picture};
+use wingbeat_results::rows::Rows;
 
 /// More rings than this are not drawn: the newest of every sheet are.
 pub(super) const MAX_RINGS: usize = 2500;
@@ -36,7 +38,8 @@ pub(super) fn wake(
     let Some(step) = steps.into_iter().min_by_key(|s| s.abs_diff(wanted)) else {
         return Ok(None);
     };
-    let frame = Frame::read(dir, step)?;
+    let mut frame = Frame::read(dir, step)?;
+    add_bodies(&mut frame, step, (dir, case))?;
     let time = step as f64 * case.setup.time.step;
     let when = match case.setup.time.period {
         Some(period) => format!("after {:.2} wingbeats", time / period),
@@ -59,6 +62,38 @@ pub(super) fn wake(
     let title = format!("{}: wakes {when}{note}{weak}", case.name);
     let wakes = Wakes { filaments, dots };
     Ok(Some(draw(&frame, &wakes, &title, look)))
+}
+
+/// Adds the parts of bodies that the air of the case does not have, where the history says they are at that step.
+fn add_bodies(
+    frame: &mut Frame,
+    step: usize,
+    (dir, case): (&Path, &LoadedCase),
+) -> Result<(), IoError> {
+    let mut rows = Rows::open(&dir.join("history.csv"))?;
+    let Some(poses) = Poses::new(&case.setup.animal, rows.names()) else {
+        return Ok(());
+    };
+    let is_part = |k: &usize| !poses.is_wing(poses.surfaces[*k].body);
+    let (parts, wings): (Vec<usize>, Vec<usize>) = (0..poses.surfaces.len()).partition(is_part);
+    let nodes: usize = wings.iter().map(|k| poses.surfaces[*k].nodes.len()).sum();
+    let surfaces = &mut frame.surfaces;
+    if parts.is_empty() || surfaces.points.len() != nodes {
+        return Ok(());
+    }
+    while let Some(row) = rows.next_row()? {
+        if row[0] as usize != step {
+            continue;
+        }
+        for k in parts {
+            let first = surfaces.points.len();
+            surfaces.points.extend(poses.nodes(row, k).map(picture));
+            let quads = poses.surfaces[k].quads.iter();
+            surfaces.quads.extend(quads.map(|q| q.map(|n| first + n)));
+        }
+        return Ok(());
+    }
+    Ok(())
 }
 
 /// What is drawn of the wakes.

@@ -48,6 +48,19 @@ impl Plan {
         }
     }
 
+    /// For a flight without frames, drawn from its history, every frame of `own` bytes: about `enough` of these steps,
+    /// evenly spaced, or as many as the budget takes.
+    pub fn of_steps(steps: &[usize], enough: usize, own: usize, budget: usize) -> Self {
+        let n = steps.len();
+        let affordable = (budget / own.max(1)).max(1);
+        let stride = (n / enough.max(1)).max(n.div_ceil(affordable)).max(1);
+        Self {
+            steps: steps.iter().step_by(stride).copied().collect(),
+            of: n,
+            frame_bytes: usize::MAX,
+        }
+    }
+
     /// For the frames of a result directory, by the sizes of their files; `fixed` bytes are in every
     /// frame, of wakes at most `most_rows` rows.
     ///
@@ -107,6 +120,17 @@ mod tests {
         // Not even the surfaces of 120 frames fit.
         let few = Plan::new(&steps, &vec![10; 1000], 8, 80);
         assert!(few.steps.len() <= 10 && few.frame_bytes >= 8);
+        // Without frames: no more than is enough, and no more than the budget takes.
+        let steps: Vec<usize> = (0..30_001).collect();
+        for (enough, budget, shown) in [
+            (12_000, 1_000_000, 15_001),
+            (12_000, 100_000, 7_501),
+            (40_000, 1_000_000, 30_001),
+        ] {
+            let plan = Plan::of_steps(&steps, enough, 10, budget);
+            assert_eq!((plan.steps.len(), plan.of), (shown, 30_001));
+            assert!(10 * plan.steps.len() <= budget);
+        }
         let none = Plan::new(&[], &[], 0, 100);
         assert!(none.steps.is_empty());
     }

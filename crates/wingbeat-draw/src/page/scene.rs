@@ -20,8 +20,13 @@ use wingbeat_results::poses::{Poses, picture};
 use wingbeat_results::rows::Rows;
 use wingbeat_results::summary::down;
 
-/// Frames drawn from the history where no frames were written.
-const MAX_POSES: usize = 1000;
+/// Frames drawn from the history where no frames were written: so many if the flight has them, and more where that is
+/// too few a wingbeat.
+const POSES: usize = 1000;
+/// Frames of a wingbeat that show its strokes smoothly.
+const POSES_A_BEAT: f64 = 40.0;
+/// Frames of a wingbeat below which strokes seem slower or backward.
+const FEWEST_A_BEAT: f64 = 8.0;
 /// Room for what JSON says of a frame \[bytes before base64\].
 const ENTRY: usize = 600;
 /// Wake older than this is not shown: it is not resolved \[wingbeats\].
@@ -48,6 +53,8 @@ pub(super) struct Scene<'a> {
     solids: Vec<Solid>,
     plan: Plan,
     framed: bool,
+    /// Wingbeats in a second; 0 without wingbeats.
+    frequency: f64,
     blob: Blob,
     shown: Vec<Shown>,
     /// Steps at which downstroke and upstroke change places, wing by wing; the flight begins with an upstroke.
@@ -87,10 +94,11 @@ impl<'a> Scene<'a> {
             Plan::of_directory(dir.path(), &written, (own, blob.most_rows), room)?
         } else {
             let times = Rows::times(&dir.join("history.csv"))?;
-            let stride = times.len().div_ceil(MAX_POSES).max(1);
             let step = |t: &f64| (t / case.setup.time.step).round() as usize;
-            let steps: Vec<usize> = times.iter().step_by(stride).map(step).collect();
-            Plan::new(&steps, &vec![own; steps.len()], own, room)
+            let steps: Vec<usize> = times.iter().map(step).collect();
+            let beats = period.map_or(0.0, |n| steps.last().map_or(0.0, |k| *k as f64 / n));
+            let enough = POSES.max((POSES_A_BEAT * beats) as usize);
+            Plan::of_steps(&steps, enough, own, room)
         };
         Ok(Self {
             dir,
@@ -98,6 +106,7 @@ impl<'a> Scene<'a> {
             solids,
             plan,
             framed,
+            frequency: case.setup.time.period.map_or(0.0, f64::recip),
             blob,
             shown: vec![],
             turns: vec![],
@@ -248,6 +257,8 @@ impl<'a> Scene<'a> {
         head["solids"] = json!(self.solids);
         head["posed"] = json!(self.posed());
         head["lattice"] = json!(self.framed);
+        let on_bodies = setup.air.lattice().is_some_and(|air| air.body_surfaces);
+        head["body_pressures"] = json!(on_bodies);
         head["sheets"] = json!(self.blob.columns);
         head["length_m"] = json!(self.length(case));
         head["down"] = json!(picture(down(setup)));
@@ -281,6 +292,15 @@ impl<'a> Scene<'a> {
             false => "steps, drawn from the history (no wakes)",
         };
         let mut text = format!("Shown here: {shown} of {of} {source}");
+        let beats = self.shown.last().map_or(0.0, |f| f.time) * self.frequency;
+        let each = shown as f64 / beats;
+        if !self.framed && shown < of && beats > 1.0 {
+            text += &format!(", {each:.0} a wingbeat");
+            if each < FEWEST_A_BEAT {
+                text += ": too few to see its strokes, which may seem slower or backward (a larger page has more: \
+                    `wingbeat view --size`)";
+            }
+        }
         if self.blob.aged > 0 {
             text += &format!(", wakes younger than {WAKE_BEATS} wingbeats");
         }

@@ -69,13 +69,31 @@ impl FlightSetup {
 
     /// Says which wings passed through each other as they were flown, and what to do about it.
     pub fn say_flown_crossing(&self, found: &Crossing) -> String {
-        let remedy = match self.feedback {
-            Some(_) => {
-                "limit the commands (control.amplitude_limit, control.angle_limit_deg), or move the hinges apart (hinge_m)"
+        format!(
+            "{}: {}",
+            self.crossing(found, "flight"),
+            self.kept_apart(found)
+        )
+    }
+
+    /// What to do about wings that passed through each other in flight: about their strokes where these do so without
+    /// commands and with joints at rest, else about their joints, else about the commands.
+    fn kept_apart(&self, found: &Crossing) -> String {
+        let joined = self.joined_pairs();
+        let has_joints = found.wings.iter().any(|&w| self.has_own_joint(w));
+        if !crossings(&self.animal, &found.wings, &joined).is_empty() {
+            return self.apart(found, are_joined(&joined, found.wings));
+        }
+        let limits = "limit the commands (control.amplitude_limit, control.angle_limit_deg)";
+        match (has_joints, self.feedback.is_some()) {
+            (true, true) => format!(
+                "stop or stiffen their joints, move the hinges apart (hinge_m), or {limits}"
+            ),
+            (true, false) => {
+                "stop or stiffen their joints, or move the hinges apart (hinge_m)".to_owned()
             }
-            None => "stop or stiffen the joints, or move the hinges apart (hinge_m)",
-        };
-        format!("{}: {remedy}", self.crossing(found, "flight"))
+            (false, _) => format!("{limits}, or move the hinges apart (hinge_m)"),
+        }
     }
 
     fn crossing(&self, found: &Crossing, time: &str) -> String {

@@ -80,7 +80,23 @@ pub fn export(
     };
     source.columns()?;
     dir.check_folder(into)?;
+    let is_new = !into.exists();
     make_folder(into)?;
+    let made = write_files(&source, format, into, existing);
+    if made.is_err() && is_new {
+        std::fs::remove_dir(into).ok(); // it stays if there is something in it
+    }
+    made
+}
+
+/// The files of a format in a folder.
+fn write_files(
+    source: &Source<'_>,
+    format: Format,
+    into: &Path,
+    existing: Existing,
+) -> Result<Vec<PathBuf>, IoError> {
+    let dir = source.dir;
     let particles = format == Format::Vtkhdf
         && (frames::steps(dir.path())?.first())
             .is_some_and(|k| Frame::particles_path(dir.path(), *k).is_file());
@@ -92,10 +108,10 @@ pub fn export(
     let mut made = vec![];
     for (name, file) in files? {
         file.make(|part| match format {
-            Format::Hdf5 => tables::hdf5(&source, part),
-            Format::Parquet => tables::parquet(&source, part),
-            Format::Gltf => gltf::write(&source, part),
-            Format::Vtkhdf => vtkhdf::write(&source, name, part),
+            Format::Hdf5 => tables::hdf5(source, part),
+            Format::Parquet => tables::parquet(source, part),
+            Format::Gltf => gltf::write(source, part),
+            Format::Vtkhdf => vtkhdf::write(source, name, part),
         })?;
         made.push(file.path().to_owned());
     }

@@ -3,7 +3,9 @@
 use std::sync::Arc;
 
 use wingbeat::Flight;
+use wingbeat::case::LoadedCase;
 use wingbeat::flight::{Controller, Feedback, Sensed, Simulation};
+use wingbeat::model::Crossing;
 use wingbeat::model::motion::Adjustment;
 use wingbeat::results::{Outcome, Summary};
 
@@ -71,6 +73,31 @@ fn behaves_summary_names_wings_that_commands_bring_through_each_other() {
         let named = "wings `left` and `right` pass through each other";
         let said = summary.warnings.iter().any(|w| w.contains(named));
         assert_eq!(said, crosses, "{offset}: {:?}", summary.warnings);
+    }
+}
+
+/// Wings that pass through each other in flight: what brings them there is named first, the commands where nothing
+/// else does.
+#[test]
+fn behaves_the_remedy_is_that_of_what_brings_wings_through_each_other() {
+    for (preset, remedy) in [
+        ("fruit-fly-blade", "flight: limit the commands"),
+        ("robobee", "flight: stop or stiffen their joints"),
+        ("hawkmoth-blade", "(theta) or change their phase"), // they do so without commands
+    ] {
+        let mut setup = LoadedCase::find(preset, &[]).unwrap().setup;
+        setup.feedback = Some(Feedback {
+            controller: Arc::new(Constant(Adjustment::default())),
+            interval: 40,
+            latency: 0,
+            lag: 0.0,
+        });
+        let found = Crossing {
+            wings: [0, 1],
+            part: 0.4,
+        };
+        let said = setup.say_flown_crossing(&found);
+        assert!(said.contains(remedy), "{preset}: {said}");
     }
 }
 

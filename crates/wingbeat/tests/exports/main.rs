@@ -124,6 +124,10 @@ fn refuses_exports_of_what_is_not_there() {
         &["export", "run", "--format", "vtkhdf"],
         "there are no frames to export",
     );
+    // The folder that it would have gone into is not left behind.
+    let into = ["export", "run", "--format", "vtkhdf", "--out", "into"];
+    refused(&into, "there are no frames to export");
+    assert!(!scratch.0.join("into").exists());
     refused(
         &["export", "run", "--format", "xlsx"],
         "hdf5, vtkhdf, parquet, gltf",

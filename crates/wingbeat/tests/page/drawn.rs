@@ -120,6 +120,22 @@ fn exact_wakes_have_the_half_strokes_of_their_wings() {
         }).filter((d) => d).length",
     );
     assert!(differ.as_u64().unwrap() > 0, "{differ} frames");
+    // The clock says so in short, and beside or above the buttons of the views.
+    let short = browser.value(
+        "(() => { const k = flight.frames.findIndex((f, k) => strokesOf(k).length > 1);
+          seek(k); drawAll();
+          const clock = byId('clock').getBoundingClientRect(), buttons = [...document.querySelectorAll('#views > *')].map((b) => b.getBoundingClientRect());
+          if (!buttons.every((b) => b.left >= clock.right || b.top >= clock.bottom)) throw Error('under the buttons');
+          return shortStrokes(k).map((w) => w[0]).sort(); })()",
+    );
+    assert!(
+        [
+            json!(["fore down", "hind up"]),
+            json!(["fore up", "hind down"])
+        ]
+        .contains(&short),
+        "{short}"
+    );
     content(&mut browser);
 }
 
