@@ -8,9 +8,7 @@
 use std::fs;
 use std::path::Path;
 
-mod support;
-
-use support::{Scratch, array, wingbeat};
+use crate::support::{Scratch, array, wingbeat};
 use wingbeat::results::History;
 
 /// The reference has 13 significant digits of numbers of order one.

@@ -3,9 +3,7 @@
 use std::fs;
 use std::path::Path;
 
-mod support;
-
-use support::{Scratch, flown};
+use crate::support::{Scratch, flown};
 use wingbeat::case::LoadedCase;
 use wingbeat::case::presets::PRESETS;
 use wingbeat::flight::AirModel;

@@ -7,7 +7,7 @@ use wingbeat::flight::{Controller, Feedback, Sensed, Simulation};
 use wingbeat::model::motion::Adjustment;
 use wingbeat::results::{Outcome, Summary};
 
-use crate::{beats, in_blades};
+use super::{beats, in_blades};
 
 /// Commands the same at every look.
 #[derive(Clone, Debug)]

@@ -1,8 +1,6 @@
 //! Result directories: complete, rerunnable bit for bit, readable when a run is cut.
 
 mod read;
-#[path = "../support/mod.rs"]
-mod support;
 
 use std::fs;
 use std::path::Path;
@@ -12,7 +10,7 @@ use wingbeat::case::{LoadedCase, presets::PRESETS};
 use wingbeat::flight::Simulation;
 use wingbeat::results::{self, History, Manifest, Outcome};
 
-use support::{Scratch, array, flown};
+use crate::support::{Scratch, array, flown};
 
 fn manifest(dir: &Path) -> Manifest {
     serde_json::from_str(&fs::read_to_string(dir.join("manifest.json")).unwrap()).unwrap()
