@@ -91,6 +91,32 @@ pub fn quick_case(dir: &Path) {
     fs::write(dir.join("case.toml"), QUICK).unwrap();
 }
 
+/// Case of an elastic wing held at its root in a stream without gravity, its strips with wakes and the lift of thin
+/// airfoils: further keys of time, air and wing, as TOML.
+pub fn strips(time: &str, air: &str, wing: &str) -> String {
+    format!(
+        r#"format = 1
+gravity_m_s2 = [0, 0, 0]
+[time]
+{time}
+[flight]
+mode = "tethered"
+[air]
+model = "blade_element"
+blade.unsteady = "peters"
+blade.own = {{ lift = 3.141592653589793, drag_0 = 0, drag_90 = 0 }}
+blade.centre_of_pressure.fixed = 0.25
+{air}
+[body]
+mass_kg = 1.0
+inertia_about_centre_kg_m2 = [1, 1, 1, 0, 0, 0]
+[wing.right]
+hinge_m = [0, 0, 0]
+{wing}
+"#
+    )
+}
+
 /// Every file of a folder, with what it holds.
 pub fn contents(dir: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
     let mut all = BTreeMap::new();
