@@ -1,6 +1,8 @@
 //! Keeps ARCHITECTURE.md and NOTATION.md true by reading manifests and sources.
 
 mod modules;
+mod notation;
+mod words;
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -51,6 +53,36 @@ fn invariant_names_of_tests_say_which_evidence_they_are() {
             let name = after.split('(').next().unwrap_or("");
             let says = EVIDENCE.iter().any(|kind| name.starts_with(kind));
             assert!(says, "{}: {name}", file.display());
+        }
+    }
+}
+
+/// Where a manifest lists its test programs, every file of its tests is one of them or a module of one.
+#[test]
+fn invariant_no_test_is_left_out_of_the_test_programs() {
+    for entry in fs::read_dir(root().join("crates")).expect("crates") {
+        let dir = entry.expect("a crate").path();
+        let manifest = fs::read_to_string(dir.join("Cargo.toml")).expect("a manifest");
+        if !manifest.contains("autotests = false") {
+            continue;
+        }
+        let files = rust_files(&dir.join("tests"));
+        let texts = files.iter().map(|f| fs::read_to_string(f).expect("a test"));
+        let text: String = texts.collect();
+        for file in &files {
+            let stem = |p: &Path| {
+                p.file_stem()
+                    .expect("a name")
+                    .to_string_lossy()
+                    .into_owned()
+            };
+            let name = match stem(file) {
+                n if n == "mod" || n == "main" => stem(file.parent().expect("a folder")),
+                n => n,
+            };
+            let in_use = manifest.contains(&format!("name = \"{name}\"\n"))
+                || text.lines().any(|l| l.ends_with(&format!("mod {name};")));
+            assert!(in_use, "{} is not compiled", file.display());
         }
     }
 }

@@ -3,9 +3,7 @@
 
 use std::fs;
 
-mod support;
-
-use support::{Scratch, wingbeat};
+use crate::support::{Scratch, wingbeat};
 
 /// A tethered flight in the lattice with a cube for a body; fine and quick.
 const GOOD: &str = r#"format = 1

@@ -4,9 +4,7 @@
 use std::fs;
 use std::path::PathBuf;
 
-mod support;
-
-use support::{Scratch, wingbeat};
+use crate::support::{Scratch, wingbeat};
 
 /// A vacuum case that is fine and quick.
 const GOOD: &str = r#"format = 1

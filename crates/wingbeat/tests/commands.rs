@@ -1,9 +1,6 @@
 //! The analysing commands and the kinds of air, through the program.
 
-#[path = "commands/flutter.rs"]
 mod flutter;
-mod support;
-#[path = "commands/trims.rs"]
 mod trims;
 
 use std::fs;
@@ -11,7 +8,7 @@ use std::path::Path;
 
 use serde_json::Value;
 
-use support::{Scratch, column, refused, said, wingbeat};
+use crate::support::{Scratch, column, refused, said, wingbeat};
 
 /// The value at the end of the line that begins with `name`.
 fn figure(text: &str, name: &str) -> String {

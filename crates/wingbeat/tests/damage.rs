@@ -4,11 +4,9 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-mod support;
-
 use wingbeat::results::{checkpoint, manifest::sha256};
 
-use support::{Scratch, flown, wingbeat};
+use crate::support::{Scratch, flown, wingbeat};
 
 /// A short flight with wakes.
 const CASE: [&str; 14] = [

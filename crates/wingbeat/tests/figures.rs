@@ -4,9 +4,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-mod support;
-
-use support::{Scratch, flown, wingbeat};
+use crate::support::{Scratch, flown, wingbeat};
 use wingbeat::draw::figures::Kind;
 
 const CASE: [&str; 15] = [

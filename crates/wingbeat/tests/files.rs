@@ -6,9 +6,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-mod support;
-
-use support::{Scratch, contents, flown, quick_case, wingbeat};
+use crate::support::{Scratch, contents, flown, quick_case, wingbeat};
 
 /// Folder with a case, a run with its checkpoint, and a file of the user.
 fn with_run(name: &str) -> Scratch {

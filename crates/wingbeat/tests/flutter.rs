@@ -16,6 +16,7 @@ mod folded;
 mod hale;
 #[path = "flutter/several.rs"]
 mod several;
+mod support;
 #[path = "flutter/theodorsen.rs"]
 mod theodorsen;
 
@@ -426,27 +427,12 @@ fn refuses_speeds_and_lengths_at_which_nothing_is_found() {
 /// does not vibrate grows.
 #[test]
 fn exact_static_divergence_of_strips() {
-    let text = "format = 1
-gravity_m_s2 = [0, 0, 0]
-[time]
-step_s = 0.001
-steps = 6000
-[flight]
-mode = \"tethered\"
-[air]
-model = \"blade_element\"
-density_kg_m3 = 1.2
-stream_m_s = [-20, 0, 0]
-[air.blade]
-unsteady = \"peters\"
-own = { lift = 3.141592653589793, drag_0 = 0, drag_90 = 0 }
-centre_of_pressure.fixed = 0.25
-[body]
-mass_kg = 1.0
-inertia_about_centre_kg_m2 = [1, 1, 1, 0, 0, 0]
-[wing.right]
-hinge_m = [0, 0, 0]
-mirror = false
+    let text = support::strips(
+        "step_s = 0.001
+steps = 6000",
+        "density_kg_m3 = 1.2
+stream_m_s = [-20, 0, 0]",
+        "mirror = false
 planform.rectangle = { chord_m = 0.1, span_m = 1.0, axis_fraction = 0.4 }
 mesh = { chordwise = 1, spanwise = 20 }
 [wing.right.structure]
@@ -462,9 +448,9 @@ lag_newton_m2 = [200000, 200000]
 axial_newton = [1e7, 1e7]
 torsion_newton_m2 = [0.5, 0.5]
 mass_kg_per_m = [0.5, 0.5]
-inertia_kg_m = [0.0005, 0.0005]
-";
-    let case = LoadedCase::from_text("divergence", text, std::path::Path::new(""), &[]).unwrap();
+inertia_kg_m = [0.0005, 0.0005]",
+    );
+    let case = LoadedCase::from_text("divergence", &text, std::path::Path::new(""), &[]).unwrap();
     let at = |speed: f64| alone(&case.setup, speed, &FlutterSettings::default());
     let growth = |c: &Condition| c.divergence.map(|(motion, _)| motion.growth);
     let exact = 0.5 * PI * (2.0 * 0.5 / (1.2 * 0.1 * 0.015 * 2.0 * PI)).sqrt();

@@ -1,10 +1,8 @@
 //! Trims and averaged models, through the program.
 
-mod support;
-
 use std::fs;
 
-use support::{Scratch, column, refused, said, wingbeat};
+use crate::support::{Scratch, column, refused, said, wingbeat};
 
 #[test]
 fn agrees_a_written_table_of_derivatives_with_the_averaged_model() {

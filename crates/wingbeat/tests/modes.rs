@@ -7,9 +7,7 @@ use wingbeat::analysis::flutter::{FlutterSettings, condition};
 use wingbeat::analysis::{About, WingModes, wing_modes};
 use wingbeat::case::LoadedCase;
 
-mod support;
-
-use support::{Scratch, said, wingbeat};
+use crate::support::{Scratch, said, wingbeat};
 
 /// A wing of 20 chords of a metre, a beam along the middle of its chord.
 const SLENDER: &str = r#"

@@ -1,13 +1,11 @@
 //! `wingbeat new`: cases to start from, presets, species and insects by their size.
 
-mod support;
-
 use std::fs;
 use std::path::Path;
 
 use wingbeat::case::insect::{SPECIES, Species};
 
-use support::{Scratch, contents, said, wingbeat};
+use crate::support::{Scratch, contents, said, wingbeat};
 
 /// Standard error of a command that is refused.
 fn refused(dir: &Path, args: &[&str]) -> String {

@@ -1,11 +1,9 @@
 //! `-` as the standard input and output: cases and reports pass from program to program.
 
-mod support;
-
 use std::fs;
 use std::process::Output;
 
-use support::{QUICK, Scratch, contents, piped};
+use crate::support::{QUICK, Scratch, contents, piped};
 
 fn said(out: &Output) -> &str {
     str::from_utf8(&out.stdout).unwrap()

@@ -1,11 +1,9 @@
 //! What every analysis says: words or one JSON object, on the standard output or in a file.
 
-mod support;
-
 use std::fs;
 
+use crate::support::{Scratch, flown, quick_case, said, wingbeat};
 use serde_json::Value;
-use support::{Scratch, flown, quick_case, said, wingbeat};
 
 /// Every command that analyses, with a name that its JSON has.
 const ANALYSES: [(&[&str], &str); 13] = [

@@ -1,10 +1,8 @@
 //! Every row of the literature table (docs/table1) is a preset that runs.
 
-mod support;
-
 use std::fs;
 
-use support::{Scratch, said};
+use crate::support::{Scratch, said};
 
 /// Presets with the trim that belongs to them; none for the linear rows.
 const ROWS: [(&str, &[&str]); 12] = [

@@ -2,35 +2,16 @@
 
 use std::fs;
 
-use crate::support::{Scratch, said, wingbeat};
+use crate::support::{Scratch, said, strips, wingbeat};
 
 /// A soft wing of strips with wakes; static divergence at 10.34 m/s.
-const SOFT: &str = r#"format = 1
-name = "soft"
-gravity_m_s2 = [0, 0, 0]
-[time]
-step_s = 0.002
-steps = 200
-[flight]
-mode = "tethered"
-[air]
-model = "blade_element"
-density_kg_m3 = 1.225
-stream_m_s = [-10, 0, 0]
-[air.blade]
-unsteady = "peters"
-own = { lift = 3.141592653589793, drag_0 = 0, drag_90 = 0 }
-centre_of_pressure.fixed = 0.25
-[output]
-frames_every = 0
-figures = false
-page = false
-[body]
-mass_kg = 1.0
-inertia_about_centre_kg_m2 = [1, 1, 1, 0, 0, 0]
-[wing.right]
-hinge_m = [0, 0, 0]
-motion.psi.constant_deg = 0.05
+fn soft() -> String {
+    let case = strips(
+        "step_s = 0.002
+steps = 200",
+        "density_kg_m3 = 1.225
+stream_m_s = [-10, 0, 0]",
+        "motion.psi.constant_deg = 0.05
 [wing.right.planform.outline]
 leading_m = [[0, 0.05], [1.0, 0.05]]
 trailing_m = [[0, -0.15], [1.0, -0.15]]
@@ -48,12 +29,18 @@ torsion_newton_m2 = [1.0, 1.0]
 lag_newton_m2 = [200.0, 200.0]
 mass_kg_per_m = [0.2, 0.2]
 inertia_kg_m = [7e-4, 7e-4]
-"#;
+[output]
+frames_every = 0
+figures = false
+page = false",
+    );
+    format!("name = \"soft\"\n{case}")
+}
 
 #[test]
 fn behaves_growth_without_vibration_that_is_neutral_stands_in_the_table() {
     let scratch = Scratch::new("flutter-neutral");
-    fs::write(scratch.0.join("soft.toml"), SOFT).unwrap();
+    fs::write(scratch.0.join("soft.toml"), soft()).unwrap();
     let text = said(
         &scratch.0,
         &[
@@ -77,7 +64,7 @@ fn behaves_growth_without_vibration_that_is_neutral_stands_in_the_table() {
 #[test]
 fn behaves_json_of_speeds_that_fail_says_what_is_missing() {
     let scratch = Scratch::new("flutter-missing");
-    fs::write(scratch.0.join("soft.toml"), SOFT).unwrap();
+    fs::write(scratch.0.join("soft.toml"), soft()).unwrap();
     let asked = ["flutter", "soft.toml", "--speeds", "8:11:2", "--modes", "1"];
     let rest = ["--periods", "0.7", "--json"];
     let out = wingbeat(&scratch.0, &[&asked[..], &rest].concat());
@@ -96,7 +83,7 @@ fn behaves_json_of_speeds_that_fail_says_what_is_missing() {
 #[test]
 fn behaves_one_speed_has_its_modes_and_what_grows() {
     let scratch = Scratch::new("flutter-one-speed");
-    fs::write(scratch.0.join("soft.toml"), SOFT).unwrap();
+    fs::write(scratch.0.join("soft.toml"), soft()).unwrap();
     let rest = ["--modes", "1", "--periods", "0.7"];
     for speed in ["8", "8:8:1"] {
         let asked = ["flutter", "soft.toml", "--speeds", speed];

@@ -9,7 +9,7 @@ use wingbeat::model::Crossing;
 use wingbeat::model::motion::Adjustment;
 use wingbeat::results::{Outcome, Summary};
 
-use crate::{beats, in_blades};
+use super::{beats, in_blades};
 
 /// Commands the same at every look.
 #[derive(Clone, Debug)]

@@ -6,7 +6,7 @@ use wingbeat::analysis::{trim, trim_from};
 use wingbeat::case::LoadedCase;
 use wingbeat::flight::{FlightSetup, Simulation};
 
-use crate::beats;
+use super::beats;
 
 /// Kick of the body's pitch at the release \[deg\].
 const KICK: f64 = 1.0;

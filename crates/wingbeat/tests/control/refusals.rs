@@ -3,7 +3,7 @@
 use wingbeat::case::LoadedCase;
 use wingbeat::flight::{FlightSetup, FlightState, Simulation};
 
-use crate::{BLADES, PRESET, case, in_blades};
+use super::{BLADES, PRESET, case, in_blades};
 
 #[test]
 fn refuses_what_control_cannot_do_by_name() {

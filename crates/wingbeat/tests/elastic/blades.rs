@@ -1,6 +1,7 @@
 //! Wings that loads bend in blade elements.
 
 use std::path::Path;
+use std::sync::LazyLock;
 
 use super::{LATTICE, beam, fly, goes_on, hawkmoth_extremes, strings};
 use wingbeat::analysis::wake::{
@@ -180,9 +181,12 @@ fn trimmed(setup: &FlightSetup) -> WakeTrim {
     found
 }
 
+/// The hawkmoth with the wings of the preset, trimmed.
+static HAWKMOTH: LazyLock<WakeTrim> = LazyLock::new(|| trimmed(&hawkmoth(1.0)));
+
 #[test]
 fn agrees_a_trimmed_orbit_of_body_and_wings_with_flights_that_go_on_from_it() {
-    let trim = trimmed(&hawkmoth(1.0));
+    let trim = &*HAWKMOTH;
     let mut setup = trim.setup.clone();
     let steps = setup.time.steps;
     setup.time.steps = 2 * steps;
@@ -205,7 +209,7 @@ fn agrees_a_trimmed_orbit_of_body_and_wings_with_flights_that_go_on_from_it() {
         );
     }
     // What the muscles pay: work of the hinges in the beat, by another sum.
-    let power = power_with_wake(&trim).unwrap();
+    let power = power_with_wake(trim).unwrap();
     let mut flight = Simulation::bent(trim.setup.clone(), &trim.past.wings).unwrap();
     let before = flight.record().driving_work();
     while !flight.finished() {
@@ -298,9 +302,8 @@ fn order_energy_of_a_hold_on_a_moving_tether_and_its_release_closes() {
 #[test]
 fn agrees_the_written_case_of_a_trimmed_hawkmoth_with_its_orbit() {
     let case = hawkmoth_case(1.0);
-    let trim = trimmed(&case.setup);
     // What 32 steps leave: 0.002 and 0.008; 0.012 and 0.006.
-    let found = departures(&case, &trim, 2);
+    let found = departures(&case, &HAWKMOTH, 2);
     assert!(
         found
             .iter()
@@ -313,9 +316,8 @@ fn agrees_the_written_case_of_a_trimmed_hawkmoth_with_its_orbit() {
 /// leave of the orbit.
 #[test]
 fn agrees_a_trim_of_a_trimmed_case_with_the_first() {
-    let case = hawkmoth_case(1.0);
-    let first = trimmed(&case.setup);
-    let text = wake_trimmed_case(&case, &first);
+    let first = &*HAWKMOTH;
+    let text = wake_trimmed_case(&hawkmoth_case(1.0), first);
     let again = LoadedCase::from_text("written", &text, Path::new("."), &[]);
     let setup = again.unwrap().setup;
     let pitch = setup.angles_at_release().x;
@@ -347,8 +349,8 @@ fn agrees_a_trim_of_a_trimmed_case_with_the_first() {
 /// the check without flights says by how much.
 #[test]
 fn agrees_motions_of_flight_with_ever_more_modes_of_the_wings() {
-    let trim = trimmed(&hawkmoth(1.0));
-    let maps = [1, 2, 3].map(|count| elastic_monodromy(&trim, count).unwrap());
+    let trim = &*HAWKMOTH;
+    let maps = [1, 2, 3].map(|count| elastic_monodromy(trim, count).unwrap());
     let sets = maps
         .each_ref()
         .map(|map| largest(&elastic_modes(map).unwrap()));

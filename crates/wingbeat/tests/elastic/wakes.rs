@@ -1,5 +1,7 @@
 //! Blade elements whose strips leave wakes: elastic wings, trimmed orbits and their modes.
 
+use std::sync::LazyLock;
+
 use super::blades::departures;
 use super::{apart, beam, fly, goes_on, strings};
 use wingbeat::analysis::flutter::realise;
@@ -72,10 +74,8 @@ fn conserves_momentum_of_a_flyer_with_soft_wings_and_wakes() {
     assert!(passes <= 10, "{passes}");
 }
 
-/// The fruit fly in forward flight, its `strips` a wing with wakes, trimmed.
-fn trimmed(strips: usize) -> WakeTrim {
-    trimmed_of(&fly_forward(strips))
-}
+/// The fruit fly in forward flight, four strips a wing with wakes, trimmed.
+static FLY: LazyLock<WakeTrim> = LazyLock::new(|| trimmed(&fly_forward(4)));
 
 fn fly_forward(strips: usize) -> LoadedCase {
     fly_with(strips, "time.steps_per_beat=40")
@@ -90,7 +90,7 @@ fn fly_with(strips: usize, time: &str) -> LoadedCase {
     LoadedCase::find("fruit-fly-blade", &set).unwrap()
 }
 
-fn trimmed_of(case: &LoadedCase) -> WakeTrim {
+fn trimmed(case: &LoadedCase) -> WakeTrim {
     let mut problem = TrimProblem::straight(DVec3::new(1.0, 0.0, 0.0), 40_f64.to_radians());
     problem.settings = TrimSettings {
         steps: 40,
@@ -109,14 +109,14 @@ fn trimmed_of(case: &LoadedCase) -> WakeTrim {
 #[test]
 fn agrees_the_written_case_of_a_fly_with_wakes_with_its_orbit() {
     let case = fly_forward(4);
-    let trim = trimmed_of(&case);
+    let trim = &*FLY;
     // The steps of a case may be given in seconds, in which those of another frequency are none.
     let step = case.setup.time.step;
     let seconds = fly_with(4, &format!("time={{step_s={step},steps=200}}"));
     for case in [case, seconds] {
-        let text = wake_trimmed_case(&case, &trim);
+        let text = wake_trimmed_case(&case, trim);
         assert!(text.contains("steps_per_beat = 40") && !text.contains("step_s"));
-        let found = departures(&case, &trim, 2);
+        let found = departures(&case, trim, 2);
         let close = |[drift, turn]: &[f64; 2]| *drift < 2e-3 && *turn < 2e-3;
         assert!(found.iter().all(close), "{found:?}");
     }
@@ -141,22 +141,22 @@ fn beats(trim: &WakeTrim, past: &Past, velocity: DVec3, beats: usize) -> Vec<Rec
 
 #[test]
 fn agrees_orbit_and_modes_of_a_fly_with_wakes_with_flights_about_it() {
-    let trim = trimmed(4);
+    let trim = &*FLY;
     let period = trim.setup.time.period.unwrap();
     let size = trim.setup.animal.wings[0].report().length;
     let (mass, speed) = (trim.setup.animal.mass(), size / period);
     // The beat comes back to its start, wakes and all; the next one, without a new start of its method, to the
     // error of 40 steps.
-    let still = beats(&trim, &trim.past, DVec3::ZERO, 16);
+    let still = beats(trim, &trim.past, DVec3::ZERO, 16);
     let change = |k: usize| (still[k].momentum - still[0].momentum).length() / mass / speed;
     assert!(change(1) < 1e-7, "{:e}", change(1));
     assert!(change(2) < 2e-3, "{:e}", change(2));
-    let power = power_with_wake(&trim).unwrap();
+    let power = power_with_wake(trim).unwrap();
     let work = still[1].driving_work() - still[0].driving_work();
     assert!((power.perfect_storage * period / work - 1.0).abs() < 1e-2);
     // Small departures in speed, flight by flight, and the linear system that they show.
     let by = 1e-3 * speed * DVec3::X;
-    let [plus, minus] = [by, -by].map(|by| beats(&trim, &trim.past, by, 16));
+    let [plus, minus] = [by, -by].map(|by| beats(trim, &trim.past, by, 16));
     let seen = |(a, b): (&Record, &Record)| {
         let v = (a.momentum - b.momentum) / mass / speed;
         let turn = a.root_angular_velocity - b.root_angular_velocity;
@@ -165,7 +165,7 @@ fn agrees_orbit_and_modes_of_a_fly_with_wakes_with_flights_about_it() {
     };
     let samples: Vec<Vec<f64>> = plus.iter().zip(&minus).map(seen).skip(1).collect();
     let shown = realise(&samples, period).unwrap();
-    let modes = elastic_floquet(&trim, 0).unwrap();
+    let modes = elastic_floquet(trim, 0).unwrap();
     let oscillation = (modes.plane(Plane::Longitudinal))
         .filter(|m| m.frequency > 0.0)
         .max_by(|a, b| a.growth.total_cmp(&b.growth))
@@ -181,8 +181,9 @@ fn agrees_orbit_and_modes_of_a_fly_with_wakes_with_flights_about_it() {
 /// Which motions are those of body and wings does not hang on how many states the wakes have.
 #[test]
 fn invariant_modes_that_are_shown_on_any_number_of_strips() {
-    let shown = [4, 7].map(|strips| {
-        let modes = elastic_floquet(&trimmed(strips), 0).unwrap().modes;
+    let seven = trimmed(&fly_forward(7));
+    let shown = [&*FLY, &seven].map(|trim| {
+        let modes = elastic_floquet(trim, 0).unwrap().modes;
         let fastest = modes.iter().map(|m| m.growth).fold(0.0, f64::min);
         (modes.len(), fastest)
     });

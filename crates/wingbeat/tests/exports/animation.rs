@@ -7,8 +7,8 @@ use wingbeat::math::{DQuat, DVec3};
 use wingbeat::results::ResultDir;
 use wingbeat::results::frames::Frame;
 
+use super::{CASE, assert_validated};
 use crate::support::{Scratch, flown};
-use crate::{CASE, assert_validated};
 
 /// Numbers of a key in the JSON of a .glb, and its binary part.
 fn glb(path: &Path) -> (serde_json::Value, Vec<u8>) {

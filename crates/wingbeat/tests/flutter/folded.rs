@@ -7,30 +7,17 @@ use wingbeat::case::LoadedCase;
 
 use super::alone;
 use super::theodorsen::{scaled, sum, theodorsen, times};
+use crate::support::strips;
 
 /// A slender wing (Tang & Dowell 2001, AIAA J. 39:1430, without the body at its tip), mass and elastic axes at mid chord, in strips.
-const SLENDER: &str = r#"format = 1
-gravity_m_s2 = [0, 0, 0]
-[time]
-step_s = 0.0002
-steps = 400
-[flight]
-mode = "tethered"
-[air]
-model = "blade_element"
-density_kg_m3 = 1.225
+fn slender() -> String {
+    strips(
+        "step_s = 0.0002
+steps = 400",
+        "density_kg_m3 = 1.225
 stream_m_s = [-30, 0, 0]
-[air.blade]
-unsteady = "peters"
-states = 8
-own = { lift = 3.141592653589793, drag_0 = 0, drag_90 = 0 }
-centre_of_pressure.fixed = 0.25
-[body]
-mass_kg = 1.0
-inertia_about_centre_kg_m2 = [1, 1, 1, 0, 0, 0]
-[wing.right]
-hinge_m = [0, 0, 0]
-motion.psi.constant_deg = 0.01
+blade.states = 8",
+        "motion.psi.constant_deg = 0.01
 planform.rectangle = { chord_m = 0.0508, span_m = 0.4508, axis_fraction = 0.5 }
 mesh = { chordwise = 1, spanwise = 8 }
 [wing.right.structure]
@@ -43,8 +30,9 @@ flap_newton_m2 = [0.4186, 0.4186]
 lag_newton_m2 = [18.44, 18.44]
 torsion_newton_m2 = [0.9539, 0.9539]
 mass_kg_per_m = [0.2351, 0.2351]
-inertia_kg_m = [0.2056e-4, 0.2056e-4]
-"#;
+inertia_kg_m = [0.2056e-4, 0.2056e-4]",
+    )
+}
 
 /// Growth and angular frequency of its first torsion mode at this speed [m/s]: `(I + pi rho b^4 / 8) s^2 + pi rho V b^3
 /// (1 - C) s / 2 + GJ (pi / 2 L)^2 - pi rho V^2 b^2 C = 0`, `C` Theodorsen's function at the frequency of `s` (p-k method).
@@ -71,7 +59,8 @@ fn torsion(speed: f64) -> [f64; 2] {
 
 #[test]
 fn agrees_torsion_sampled_less_than_twice_a_period_with_p_k_and_with_finer_samples() {
-    let case = LoadedCase::from_text("slender", SLENDER, std::path::Path::new("."), &[]).unwrap();
+    let case =
+        LoadedCase::from_text("slender", &slender(), std::path::Path::new("."), &[]).unwrap();
     let speed = 40.0;
     let of = |modes: usize| {
         let settings = FlutterSettings {

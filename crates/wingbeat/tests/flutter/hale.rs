@@ -3,28 +3,16 @@
 use wingbeat::analysis::flutter::{Condition, FlutterSettings, crossings};
 use wingbeat::case::LoadedCase;
 
-const HALE: &str = "format = 1
-gravity_m_s2 = [0, 0, 0]
-[time]
-step_s = 0.004
-steps = 200
-[flight]
-mode = \"tethered\"
-[air]
-model = \"blade_element\"
-density_kg_m3 = 0.0889
+use crate::support::strips;
+
+fn hale() -> String {
+    strips(
+        "step_s = 0.004
+steps = 200",
+        "density_kg_m3 = 0.0889
 stream_m_s = [-30, 0, 0]
-[air.blade]
-unsteady = \"peters\"
-states = 6
-own = { lift = 3.141592653589793, drag_0 = 0, drag_90 = 0 }
-centre_of_pressure.fixed = 0.25
-[body]
-mass_kg = 1.0
-inertia_about_centre_kg_m2 = [1, 1, 1, 0, 0, 0]
-[wing.right]
-mirror = false
-hinge_m = [0, 0, 0]
+blade.states = 6",
+        "mirror = false
 motion.psi.constant_deg = 0.02
 planform.rectangle = { chord_m = 1.0, span_m = 16.0, axis_fraction = 0.5 }
 mesh = { chordwise = 1, spanwise = 20 }
@@ -38,12 +26,13 @@ flap_newton_m2 = [2e4, 2e4]
 torsion_newton_m2 = [1e4, 1e4]
 lag_newton_m2 = [4e6, 4e6]
 mass_kg_per_m = [0.75, 0.75]
-inertia_kg_m = [0.1, 0.1]
-";
+inertia_kg_m = [0.1, 0.1]",
+    )
+}
 
 fn at(set: &[&str], speed: f64, settings: &FlutterSettings) -> Condition {
     let set: Vec<String> = set.iter().map(|s| (*s).to_owned()).collect();
-    let case = LoadedCase::from_text("hale", HALE, std::path::Path::new("."), &set).unwrap();
+    let case = LoadedCase::from_text("hale", &hale(), std::path::Path::new("."), &set).unwrap();
     super::alone(&case.setup, speed, settings)
 }
 

@@ -4,7 +4,7 @@ use serde_json::json;
 
 use crate::browser::Browser;
 use crate::support::{Scratch, flown, wingbeat};
-use crate::{CASE, content, started};
+use crate::{RUN, content, started};
 
 #[test]
 fn behaves_time_can_be_chosen_while_it_plays() {
@@ -12,8 +12,7 @@ fn behaves_time_can_be_chosen_while_it_plays() {
     let Some(mut browser) = started(&scratch, &[]) else {
         return;
     };
-    flown(&scratch.0, &CASE);
-    browser.open(&scratch.0.join("run/flight.html"), "wake=");
+    browser.open(&RUN.join("flight.html"), "wake=");
     let set = "(id, v) => { const e = document.getElementById(id); e.value = v; e.dispatchEvent(new Event('input', { bubbles: true })); }";
     browser.value(&format!("({set})('speed', -6)"));
     browser.value("document.getElementById('play').click()");
@@ -42,8 +41,7 @@ fn behaves_keys_belong_to_the_control_that_has_the_focus() {
     let Some(mut browser) = started(&scratch, &[]) else {
         return;
     };
-    flown(&scratch.0, &CASE);
-    browser.open(&scratch.0.join("run/flight.html"), "");
+    browser.open(&RUN.join("flight.html"), "");
     // Closed in a window as narrow as this one.
     browser.value("document.getElementById('display').open = true");
     let playing = "document.getElementById('play').dataset.playing";
@@ -100,12 +98,8 @@ fn behaves_a_changed_link_is_obeyed() {
     let Some(mut browser) = started(&scratch, &[]) else {
         return;
     };
-    flown(&scratch.0, &CASE);
     let shown = "JSON.stringify([frameNow(), state.view, state.theme, document.documentElement.dataset.theme, byId('colour').value, byId('force').value, +byId('age').value, byId('on-smoke').getAttribute('aria-pressed'), byId('on-vortices').getAttribute('aria-pressed')])";
-    browser.open(
-        &scratch.0.join("run/flight.html"),
-        "frame=3&theme=dark&wake=vortices",
-    );
+    browser.open(&RUN.join("flight.html"), "frame=3&theme=dark&wake=vortices");
     let first = json!(r#"[3,"quarter","dark","dark","stroke","total",1.1,"false","true"]"#);
     assert_eq!(browser.value(shown), first);
     browser.value("location.hash = 'frame=7&view=top&theme=light&wake=smoke&colour=age&age=0.5'");
@@ -126,8 +120,7 @@ fn behaves_prints_are_light() {
     let Some(mut browser) = started(&scratch, &[]) else {
         return;
     };
-    flown(&scratch.0, &CASE);
-    browser.open(&scratch.0.join("run/flight.html"), "frame=3&theme=dark");
+    browser.open(&RUN.join("flight.html"), "frame=3&theme=dark");
     browser.value("window.prints = [], window.addEventListener('beforeprint', () => { const c = byId('printed'); prints.push([state.theme, stage.clientHeight, c.width > 0 && c.getContext('2d').getImageData(9, 9, 1, 1).data[0]]); })");
     for landscape in [false, true] {
         browser.print(landscape);
@@ -151,8 +144,7 @@ fn behaves_a_pinch_on_a_plot_leaves_the_time() {
     let Some(mut browser) = started(&scratch, &[]) else {
         return;
     };
-    flown(&scratch.0, &CASE);
-    browser.open(&scratch.0.join("run/flight.html"), "frame=3");
+    browser.open(&RUN.join("flight.html"), "frame=3");
     browser.value("window.finger = (kind, id, part) => { const c = plots.list[0].canvas, r = c.getBoundingClientRect(); c.dispatchEvent(new PointerEvent('pointer' + kind, { pointerId: id, pointerType: 'touch', clientX: r.left + part * r.width, clientY: r.top + 9 })); }");
     let time = "[frameNow(), plots.range[1] - plots.range[0] < whole[1] - whole[0]].join()";
     browser.value("finger('down', 1, 0.5), finger('down', 2, 0.6), finger('move', 1, 0.3), finger('move', 2, 0.9), finger('up', 2, 0.9), finger('move', 1, 0.6), finger('up', 1, 0.6)");
@@ -170,11 +162,7 @@ fn behaves_a_film_of_the_scene_is_recorded() {
     let Some(mut browser) = started(&scratch, &[]) else {
         return;
     };
-    flown(&scratch.0, &CASE);
-    browser.open(
-        &scratch.0.join("run/flight.html"),
-        "frame=8&wake=smoke&speed=2",
-    );
+    browser.open(&RUN.join("flight.html"), "frame=8&wake=smoke&speed=2");
     browser.value("save = (blob) => { window.saved = [blob.type, blob.size]; }");
     browser.value("document.getElementById('record').click()");
     browser.wait("!!window.saved");

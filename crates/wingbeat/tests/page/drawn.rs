@@ -4,7 +4,7 @@ use serde_json::json;
 use wingbeat::results::frames::Frame;
 
 use crate::support::{Scratch, flown};
-use crate::{CASE, content, started};
+use crate::{RUN, content, started};
 
 /// Bodies are posed by matrices, not drawn from the frames: a node of the page is the node of the frame.
 #[test]
@@ -216,8 +216,7 @@ fn behaves_legends_say_what_is_drawn() {
         return;
     };
     let legend = "document.getElementById('legend').textContent";
-    flown(&scratch.0, &CASE);
-    browser.open(&scratch.0.join("run/flight.html"), "frame=12");
+    browser.open(&RUN.join("flight.html"), "frame=12");
     let words = browser.value(legend).as_str().unwrap().to_owned();
     assert!(
         words.contains("downstroke") && !words.contains("pressure"),

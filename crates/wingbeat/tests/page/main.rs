@@ -1,6 +1,8 @@
 //! The flight page: bounded in size, true to the frames, and at work in a real browser.
 
 use std::fs;
+use std::path::{Path, PathBuf};
+use std::sync::LazyLock;
 
 #[path = "../support/browser.rs"]
 mod browser;
@@ -11,7 +13,7 @@ mod support;
 
 use browser::Browser;
 use serde_json::json;
-use support::{Scratch, flown, required, wingbeat};
+use support::{Scratch, contents, flown, required, wingbeat};
 use wingbeat::results::frames::{self, Frame};
 
 const CASE: [&str; 13] = [
@@ -29,6 +31,24 @@ const CASE: [&str; 13] = [
     "--set=air.shed=[\"trailing\"]",
     "--set=air.particles={after_rows=8,radius_m=2.5e-4}",
 ];
+
+/// Where [`CASE`] was flown, once; what a test changes is its own copy.
+static RUN: LazyLock<PathBuf> = LazyLock::new(|| {
+    let dir = Path::new(env!("CARGO_TARGET_TMPDIR")).join("page");
+    let _ = fs::remove_dir_all(&dir);
+    fs::create_dir_all(&dir).unwrap();
+    flown(&dir, &CASE);
+    dir.join("run")
+});
+
+/// A copy of [`RUN`], as `run`.
+fn copied(dir: &Path) {
+    for (path, bytes) in contents(&RUN) {
+        let copy = dir.join("run").join(path.strip_prefix(&*RUN).unwrap());
+        fs::create_dir_all(copy.parent().unwrap()).unwrap();
+        fs::write(copy, bytes).unwrap();
+    }
+}
 
 /// Wing tips as the page says, picture axes \[m\].
 fn tips(browser: &mut Browser) -> Vec<Vec<f64>> {
@@ -56,9 +76,8 @@ fn exact_the_page_works_in_a_browser() {
     let Some(mut browser) = started(&scratch, &[]) else {
         return;
     };
-    flown(&scratch.0, &CASE);
-    let page = scratch.0.join("run/flight.html");
-    let steps = frames::steps(&scratch.0.join("run")).unwrap();
+    let page = RUN.join("flight.html");
+    let steps = frames::steps(&RUN).unwrap();
     let mut seen: Vec<Vec<Vec<f64>>> = vec![];
     for k in [0, steps.len() - 4] {
         browser.open(&page, &format!("frame={k}"));
@@ -68,7 +87,7 @@ fn exact_the_page_works_in_a_browser() {
         content(&mut browser);
         let triangles: usize = browser.state("triangles").parse().unwrap();
         assert!(triangles > 100, "only {triangles} triangles were drawn");
-        let frame = Frame::read(&scratch.0.join("run"), steps[k]).unwrap();
+        let frame = Frame::read(&RUN, steps[k]).unwrap();
         let particles: usize = browser.state("particles").parse().unwrap();
         assert_eq!(particles, frame.particles.len());
         assert!(k == 0 || particles > 0, "no particle is shown");
@@ -105,8 +124,7 @@ fn behaves_without_webgl_the_flight_is_drawn_flat_and_says_so() {
     let Some(mut browser) = started(&scratch, &["--disable-3d-apis"]) else {
         return;
     };
-    flown(&scratch.0, &CASE);
-    browser.open(&scratch.0.join("run/flight.html"), "frame=3");
+    browser.open(&RUN.join("flight.html"), "frame=3");
     let note = "document.getElementById('note').textContent";
     for k in [3, 9] {
         browser.value(&format!("seek({k})"));
@@ -186,7 +204,7 @@ fn behaves_any_description_is_shown() {
 #[test]
 fn exact_the_page_is_whole_and_stays_within_its_size() {
     let scratch = Scratch::new("page");
-    flown(&scratch.0, &CASE);
+    copied(&scratch.0);
     let page = fs::read_to_string(scratch.0.join("run/flight.html")).unwrap();
     assert!(
         !page.contains("src=\"") && !page.contains("<link"),
@@ -256,7 +274,7 @@ fn exact_a_flight_of_one_step_is_drawn() {
 #[test]
 fn refuses_damaged_and_missing_frames() {
     let scratch = Scratch::new("frames-damaged");
-    flown(&scratch.0, &CASE);
+    copied(&scratch.0);
     let refused = |reason: &str| {
         let out = wingbeat(&scratch.0, &["view", "run", "--no-open"]);
         let said = String::from_utf8_lossy(&out.stderr).into_owned();

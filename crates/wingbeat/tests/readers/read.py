@@ -1,6 +1,6 @@
 """Opens a result directory with the readers that users have and compares every number.
 
-Called by tests/exports/main.rs as `python read.py DIR`; exits with an error at the first difference.
+Called by tests/exports.rs as `python read.py DIR`; exits with an error at the first difference.
 """
 
 import csv

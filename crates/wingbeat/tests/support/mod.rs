@@ -6,6 +6,7 @@ use std::fs;
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 pub mod readers;
 
@@ -14,8 +15,9 @@ pub struct Scratch(pub PathBuf);
 
 impl Scratch {
     pub fn new(name: &str) -> Self {
-        let path =
-            std::env::temp_dir().join(format!("wingbeat-test-{name}-{}", std::process::id()));
+        static COUNT: AtomicUsize = AtomicUsize::new(0); // tests of one process may choose the same name
+        let (process, number) = (std::process::id(), COUNT.fetch_add(1, Ordering::Relaxed));
+        let path = std::env::temp_dir().join(format!("wingbeat-test-{name}-{process}-{number}"));
         let _ = fs::remove_dir_all(&path);
         fs::create_dir_all(&path).unwrap();
         Self(path)
@@ -87,6 +89,32 @@ cosine_deg = [60.0]
 /// Writes [`QUICK`] into a folder.
 pub fn quick_case(dir: &Path) {
     fs::write(dir.join("case.toml"), QUICK).unwrap();
+}
+
+/// Case of an elastic wing held at its root in a stream without gravity, its strips with wakes and the lift of thin
+/// airfoils: further keys of time, air and wing, as TOML.
+pub fn strips(time: &str, air: &str, wing: &str) -> String {
+    format!(
+        r#"format = 1
+gravity_m_s2 = [0, 0, 0]
+[time]
+{time}
+[flight]
+mode = "tethered"
+[air]
+model = "blade_element"
+blade.unsteady = "peters"
+blade.own = {{ lift = 3.141592653589793, drag_0 = 0, drag_90 = 0 }}
+blade.centre_of_pressure.fixed = 0.25
+{air}
+[body]
+mass_kg = 1.0
+inertia_about_centre_kg_m2 = [1, 1, 1, 0, 0, 0]
+[wing.right]
+hinge_m = [0, 0, 0]
+{wing}
+"#
+    )
 }
 
 /// Every file of a folder, with what it holds.

@@ -3,15 +3,13 @@
 
 mod animation;
 mod circulations;
-#[path = "../support/mod.rs"]
-mod support;
 
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use support::readers::{python, readers, store, works};
-use support::{Scratch, flown, required, wingbeat};
+use crate::support::readers::{python, readers, store, works};
+use crate::support::{Scratch, flown, required, wingbeat};
 
 const CASE: [&str; 15] = [
     "run",

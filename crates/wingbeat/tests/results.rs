@@ -1,36 +1,19 @@
 //! Result directories: complete, rerunnable bit for bit, readable when a run is cut.
 
 mod read;
-#[path = "../support/mod.rs"]
-mod support;
 
 use std::fs;
 use std::path::Path;
 use std::process::{Command, Stdio};
 
-use wingbeat::case::{LoadedCase, presets::PRESETS};
+use wingbeat::case::LoadedCase;
 use wingbeat::flight::Simulation;
 use wingbeat::results::{self, History, Manifest, Outcome};
 
-use support::{Scratch, array, flown};
+use crate::support::{Scratch, array, flown};
 
 fn manifest(dir: &Path) -> Manifest {
     serde_json::from_str(&fs::read_to_string(dir.join("manifest.json")).unwrap()).unwrap()
-}
-
-#[test]
-fn exact_every_preset_flies_a_few_steps() {
-    for preset in PRESETS {
-        let case = LoadedCase::find(preset.name, &[]).unwrap_or_else(|e| panic!("{e}"));
-        let mut flight =
-            Simulation::new(case.setup).unwrap_or_else(|e| panic!("{}: {e}", preset.name));
-        for _ in 0..6 {
-            flight
-                .step()
-                .unwrap_or_else(|e| panic!("{}: {e}", preset.name));
-        }
-        assert_eq!(flight.record().step, 6);
-    }
 }
 
 #[test]

@@ -8,11 +8,9 @@ mod actuators;
 mod felt;
 mod joints;
 mod refusals;
-#[path = "../support/mod.rs"]
-mod support;
 mod written;
 
-use support::{Scratch, wingbeat as program};
+use crate::support::{Scratch, wingbeat as program};
 use wingbeat::Flight;
 use wingbeat::analysis::control::{Held, Law, Limits, Reference, Regulator, Steering, Weights};
 use wingbeat::case::LoadedCase;
