@@ -336,5 +336,8 @@ fn exact_ctrl_c_and_sigterm_end_a_run_with_everything_written() {
         assert_eq!(History::read(&history).unwrap().rows(), manifest.steps + 1);
         let summary = fs::read_to_string(scratch.0.join("run/summary.txt")).unwrap();
         assert!(summary.contains("was interrupted; everything up to there is written"));
+        for drawn in ["flight.html", "figures/angles.svg"] {
+            assert!(scratch.0.join("run").join(drawn).is_file(), "{drawn}");
+        }
     }
 }
