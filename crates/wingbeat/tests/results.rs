@@ -234,10 +234,10 @@ fn exact_overwrite_replaces_an_earlier_run_only() {
         &["run", "benchmark-1", "--out", "run", "--quiet"],
     );
     fs::write(scratch.0.join("run/notes.txt"), "mine").unwrap();
-    // As a process that was killed leaves them: of this version, and of one without the number of the process.
+    // As a process that was killed leaves them.
     let left = [
         "manifest.json.4711.part",
-        "checkpoint.bin.part",
+        "checkpoint.bin.4711.part",
         "frames/wakes_000010.vtp.4711.part",
         "flight.glb.4711.part",
         "figures/animation.gif.4711-1.part",
