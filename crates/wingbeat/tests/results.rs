@@ -234,10 +234,10 @@ fn exact_overwrite_replaces_an_earlier_run_only() {
         &["run", "benchmark-1", "--out", "run", "--quiet"],
     );
     fs::write(scratch.0.join("run/notes.txt"), "mine").unwrap();
-    // As a process that was killed leaves them: of this version, and of one without the number of the process.
+    // As a process that was killed leaves them.
     let left = [
         "manifest.json.4711.part",
-        "checkpoint.bin.part",
+        "checkpoint.bin.4711.part",
         "frames/wakes_000010.vtp.4711.part",
         "flight.glb.4711.part",
         "figures/animation.gif.4711-1.part",
@@ -336,5 +336,8 @@ fn exact_ctrl_c_and_sigterm_end_a_run_with_everything_written() {
         assert_eq!(History::read(&history).unwrap().rows(), manifest.steps + 1);
         let summary = fs::read_to_string(scratch.0.join("run/summary.txt")).unwrap();
         assert!(summary.contains("was interrupted; everything up to there is written"));
+        for drawn in ["flight.html", "figures/angles.svg"] {
+            assert!(scratch.0.join("run").join(drawn).is_file(), "{drawn}");
+        }
     }
 }
