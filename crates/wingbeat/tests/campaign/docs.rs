@@ -79,6 +79,10 @@ fn behaves_flights_of_the_pages_on_the_air_are_accepted() {
     let mut count = 0;
     for page in ["separated-flow.md", "lattice-settings.md"] {
         let page = read(page);
+        let is_foil = |b: &&&str| b.contains("name = \"foil\"");
+        for foil in blocks(&page, "toml").iter().filter(is_foil) {
+            fs::write(scratch.0.join("foil.toml"), foil).unwrap();
+        }
         for line in blocks(&page, "sh")
             .iter()
             .flat_map(|b| b.split("wingbeat run ").skip(1))
@@ -87,7 +91,7 @@ fn behaves_flights_of_the_pages_on_the_air_are_accepted() {
             count += 1;
         }
     }
-    assert_eq!(count, 4, "commands");
+    assert_eq!(count, 5, "commands");
     let page = read("choosing-the-air.md");
     fs::write(scratch.0.join("vary.toml"), blocks(&page, "toml")[0]).unwrap();
     let planned = accepted("wingbeat campaign plan vary.toml");
