@@ -220,6 +220,12 @@ impl Equations {
         }
     }
 
+    /// Whether accelerations of elastic wings may jump where the stage begins: not where that of the body is integrated
+    /// itself, from that of rigid wings.
+    pub fn begins_with_jump(&self) -> bool {
+        !self.elastic.is_empty() && (self.core.takes_shapes() || self.core.is_supported())
+    }
+
     /// Components of the state that nothing depends on and that a [`Self::pass`] leaves out.
     pub fn followers(&self) -> Vec<usize> {
         let works = if self.core.is_supported() {

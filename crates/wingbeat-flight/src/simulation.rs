@@ -297,8 +297,8 @@ impl Simulation {
         let mut dy = vec![0.0; equations.dim()];
         let y = &self.state.past.y[k];
         equations.evaluate(t, y, self.state.memory(), &mut self.scratch, &mut dy)?;
-        if equations.elastic.damping_on_joints().is_some() {
-            // Joints accelerate as wings bend, and wings bend as they accelerate: the step before does not tell.
+        if equations.begins_with_jump() || equations.elastic.damping_on_joints().is_some() {
+            // Bodies accelerate as wings bend, and wings bend as they accelerate: the step before does not tell.
             let scales = equations.scales();
             let convergence = convergence(&self.setup.corrector, equations);
             for _ in 0..convergence.max_passes {

@@ -19,6 +19,8 @@ mod leading_edges;
 mod mirrored;
 #[path = "elastic/slips.rs"]
 mod slips;
+#[path = "elastic/starts.rs"]
+mod starts;
 mod support;
 mod veins;
 #[path = "elastic/wakes.rs"]

@@ -125,7 +125,7 @@ impl ElasticRig {
         let ended = |e| self.ended(e, TAU / first);
         // Steps that are too long for loads that act at once are none where a flight of the setup is.
         let long = match settling(LONG, LEAST).to_rest(None) {
-            Err(AnalysisError::Flight(e)) if !matches!(e, FlightError::Setup { .. }) => None,
+            Err(AnalysisError::Flight(e)) if is_sudden(&e, TAU / first) => None,
             found => Some(found.map_err(ended)?),
         };
         let state = settling(1, 4 * LEAST).to_rest(long).map_err(ended)?;
@@ -139,15 +139,12 @@ impl ElasticRig {
         let AnalysisError::Flight(error) = error else {
             return error;
         };
-        let time = match error {
-            FlightError::Setup { .. } => return AnalysisError::Flight(error),
-            FlightError::ElasticNotConverged { time, .. } => time,
-            _ => f64::INFINITY,
-        };
+        if matches!(error, FlightError::Setup { .. }) {
+            return AnalysisError::Flight(error);
+        }
         AnalysisError::NoSteadyState {
             speed: self.speed,
-            error,
-            remedy: match time < SUDDEN * period {
+            remedy: match is_sudden(&error, period) {
                 true => {
                     "That is long before it could have come there: loads that act from the start bend it too fast for the step. Take a smaller step (time.step_s)"
                 }
@@ -155,6 +152,7 @@ impl ElasticRig {
                     "The wing may be beyond static divergence there: try lower speeds, or no incidence"
                 }
             },
+            error,
         }
     }
 
@@ -271,4 +269,9 @@ pub(super) fn leading(
         true => Err(AnalysisError::Numbers("the wing has no vibration".into())),
         false => Ok(found),
     }
+}
+
+/// Whether a flight has ended so early, beside the period \[s\] of the slowest mode, that its wing has not diverged.
+fn is_sudden(error: &FlightError, period: f64) -> bool {
+    matches!(error, FlightError::ElasticNotConverged { time, .. } if *time < SUDDEN * period)
 }

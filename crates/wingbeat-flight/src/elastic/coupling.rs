@@ -164,10 +164,11 @@ impl ElasticWings {
     }
 
     /// Before the first instant of a step of `step` \[s\]: what the shapes will be if nothing new happens.
-    /// Accelerations of the wings are those of the step before.
+    /// Accelerations of the wings are those of the step before. Whether `jumps`: where the motion begins, accelerations
+    /// of the nodes are not known.
     pub fn predict(
         &self,
-        step: f64,
+        (step, jumps): (f64, bool),
         states: &[ElasticState],
         s: &mut ElasticScratch,
         accelerations: &mut [BodyAcceleration],
@@ -179,10 +180,11 @@ impl ElasticWings {
         s.has_answers = false;
         for ((w, ws), state) in self.wings.iter().zip(&mut s.wings).zip(states) {
             let (structure, own) = (&w.structure, &state.structure);
-            // As the joints that carry it start.
-            let method = match self.on_joints && own.is_fresh() {
-                true => GeneralizedAlpha::euler(),
-                false => w.method,
+            let method = match own.is_fresh() {
+                // As the joints that carry it start.
+                true if self.on_joints => GeneralizedAlpha::euler(),
+                true if jumps => GeneralizedAlpha::first(),
+                _ => w.method,
             };
             method.predict(structure, own, step, &mut ws.trial);
             ws.is_predicted = true;

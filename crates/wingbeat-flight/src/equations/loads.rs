@@ -98,7 +98,8 @@ impl Equations {
     ) -> Result<(), FlightError> {
         let n = self.core.dim();
         let known = &mut s.solution.bodies;
-        (self.elastic).predict(self.step, memory.wings, &mut s.elastic, known);
+        let step = (self.step, self.begins_with_jump());
+        (self.elastic).predict(step, memory.wings, &mut s.elastic, known);
         if self.core.takes_shapes() {
             let shapes = self.elastic.shape_masses(&s.elastic);
             s.dynamics.set_shapes(shapes);

@@ -32,6 +32,7 @@ impl Simulation {
             y0.extend(quadratures);
             self.state.stage = next;
             let before = jumps.then(|| Ledger::open(&self.scratch));
+            self.begin_wings();
             self.enter_stage(y0)?;
             if let Some(before) = before {
                 let after = Ledger::open(&self.scratch);
@@ -39,6 +40,21 @@ impl Simulation {
             }
         }
         self.finish_arrival(report, enters)
+    }
+
+    /// Elastic wings where a hold ends: they have the places and velocities of the last step, and their accelerations jump
+    /// with what held the root. Those of the last step stay in the record of this instant.
+    fn begin_wings(&mut self) {
+        let equations = &self.stages[self.state.stage].equations;
+        if !equations.begins_with_jump() {
+            return;
+        }
+        let elastic = &equations.elastic;
+        let (bodies, s) = (&self.scratch.solution.bodies, &mut self.scratch.elastic);
+        elastic.accept(bodies, s, &mut self.state.wings);
+        *s = elastic.scratch(&self.state.wings);
+        let all = self.state.wings.iter_mut();
+        all.for_each(|w| w.structure.begin());
     }
 
     /// How the root goes on when its hold ends, and whether with another velocity or attitude than it had.

@@ -50,6 +50,12 @@ impl State {
         let mut both = self.acceleration.iter().chain(&self.algorithmic);
         both.all(|a| *a == 0.0)
     }
+
+    /// Makes this the state of a start: its accelerations are those of before, and jump.
+    pub fn begin(&mut self) {
+        self.acceleration.fill(0.0);
+        self.algorithmic.fill(0.0);
+    }
 }
 
 /// A state that a step may end in, while it is sought.
@@ -168,6 +174,17 @@ impl GeneralizedAlpha {
             gamma,
             beta: 0.25 * (gamma + 0.5) * (gamma + 0.5),
         })
+    }
+
+    /// A first step that needs no acceleration at its start: over the step it is that of the end. Places and velocities
+    /// have errors of third and of second order, as a single step of a method of second order may.
+    pub fn first() -> Self {
+        Self {
+            alpha_m: 0.0,
+            alpha_f: 0.0,
+            gamma: 1.0,
+            beta: 0.5,
+        }
     }
 
     /// Euler's backward method, which knows no acceleration at the start.
