@@ -325,7 +325,7 @@ fn refuses_joined_edges_that_do_not_fit() {
         join(good(), edge)
     };
     assert!(with(&|s| s.surfaces[1] = 7).contains("no such surface"));
-    assert!(with(&|s| s.surfaces[1] = 0).contains("two different"));
+    assert!(with(&|s| s.surfaces[1] = 0).contains("no plane of images"));
     assert!(with(&|s| s.nodes[2][1] = 99).contains("node does not exist"));
     assert!(with(&|s| s.nodes.truncate(1)).contains("two pairs"));
     assert!(with(&|s| s.nodes.swap(0, 1)).contains("no edge"));

@@ -272,7 +272,7 @@ mod tests {
         let beat = |number: usize, thrust: f64, by_impulse: f64| -> BeatMeans {
             let text = format!(
                 r#"{{"beat": {number}, "lift_newton": -9.37e3, "lift_over_weight": null, "thrust_newton": {thrust},
-                "power_watt": 0, "inviscid_lift_newton": -9.37e3, "lift_by_impulse_newton": {by_impulse}}}"#
+                "power_watt": 0, "positive_power_watt": 0, "inviscid_lift_newton": -9.37e3, "lift_by_impulse_newton": {by_impulse}}}"#
             );
             serde_json::from_str(&text).unwrap()
         };
