@@ -56,15 +56,15 @@ pub enum AnalysisError {
     },
     /// The flight to the steady state of a wing in a stream ended.
     #[error(
-        "at {speed} m/s no steady state was found, about which vibrations are sought: {error}. {remedy}"
+        "at {speed} m/s no steady state was found, about which vibrations are sought: {error}. {}", towards_rest(*is_sudden)
     )]
     NoSteadyState {
         /// Speed of the stream [m/s].
         speed: f64,
         /// How the flight ended.
         error: FlightError,
-        /// What to try.
-        remedy: &'static str,
+        /// Whether it did so long before the wing could have come there.
+        is_sudden: bool,
     },
     /// A number is not finite or a matrix singular.
     #[error("{0}")]
@@ -76,6 +76,18 @@ impl AnalysisError {
         Self::NotCovered {
             what: what.into(),
             remedy,
+        }
+    }
+}
+
+/// What to try where a flight to the steady state ended.
+fn towards_rest(is_sudden: bool) -> &'static str {
+    match is_sudden {
+        true => {
+            "That is long before it could have come there: loads that act from the start bend it too fast for the step. Take a smaller step (time.step_s)"
+        }
+        false => {
+            "The wing may be beyond static divergence there: try lower speeds, or no incidence"
         }
     }
 }

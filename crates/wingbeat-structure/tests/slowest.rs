@@ -21,7 +21,7 @@ fn plate(n: usize, skew: f64, all: bool) -> Structure {
     }
     for (k, x) in rest.position.iter().enumerate() {
         let across = x.y - skew * x.x;
-        let edge = |x: f64| x < 1e-9 || x > 1.0 - 1e-9;
+        let edge = |x: f64| !(1e-9..=1.0 - 1e-9).contains(&x);
         if x.x < 1e-9 || all && (edge(x.x) || edge(across)) {
             body = body.clamp(k);
         }

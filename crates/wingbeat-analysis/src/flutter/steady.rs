@@ -144,14 +144,7 @@ impl ElasticRig {
         }
         AnalysisError::NoSteadyState {
             speed: self.speed,
-            remedy: match is_sudden(&error, period) {
-                true => {
-                    "That is long before it could have come there: loads that act from the start bend it too fast for the step. Take a smaller step (time.step_s)"
-                }
-                false => {
-                    "The wing may be beyond static divergence there: try lower speeds, or no incidence"
-                }
-            },
+            is_sudden: is_sudden(&error, period),
             error,
         }
     }

@@ -91,7 +91,7 @@ fn animal(case: &Case, name: &str) -> Built<Animal> {
     };
     segment::split(case, &mut animal)?;
     let is_carried = |wing: &Wing| hinge::is_carried(case, &wing.name);
-    (animal.check_with(&is_carried)).map_err(|e| fault_of_animal(case, e))?;
+    (animal.check_with(is_carried)).map_err(|e| fault_of_animal(case, e))?;
     let scale = case.animal.scale;
     let mut animal = scaled(&animal, scale, is_carried)?;
     if case.dynamics.wings == WingInertia::Massless {

@@ -171,7 +171,7 @@ fn section(
     let speed = quarter.dot(aft).hypot(quarter.dot(normal));
     let suction = (relative(0.5).dot(normal) / speed).abs();
     let width = across.reject_from(aft).length();
-    (speed > 0.0).then(|| Section {
+    (speed > 0.0).then_some(Section {
         speed,
         suction,
         chord,

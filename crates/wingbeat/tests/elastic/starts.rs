@@ -86,7 +86,7 @@ fn cantilever(i: usize) -> [f64; 2] {
 /// Of the mode number i of unit mass: displacement of the tip and the integral of the shape (length and mass one).
 fn shape(i: usize) -> [f64; 2] {
     let [beta, sigma] = cantilever(i);
-    let tip = if i % 2 == 0 { 2.0 } else { -2.0 };
+    let tip = if i.is_multiple_of(2) { 2.0 } else { -2.0 };
     [tip, 2.0 * sigma / beta]
 }
 
