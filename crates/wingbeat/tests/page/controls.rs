@@ -4,12 +4,11 @@ use serde_json::json;
 
 use crate::browser::Browser;
 use crate::support::{Scratch, flown, wingbeat};
-use crate::{RUN, content, started};
+use crate::{RUN, content, lent};
 
 #[test]
 fn behaves_time_can_be_chosen_while_it_plays() {
-    let scratch = Scratch::new("browser-seek");
-    let Some(mut browser) = started(&scratch, &[]) else {
+    let Some(mut browser) = lent() else {
         return;
     };
     browser.open(&RUN.join("flight.html"), "wake=");
@@ -37,8 +36,7 @@ fn behaves_time_can_be_chosen_while_it_plays() {
 
 #[test]
 fn behaves_keys_belong_to_the_control_that_has_the_focus() {
-    let scratch = Scratch::new("browser-keys");
-    let Some(mut browser) = started(&scratch, &[]) else {
+    let Some(mut browser) = lent() else {
         return;
     };
     browser.open(&RUN.join("flight.html"), "");
@@ -94,8 +92,7 @@ fn behaves_keys_belong_to_the_control_that_has_the_focus() {
 /// What a link may choose is obeyed while the page is open, too; what it does not name stays.
 #[test]
 fn behaves_a_changed_link_is_obeyed() {
-    let scratch = Scratch::new("browser-link");
-    let Some(mut browser) = started(&scratch, &[]) else {
+    let Some(mut browser) = lent() else {
         return;
     };
     let shown = "JSON.stringify([frameNow(), state.view, state.theme, document.documentElement.dataset.theme, byId('colour').value, byId('force').value, +byId('age').value, byId('on-smoke').getAttribute('aria-pressed'), byId('on-vortices').getAttribute('aria-pressed')])";
@@ -116,8 +113,7 @@ fn behaves_a_changed_link_is_obeyed() {
 /// A print is light, whatever the page is, and as it was afterwards; the scene has a height at any width.
 #[test]
 fn behaves_prints_are_light() {
-    let scratch = Scratch::new("browser-print");
-    let Some(mut browser) = started(&scratch, &[]) else {
+    let Some(mut browser) = lent() else {
         return;
     };
     browser.open(&RUN.join("flight.html"), "frame=3&theme=dark");
@@ -140,8 +136,7 @@ fn behaves_prints_are_light() {
 /// Two fingers on a plot zoom it and leave the time; one that taps or moves changes the time.
 #[test]
 fn behaves_a_pinch_on_a_plot_leaves_the_time() {
-    let scratch = Scratch::new("browser-pinch");
-    let Some(mut browser) = started(&scratch, &[]) else {
+    let Some(mut browser) = lent() else {
         return;
     };
     browser.open(&RUN.join("flight.html"), "frame=3");
@@ -158,8 +153,7 @@ fn behaves_a_pinch_on_a_plot_leaves_the_time() {
 
 #[test]
 fn behaves_a_film_of_the_scene_is_recorded() {
-    let scratch = Scratch::new("browser-film");
-    let Some(mut browser) = started(&scratch, &[]) else {
+    let Some(mut browser) = lent() else {
         return;
     };
     browser.open(&RUN.join("flight.html"), "frame=8&wake=smoke&speed=2");
@@ -190,7 +184,7 @@ fn stepped(browser: &mut Browser, flight: usize) -> [f64; 2] {
 #[test]
 fn behaves_two_flights_keep_step() {
     let scratch = Scratch::new("browser-pair");
-    let Some(mut browser) = started(&scratch, &[]) else {
+    let Some(mut browser) = lent() else {
         return;
     };
     for out in ["a", "b"] {

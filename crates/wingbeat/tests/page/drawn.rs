@@ -4,13 +4,13 @@ use serde_json::json;
 use wingbeat::results::frames::Frame;
 
 use crate::support::{Scratch, flown};
-use crate::{RUN, content, started};
+use crate::{RUN, content, lent};
 
 /// Bodies are posed by matrices, not drawn from the frames: a node of the page is the node of the frame.
 #[test]
 fn exact_the_page_poses_the_parts_of_an_animal_with_joints() {
     let scratch = Scratch::new("browser-joints");
-    let Some(mut browser) = started(&scratch, &[]) else {
+    let Some(mut browser) = lent() else {
         return;
     };
     let args = ["run", "fruit-fly-abdomen", "--quiet", "--out", "run"];
@@ -46,7 +46,7 @@ fn exact_the_page_poses_the_parts_of_an_animal_with_joints() {
 #[test]
 fn exact_surfaces_of_a_straight_vortex_are_its_cylinder() {
     let scratch = Scratch::new("browser-cylinder");
-    let Some(mut browser) = started(&scratch, &[]) else {
+    let Some(mut browser) = lent() else {
         return;
     };
     let args = ["run", "fruit-fly-vacuum", "--quiet", "--out", "run"];
@@ -84,7 +84,7 @@ fn exact_surfaces_of_a_straight_vortex_are_its_cylinder() {
 #[test]
 fn exact_wakes_have_the_half_strokes_of_their_wings() {
     let scratch = Scratch::new("browser-four");
-    let Some(mut browser) = started(&scratch, &[]) else {
+    let Some(mut browser) = lent() else {
         return;
     };
     let args = ["run", "dragonfly", "--quiet", "--out", "run"];
@@ -143,7 +143,7 @@ fn exact_wakes_have_the_half_strokes_of_their_wings() {
 #[test]
 fn exact_joined_wings_shed_no_root_vortex() {
     let scratch = Scratch::new("browser-joined");
-    let Some(mut browser) = started(&scratch, &[]) else {
+    let Some(mut browser) = lent() else {
         return;
     };
     let args = [
@@ -183,7 +183,7 @@ fn exact_joined_wings_shed_no_root_vortex() {
 #[test]
 fn behaves_a_body_without_shape_is_drawn_as_its_ellipsoid() {
     let scratch = Scratch::new("browser-ellipsoid");
-    let Some(mut browser) = started(&scratch, &[]) else {
+    let Some(mut browser) = lent() else {
         return;
     };
     let args = [
@@ -212,7 +212,7 @@ fn behaves_a_body_without_shape_is_drawn_as_its_ellipsoid() {
 #[test]
 fn behaves_legends_say_what_is_drawn() {
     let scratch = Scratch::new("browser-legend");
-    let Some(mut browser) = started(&scratch, &[]) else {
+    let Some(mut browser) = lent() else {
         return;
     };
     let legend = "document.getElementById('legend').textContent";

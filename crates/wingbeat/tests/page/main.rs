@@ -1,8 +1,10 @@
 //! The flight page: bounded in size, true to the frames, and at work in a real browser.
 
 use std::fs;
+use std::ops::{Deref, DerefMut};
 use std::path::{Path, PathBuf};
-use std::sync::LazyLock;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{LazyLock, Mutex};
 
 #[path = "../support/browser.rs"]
 mod browser;
@@ -57,12 +59,53 @@ fn tips(browser: &mut Browser) -> Vec<Vec<f64>> {
 }
 
 /// A browser, or a word that there is none.
-fn started(scratch: &Scratch, flags: &[&str]) -> Option<Browser> {
-    let browser = Browser::start(&scratch.0, flags);
+fn started(folder: &Path, flags: &[&str]) -> Option<Browser> {
+    let browser = Browser::start(folder, flags);
     if browser.is_none() {
         required("no browser (chromium, google-chrome) was found");
     }
     browser
+}
+
+/// Browsers that wait for a next test: to start one takes longer than most tests do.
+static IDLE: Mutex<Vec<Browser>> = Mutex::new(vec![]);
+
+/// A browser without flags, for one test; after one that fails there is no next.
+struct Lent(Option<Browser>);
+
+fn lent() -> Option<Lent> {
+    static STARTED: AtomicUsize = AtomicUsize::new(0);
+    let idle = IDLE.lock().unwrap().pop();
+    idle.or_else(|| {
+        let number = STARTED.fetch_add(1, Ordering::Relaxed);
+        let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("browser-{number}"));
+        let _ = fs::remove_dir_all(&folder);
+        fs::create_dir_all(&folder).unwrap();
+        started(&folder, &[])
+    })
+    .map(|browser| Lent(Some(browser)))
+}
+
+impl Deref for Lent {
+    type Target = Browser;
+
+    fn deref(&self) -> &Browser {
+        self.0.as_ref().unwrap()
+    }
+}
+
+impl DerefMut for Lent {
+    fn deref_mut(&mut self) -> &mut Browser {
+        self.0.as_mut().unwrap()
+    }
+}
+
+impl Drop for Lent {
+    fn drop(&mut self) {
+        if !std::thread::panicking() {
+            IDLE.lock().unwrap().extend(self.0.take());
+        }
+    }
 }
 
 fn content(browser: &mut Browser) {
@@ -72,8 +115,7 @@ fn content(browser: &mut Browser) {
 
 #[test]
 fn exact_the_page_works_in_a_browser() {
-    let scratch = Scratch::new("browser");
-    let Some(mut browser) = started(&scratch, &[]) else {
+    let Some(mut browser) = lent() else {
         return;
     };
     let page = RUN.join("flight.html");
@@ -121,7 +163,7 @@ fn exact_the_page_works_in_a_browser() {
 #[test]
 fn behaves_without_webgl_the_flight_is_drawn_flat_and_says_so() {
     let scratch = Scratch::new("browser-flat");
-    let Some(mut browser) = started(&scratch, &["--disable-3d-apis"]) else {
+    let Some(mut browser) = started(&scratch.0, &["--disable-3d-apis"]) else {
         return;
     };
     browser.open(&RUN.join("flight.html"), "frame=3");
@@ -157,7 +199,7 @@ fn behaves_without_webgl_the_flight_is_drawn_flat_and_says_so() {
 #[test]
 fn behaves_any_description_is_shown() {
     let scratch = Scratch::new("browser-words");
-    let Some(mut browser) = started(&scratch, &[]) else {
+    let Some(mut browser) = lent() else {
         return;
     };
     let words = &format!(
