@@ -71,8 +71,20 @@ pub(crate) fn text_of_input() -> Result<String, IoError> {
     Ok(text)
 }
 
-/// Reads files of meshes, outlines and tables; paths are relative to `base`.
-pub(crate) fn read_in(case: &mut Case, base: &Path) -> Result<(), Fault> {
+/// Rows of a table of angles that hold no angle, and are left out.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct TableGaps {
+    /// The key of the table.
+    pub key: String,
+    /// Rows of its file without an angle \[1\].
+    pub left_out: usize,
+    /// Rows of its file with one \[1\].
+    pub kept: usize,
+}
+
+/// Reads files of meshes, outlines and tables; paths are relative to `base`. What the tables lack comes back.
+pub(crate) fn read_in(case: &mut Case, base: &Path) -> Result<Vec<TableGaps>, Fault> {
+    let mut gaps = vec![];
     for (name, part) in &mut case.body.part {
         read_mesh(&format!("body.part.{name}"), part, base)?;
     }
@@ -91,11 +103,19 @@ pub(crate) fn read_in(case: &mut Case, base: &Path) -> Result<(), Fault> {
         ];
         for (key, angle) in angles {
             if let Some(AngleCase::Table(table)) = angle {
-                angles::read(&format!("{path}.{key}.table"), table, base)?;
+                let key = format!("{path}.{key}.table");
+                let left_out = angles::read(&key, table, base)?;
+                let kept = table.rows_deg.as_ref().map_or(0, Vec::len);
+                gaps.push(TableGaps {
+                    key,
+                    left_out,
+                    kept,
+                });
             }
         }
     }
-    Ok(())
+    gaps.retain(|table| table.left_out > 0);
+    Ok(gaps)
 }
 
 fn read_mesh(path: &str, part: &mut PartCase, base: &Path) -> Result<(), Fault> {

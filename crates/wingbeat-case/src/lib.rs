@@ -47,7 +47,7 @@ pub use decode::nearest;
 pub use differences::{Difference, differences};
 pub use document::{Document, overridden};
 pub use error::{CaseError, IoError};
-pub use files::csv_reader;
+pub use files::{TableGaps, csv_reader};
 pub use fitted::FittedTable;
 pub use keys::{SCHEMA_FILE, schema, with_schema};
 pub use loaded::LoadedCase;

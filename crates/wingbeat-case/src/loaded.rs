@@ -9,6 +9,7 @@ use wingbeat_flight::{AirModel, FlightError, FlightSetup};
 use crate::error::{CaseError, Fault, IoError};
 use crate::external::Unasked;
 use crate::external::controller::Uncommanded;
+use crate::files::TableGaps;
 use crate::output::OutputSettings;
 use crate::source::CaseSource;
 use crate::{build, decode, files, keys, presets, raw, resolve};
@@ -24,6 +25,8 @@ pub struct LoadedCase {
     pub output: OutputSettings,
     /// The resolved case: files read in, no key left open.
     pub raw: raw::Case,
+    /// Tables of angles with rows that hold none.
+    pub table_gaps: Vec<TableGaps>,
     source: CaseSource,
 }
 
@@ -47,14 +50,17 @@ impl LoadedCase {
             .and_then(|s| s.to_str())
             .unwrap_or("case");
         let name = raw.name.get_or_insert_with(|| stem.to_owned()).clone();
-        let built = check_name(&name)
-            .and_then(|()| keys::alone(&source.table))
-            .and_then(|()| files::read_in(&mut raw, base))
-            .and_then(|()| resolve::resolve(&mut raw))
-            .and_then(|()| keys::together(&source, &table(&raw)))
-            .and_then(|()| build::setup(&raw, &name))
-            .and_then(|setup| build::check_effects(&raw, &setup, &source).map(|()| setup));
-        let setup = built.map_err(|fault| Box::new(source.locate(fault)))?;
+        let mut built = || {
+            check_name(&name)?;
+            keys::alone(&source.table)?;
+            let gaps = files::read_in(&mut raw, base)?;
+            resolve::resolve(&mut raw)?;
+            keys::together(&source, &table(&raw))?;
+            let setup = build::setup(&raw, &name)?;
+            build::check_effects(&raw, &setup, &source)?;
+            Ok((setup, gaps))
+        };
+        let (setup, table_gaps) = built().map_err(|fault| Box::new(source.locate(fault)))?;
         resolve::leave_out_data(&mut raw);
         if raw.air.model != raw::AirModel::VortexLattice {
             raw.output.frames_every = 0; // there are none
@@ -65,6 +71,7 @@ impl LoadedCase {
             setup,
             output,
             raw,
+            table_gaps,
             source,
         })
     }

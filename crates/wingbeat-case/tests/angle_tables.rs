@@ -19,17 +19,56 @@ fn refuses_tables_without_a_header() {
     assert!(said.contains(says), "{said}");
 }
 
-/// A missing sample is a row to be left out.
+/// A lost frame is no sample: the law is that of the table without its row, whatever stands in its cell.
 #[test]
-fn refuses_empty_cells_with_what_to_do() {
+fn exact_rows_without_an_angle_are_left_out() {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("slips");
     fs::create_dir_all(&folder).unwrap();
-    let file = folder.join("empty-cell.csv");
-    fs::write(&file, "phase,angle_deg\n0,10\n0.25,\n0.5,-10\n0.75,3\n").unwrap();
-    let law = format!("wing.right.motion.phi={{ table = {{ file = {file:?} }} }}");
-    let said = refusal("fruit-fly-hover", &[&law]);
-    assert!(said.contains("line 3: a cell is empty"), "{said}");
-    assert!(said.contains("leave the row out"), "{said}");
+    let loaded = |name: &str, cells: [&str; 2]| {
+        let file = folder.join(format!("gaps-{name}.csv"));
+        let [third, sixth] = cells;
+        let rows =
+            format!("phase,angle_deg\n0,10\n0.125,8\n{third}0.375,-8\n0.5,-10\n{sixth}0.75,3\n");
+        fs::write(&file, rows).unwrap();
+        let law = format!("wing.right.motion.phi={{ table = {{ file = {file:?} }} }}");
+        LoadedCase::find("fruit-fly-hover", &[law]).unwrap()
+    };
+    let without = loaded("none", ["", ""]);
+    assert_eq!(without.table_gaps, []);
+    for (name, cells) in [
+        ("empty", ["0.25,\n", "0.625\u{20},\u{20}\n"]),
+        ("nan", ["0.25,NaN\n", "0.625,n/a\n"]),
+        ("both", ["nan,nan\n", "0.625,NA\n"]),
+    ] {
+        let case = loaded(name, cells);
+        assert_eq!(
+            case.setup.animal.wings, without.setup.animal.wings,
+            "{name}"
+        );
+        let [gaps] = &case.table_gaps[..] else {
+            panic!("{:?}", case.table_gaps)
+        };
+        let told = (gaps.key.as_str(), gaps.left_out, gaps.kept);
+        assert_eq!(told, ("wing.right.motion.phi.table", 2, 6));
+    }
+}
+
+/// An angle without its time, and a point of an outline without one of its places, are no lost frames.
+#[test]
+fn refuses_rows_that_lack_a_phase_or_a_place() {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("slips");
+    fs::create_dir_all(&folder).unwrap();
+    let angles = folder.join("no-phase.csv");
+    fs::write(&angles, "phase,angle_deg\n0,10\n,3\n0.5,-10\n0.75,3\n").unwrap();
+    let law = format!("wing.right.motion.phi={{ table = {{ file = {angles:?} }} }}");
+    let points = folder.join("no-place.csv");
+    fs::write(&points, "x_mm,y_mm\n0,0\n2,\n2,1\n0,1\n").unwrap();
+    let outline = format!("wing.right.planform={{ outline = {{ file = {points:?} }} }}");
+    for set in [law, outline] {
+        let said = refusal("fruit-fly-hover", &[&set]);
+        assert!(said.contains("line 3: a cell is empty"), "{said}");
+        assert!(said.contains("leave the row out"), "{said}");
+    }
 }
 
 #[test]

@@ -14,13 +14,14 @@ use crate::raw::TableCase;
 /// The angles of a wing.
 const ANGLES: [&str; 3] = ["phi", "theta", "psi"];
 
-/// Puts the rows of the table at `path` into this program's convention, those of its file if it names one.
-pub(super) fn read(path: &str, table: &mut TableCase, base: &Path) -> Result<(), Fault> {
+/// Puts the rows of the table at `path` into this program's convention, those of its file if it names one; how many
+/// rows of the file have no angle.
+pub(super) fn read(path: &str, table: &mut TableCase, base: &Path) -> Result<usize, Fault> {
     let convention = Convention::take(path, table)?;
     let Some(name) = table.file.take() else {
         let rows = table.rows_deg.iter_mut().flatten();
         rows.for_each(|row| *row = convention.apply(*row));
-        return Ok(());
+        return Ok(0);
     };
     let key = format!("{path}.file");
     if table.rows_deg.is_some() {
@@ -32,10 +33,10 @@ pub(super) fn read(path: &str, table: &mut TableCase, base: &Path) -> Result<(),
     };
     let columns = [&table.phase_column, &table.angle_column];
     let names = columns.map(|c| c.as_deref());
-    let rows = rows(&csv, names, &convention, table.harmonics)?;
+    let (rows, gaps) = rows(&csv, names, &convention, table.harmonics)?;
     table.rows_deg = Some(rows);
     (table.phase_column, table.angle_column) = (None, None);
-    Ok(())
+    Ok(gaps)
 }
 
 /// How a table counts phases and angles.
@@ -72,13 +73,14 @@ impl Convention {
     }
 }
 
-/// Phase \[1\] and angle \[deg\] of each row, from these columns, or the first two.
+/// Phase \[1\] and angle \[deg\] of each row that has an angle, from these columns, or the first two; how many rows
+/// have none.
 fn rows(
     csv: &CsvFile,
     names: [Option<&str>; 2],
     convention: &Convention,
     harmonics: Option<usize>,
-) -> Result<Vec<[f64; 2]>, Fault> {
+) -> Result<(Vec<[f64; 2]>, usize), Fault> {
     let choose = |header: &StringRecord| {
         let columns = [
             csv.column(header, names[0], 0)?,
@@ -106,7 +108,7 @@ fn rows(
             None => fault,
         }
     })?;
-    Ok(rows)
+    Ok((rows, table.gaps.len()))
 }
 
 /// The fault of a table of times, with how many wingbeats it has and what a unit of its column asks for.

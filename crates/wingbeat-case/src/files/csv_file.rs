@@ -10,6 +10,9 @@ use crate::error::Fault;
 /// The byte order mark of UTF-8.
 const MARK: &[u8] = b"\xef\xbb\xbf";
 
+/// What cells hold in which there is no number, in letters of either case.
+const NONE: [&str; 4] = ["", "nan", "na", "n/a"];
+
 /// A CSV file, and the key that names it.
 pub(super) struct CsvFile {
     pub key: String,
@@ -23,6 +26,8 @@ pub(super) struct Columns {
     pub rows: Vec<[f64; 2]>,
     /// The line of the file that each row stands in, counted from 1.
     pub lines: Vec<u64>,
+    /// The lines of the rows left out, whose second cell, or both, are empty or no number (`NaN`, `NA`).
+    pub gaps: Vec<u64>,
 }
 
 impl CsvFile {
@@ -41,15 +46,23 @@ impl CsvFile {
             names: columns.map(name),
             rows: vec![],
             lines: vec![],
+            gaps: vec![],
         };
         for record in reader.records() {
             let record = record.map_err(|e| self.bad(&e.to_string()))?;
+            let line = line_of(&record);
             let [x, y] = columns.map(|k| self.number(&record, k));
-            found.rows.push([x?, y?]);
-            found.lines.push(line_of(&record));
+            match (x?, y?) {
+                (Some(x), Some(y)) => {
+                    found.rows.push([x, y]);
+                    found.lines.push(line);
+                }
+                (_, None) => found.gaps.push(line),
+                (None, Some(_)) => return Err(self.empty(line)),
+            }
         }
         if found.rows.is_empty() {
-            return Err(self.bad("there are no rows below the header"));
+            return Err(self.bad("there are no rows of numbers below the header"));
         }
         Ok(found)
     }
@@ -90,20 +103,26 @@ impl CsvFile {
         }
     }
 
-    fn number(&self, record: &StringRecord, column: usize) -> Result<f64, Fault> {
+    /// The number in a cell; none in one that is empty or says that there is none.
+    fn number(&self, record: &StringRecord, column: usize) -> Result<Option<f64>, Fault> {
         let text = record.get(column).unwrap_or("");
+        if NONE.iter().any(|none| text.eq_ignore_ascii_case(none)) {
+            return Ok(None);
+        }
         let value = text.parse::<f64>().ok().filter(|x| x.is_finite());
-        value.ok_or_else(|| {
+        value.map(Some).ok_or_else(|| {
             let line = line_of(record);
-            if text.is_empty() {
-                let mut fault = self.bad(&format!("line {line}: a cell is empty"));
-                fault.remedy =
-                    "leave the row out: samples need not be evenly spaced, and each angle may have a file of its own where they lack in different rows; or write the number"
-                        .into();
-                return fault;
-            }
             self.bad(&format!("line {line}: `{text}` is not a finite number"))
         })
+    }
+
+    /// A row of this line has to have both numbers, and one is missing.
+    pub fn empty(&self, line: u64) -> Fault {
+        let mut fault = self.bad(&format!(
+            "line {line}: a cell is empty, or says that there is no number"
+        ));
+        fault.remedy = "write the number, or leave the row out".into();
+        fault
     }
 
     /// What is wrong with the file.

@@ -76,6 +76,9 @@ fn points(csv: &CsvFile, outline: &OutlineCase) -> Result<(Vec<[f64; 2]>, Option
         ])
     };
     let found = csv.columns(choose)?;
+    if let Some(&line) = found.gaps.first() {
+        return Err(csv.empty(line));
+    }
     let [x, y] = found.names.each_ref().map(|name| unit(name));
     if x != y {
         let [x, y] = found.names;

@@ -303,7 +303,8 @@ pub struct TableCase {
     #[schemars(length(min = 4))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub rows_deg: Option<Vec<[f64; 2]>>,
-    /// CSV file with a header, path relative to the case file; lines from `#` are comments.
+    /// CSV file with a header, path relative to the case file; lines from `#` are comments, rows whose angle is empty
+    /// or `NaN` are left out.
     ///
     /// Change it for tables of many rows.
     #[schemars(extend("or" = "rows_deg"))]

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 use serde_json::{Value, json};
 use wingbeat::analysis::estimate;
-use wingbeat::case::{FittedTable, IoError, LoadedCase, MixedAngles};
+use wingbeat::case::{FittedTable, IoError, LoadedCase, MixedAngles, TableGaps};
 use wingbeat::flight::{AirModel, FlightSetup, MotionMode, Simulation};
 use wingbeat::model::ElasticReport;
 use wingbeat::results::fixed::fixed;
@@ -66,6 +66,7 @@ fn look(args: &CheckArgs, report: &mut Report) -> Result<(), IoError> {
     let cost = cost.inspect_err(|_| warn())?;
     entry!(report, "cost", "{cost}");
     report.value("cost", cost.value());
+    tell_gaps(report, &case.table_gaps);
     tell_fits(report, &fits);
     warn();
     report.value("warnings", estimate.doubts);
@@ -95,6 +96,22 @@ fn tell_mixed(report: &mut Report, wings: &[MixedAngles]) {
         })
     };
     report.value("mixed_angles", wings.iter().map(value).collect::<Vec<_>>());
+}
+
+/// Rows without an angle in tables of them.
+fn tell_gaps(report: &mut Report, gaps: &[TableGaps]) {
+    for table in gaps {
+        entry!(
+            report,
+            "gaps",
+            "{}: {} of {} rows have no angle and are left out",
+            table.key,
+            table.left_out,
+            table.left_out + table.kept
+        );
+    }
+    let value = |t: &TableGaps| json!({ "key": t.key, "left_out": t.left_out, "kept": t.kept });
+    report.value("table_gaps", gaps.iter().map(value).collect::<Vec<_>>());
 }
 
 /// What is left between samples of angles and the series fitted to them.
