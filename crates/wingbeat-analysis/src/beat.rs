@@ -8,6 +8,8 @@
 //! State: mass centre, quaternion, linear momentum, angular momentum about the mass centre (13
 //! numbers, N components), then coordinates and speeds of the free joints.
 
+pub(crate) mod level;
+pub(crate) mod mean;
 pub(crate) mod periodic;
 
 use std::ops::Range;

@@ -6,15 +6,27 @@
 //! into the loop of a flight, [`SteeredBeats`] flies one beat by beat; a [`Design`] lays it out when a flight
 //! is built.
 
-pub use crate::departure::{CONTROLS, Controls, Departure, Limits, Reference, adjustments};
-pub use crate::design::{Design, LawDesign, Target};
-pub use crate::disturbance::disturbed;
-pub use crate::part::{Orbit, Part};
-pub use crate::regulator::observer::{Kalman, Observer, ProcessNoise, kalman};
-pub use crate::regulator::plant::{Plant, STATES, states};
-pub use crate::regulator::{Regulator, Timing, Weights};
-pub use crate::route::{Route, Waypoint};
-pub use crate::sensing::Sensing;
-pub use crate::sensors::{Channels, Sensors};
-pub use crate::stabiliser::{ProportionalDerivative, Stiffness};
-pub use crate::steering::{Held, Law, SteeredBeats, Steering};
+pub(crate) mod closed_loop;
+pub(crate) mod departure;
+pub(crate) mod design;
+pub(crate) mod part;
+pub(crate) mod regulator;
+pub(crate) mod route;
+pub(crate) mod sensing;
+pub(crate) mod sensors;
+pub(crate) mod stabiliser;
+pub(crate) mod steering;
+
+pub use departure::{CONTROLS, Controls, Departure, Limits, Reference, adjustments};
+pub use design::{Design, LawDesign, Target};
+pub use part::{Orbit, Part};
+pub use regulator::observer::{Kalman, Observer, ProcessNoise, kalman};
+pub use regulator::plant::{Plant, STATES, states};
+pub use regulator::{Regulator, Timing, Weights};
+pub use route::{Route, Waypoint};
+pub use sensing::Sensing;
+pub use sensors::{Channels, Sensors};
+pub use stabiliser::{ProportionalDerivative, Stiffness};
+pub use steering::{Held, Law, SteeredBeats, Steering};
+
+pub use crate::stability::disturbance::disturbed;

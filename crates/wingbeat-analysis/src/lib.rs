@@ -29,80 +29,48 @@
 #![warn(missing_docs)]
 
 mod beat;
-mod closed_loop;
-mod continuation;
 pub mod control;
 pub mod cost;
-mod departure;
-mod derivatives;
-mod design;
-mod disturbance;
-mod eigen;
 pub mod ensemble;
 pub mod episode;
 mod error;
-pub mod flutter;
-mod jacobian;
-mod least_power;
-mod level;
-mod lost;
-mod mean;
-mod modes;
-mod moving;
-mod part;
 mod plausibility;
 mod power;
-mod problem;
 pub mod progress;
-mod realisation;
-mod regulator;
-mod request;
-mod residuals;
-mod rigid_body;
-mod root;
-mod route;
-mod sensing;
-mod sensors;
-mod solution;
-mod stabiliser;
 mod stability;
-mod steady;
-mod steering;
 mod sweep;
-mod table;
 mod trim;
 mod turned;
-mod unknown;
+mod vibration;
 pub mod wake;
-mod wing_modes;
 
+pub use beat::level::{Level, Perturbation, STATE};
 pub use beat::{Beat, Integration, State};
-pub use derivatives::{Control, ControlDerivative, control_derivatives};
-pub use eigen::{Eigenpair, eigen};
 pub use error::AnalysisError;
-pub use flutter::{Condition, FlutterSettings};
-pub use jacobian::jacobian;
-pub use least_power::trim_within;
-pub use level::{Level, Perturbation, STATE};
-pub use lost::{Lost, Way};
-pub use modes::{Mode, ModeSet, Plane, Scales};
 pub use plausibility::{
     Estimate, KeptWake, WingEstimate, doubtful_reynolds_numbers, estimate, kept_wake,
     stroke_amplitude, way_in_a_step,
 };
 pub use power::{Power, PowerQuantity, power, power_of_trim, power_with_wake};
-pub use problem::{TrimProblem, TrimSettings, turned_inside_out};
-pub use request::TrimRequest;
-pub use residuals::Residuals;
-pub use solution::TrimSolution;
+pub use stability::derivatives::{Control, ControlDerivative, control_derivatives};
+pub use stability::eigen::{Eigenpair, eigen};
+pub use stability::jacobian::jacobian;
+pub use stability::modes::{Mode, ModeSet, Plane, Scales};
+pub use stability::table::{rigid_animal, table_model};
 pub use stability::{
     LOADS, LinearModel, floquet, floquet_of_trim, input_matrix, linear_model, orbit_monodromy,
     trimmed_controls,
 };
-pub use steady::{SPEED_OF_SOUND, TRIM_STEPS};
+pub use sweep::least_power::trim_within;
 pub use sweep::{Sweep, Swept, sweep};
-pub use table::{rigid_animal, table_model};
+pub use trim::lost::{Lost, Way};
+pub use trim::preconditions::{SPEED_OF_SOUND, TRIM_STEPS};
+pub use trim::problem::{TrimProblem, TrimSettings, turned_inside_out};
+pub use trim::request::TrimRequest;
+pub use trim::residuals::Residuals;
+pub use trim::solution::TrimSolution;
+pub use trim::unknown::{Bound, UNKNOWNS, Unknown, UnknownKind};
 pub use trim::{Trim, trim, trim_from};
 pub use turned::{turned_over, turned_over_with_wake};
-pub use unknown::{Bound, UNKNOWNS, Unknown, UnknownKind};
-pub use wing_modes::{About, Alike, WingMode, WingModes, wing_modes};
+pub use vibration::flutter::{self, Condition, FlutterSettings};
+pub use vibration::wing_modes::{About, Alike, WingMode, WingModes, wing_modes};

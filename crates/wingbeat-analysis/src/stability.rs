@@ -1,16 +1,24 @@
 //! Linear models of flight: averaged over the beat, and Floquet's.
 
+pub(crate) mod derivatives;
+pub(crate) mod disturbance;
+pub(crate) mod eigen;
+pub(crate) mod jacobian;
+pub(crate) mod modes;
+pub(crate) mod rigid_body;
+pub(crate) mod table;
+
 use wingbeat_math::six_by_six::from_entries;
 use wingbeat_math::{DVec3, SixBySix, r3, six};
 
 use crate::AnalysisError;
+use crate::beat::level::{Level, Perturbation};
 use crate::beat::{Beat, JOINTS, State};
-use crate::derivatives::{ControlDerivative, control_derivatives};
-use crate::eigen::eigen;
-use crate::jacobian::jacobian;
-use crate::level::{Level, Perturbation};
-use crate::modes::{ModeSet, Scales};
-use crate::rigid_body::RigidBody;
+use crate::stability::derivatives::{ControlDerivative, control_derivatives};
+use crate::stability::eigen::eigen;
+use crate::stability::jacobian::jacobian;
+use crate::stability::modes::{ModeSet, Scales};
+use crate::stability::rigid_body::RigidBody;
 use crate::trim::Trim;
 
 /// Names of the six loads.

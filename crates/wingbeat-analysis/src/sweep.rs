@@ -6,18 +6,21 @@
 //! first. A range that falls in speed through the air is trimmed from its slow end, so it has the flights of the range
 //! that rises.
 
+pub(crate) mod continuation;
+pub(crate) mod least_power;
+
 use std::f64::consts::PI;
 
 use wingbeat_flight::FlightSetup;
 use wingbeat_math::DVec3;
 
 use crate::AnalysisError;
-use crate::continuation::{Path, first_stroke};
-use crate::lost::Lost;
 use crate::power::{Power, power_of_trim};
-use crate::problem::TrimProblem;
 use crate::progress;
+use crate::sweep::continuation::{Path, first_stroke};
 use crate::trim::Trim;
+use crate::trim::lost::Lost;
+use crate::trim::problem::TrimProblem;
 
 /// A trimmed flight of a sweep.
 #[derive(Clone, Debug)]

@@ -1,10 +1,19 @@
 //! Trim: steady flight as a periodic orbit of the full model.
 //!
 //! Unknowns are the state at the start of a beat and controls of the wings; equations are that one beat later
-//! nothing has changed but place and heading, which have moved as asked ([`crate::steady`]). Coordinates and
+//! nothing has changed but place and heading, which have moved as asked ([`crate::trim::preconditions`]). Coordinates and
 //! speeds of free joints are unknowns too, and come back to where they were. Newton's method with differences
 //! for the Jacobian and a line search; a failure keeps the best point found. A search with bounds stays inside;
 //! only where it finds nothing there, another one says where beyond them steady flight is.
+
+pub(crate) mod lost;
+pub(crate) mod preconditions;
+pub(crate) mod problem;
+pub(crate) mod request;
+pub(crate) mod residuals;
+pub(crate) mod root;
+pub(crate) mod solution;
+pub(crate) mod unknown;
 
 use wingbeat_dynamics::BodyMotion;
 use wingbeat_flight::{
@@ -15,12 +24,12 @@ use wingbeat_math::{DMat3, DVec3, EulerSequence};
 
 use crate::AnalysisError;
 use crate::beat::{Beat, JOINTS, State, steadied};
-use crate::problem::{TrimProblem, first_controls};
 use crate::progress;
-use crate::residuals::{FlyerMotion, Measures, Residuals, attitude, turning};
-use crate::root::{Map, Search, largest, matrix_of, moved};
-use crate::solution::TrimSolution;
-use crate::steady::{AT_START, check_determined, check_symmetric};
+use crate::trim::preconditions::{AT_START, check_determined, check_symmetric};
+use crate::trim::problem::{TrimProblem, first_controls};
+use crate::trim::residuals::{FlyerMotion, Measures, Residuals, attitude, turning};
+use crate::trim::root::{Map, Search, largest, matrix_of, moved};
+use crate::trim::solution::TrimSolution;
 
 /// A trimmed flight, or the best point found.
 #[derive(Clone, Debug)]

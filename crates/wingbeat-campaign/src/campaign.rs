@@ -6,13 +6,13 @@ use sha2::{Digest, Sha256};
 use wingbeat_case::{IoError, LoadedCase};
 use wingbeat_flight::FlightSetup;
 
-use crate::blocks::points_of_block;
-use crate::cases;
-use crate::file::CampaignFile;
-use crate::named::{self, Contents, Programs};
-use crate::number::Number;
+use crate::plan::blocks::points_of_block;
+use crate::plan::cases;
+use crate::plan::file::CampaignFile;
+use crate::plan::named::{self, Contents, Programs};
+use crate::plan::number::Number;
+use crate::plan::raw::{RawCampaign, Task, TrimOptions};
 use crate::plan::{Place, Plan};
-use crate::raw::{RawCampaign, Task, TrimOptions};
 
 /// A campaign, read and checked.
 #[derive(Clone, Debug)]

@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use crate::campaign::Campaign;
-use crate::raw::Task;
+use crate::plan::raw::Task;
 
 /// The command that flies a point by itself; where it is trimmed, the trim first, and the flight if one is asked for.
 pub fn command(campaign: &Campaign, i: usize) -> String {

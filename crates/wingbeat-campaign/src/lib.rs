@@ -12,51 +12,31 @@
 //! What it does not know: processes, command lines, how pages look.
 #![warn(missing_docs)]
 
-mod axes;
-mod blocks;
 mod campaign;
-mod cases;
-mod checks;
 mod command;
-mod cost;
-mod evaluate;
-mod file;
-mod flight;
-mod lease;
 pub mod merge;
-pub mod named;
-mod netcdf;
-mod number;
 pub mod page;
-mod places;
 mod plan;
-mod point;
-mod process;
-mod raw;
-mod rows;
-mod sample;
 mod scripts;
 mod status;
 mod store;
-mod trial;
-mod trimming;
-mod value;
 mod worker;
 
 pub use campaign::Campaign;
 pub use command::shell;
-pub use cost::Cost;
-pub use number::Number;
 pub use plan::Plan;
-pub use raw::RawCampaign;
+pub use plan::named;
+pub use plan::number::Number;
+pub use plan::raw::RawCampaign;
+pub use plan::value::Value;
 pub use scripts::Engine;
 pub use status::{Status, retry};
 pub use store::Store;
-pub use value::Value;
+pub use worker::cost::Cost;
 pub use worker::{Ended, Worker, inspect, left, plan_name};
 
 /// The JSON schema of the file, for editors.
 pub fn schema() -> String {
-    let schema = schemars::schema_for!(raw::RawCampaign).to_value();
+    let schema = schemars::schema_for!(RawCampaign).to_value();
     serde_json::to_string_pretty(&schema).expect("a schema is JSON")
 }

@@ -1,6 +1,9 @@
 //! All points as one table: CSV, Parquet, `NetCDF`; and those that failed. Nothing of it tells when, where, by how many
 //! workers or in which order points were flown.
 
+pub(crate) mod netcdf;
+pub(crate) mod rows;
+
 use std::io::Write;
 use std::ops::Range;
 use std::path::PathBuf;
@@ -15,10 +18,9 @@ use wingbeat_results::summary::Verdict;
 
 use crate::campaign::Campaign;
 use crate::command::command;
-use crate::netcdf;
-use crate::rows::{KeyKind, Row, kinds, rows};
+use crate::merge::rows::{KeyKind, Row, kinds, rows};
+use crate::plan::value::Value;
 use crate::store::Store;
-use crate::value::Value;
 
 /// Files that a merge writes.
 pub const FILES: [&str; 4] = ["points.csv", "points.parquet", "points.nc", "failed.csv"];

@@ -10,9 +10,9 @@ use wingbeat_results::summary::Verdict;
 
 use crate::campaign::Campaign;
 use crate::command::command;
-use crate::rows::{Row, rows};
+use crate::merge::rows::{Row, rows};
+use crate::plan::value::Value;
 use crate::store::Store;
-use crate::value::Value;
 
 /// Name of the page in the directory of the campaign.
 pub const FILE: &str = "campaign.html";

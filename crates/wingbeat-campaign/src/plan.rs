@@ -3,8 +3,21 @@
 //! Axes multiply, the last one running fastest; beside them runs the axis of samples, fastest of all. The same
 //! samples are drawn at every point of the grid, so that differences along the grid are not those of chance.
 
-use crate::sample::Sampler;
-use crate::value::Value;
+pub(crate) mod axes;
+pub(crate) mod blocks;
+pub(crate) mod cases;
+pub(crate) mod checks;
+pub(crate) mod file;
+pub mod named;
+pub(crate) mod number;
+pub(crate) mod places;
+pub(crate) mod raw;
+pub(crate) mod sample;
+pub(crate) mod trimming;
+pub(crate) mod value;
+
+use crate::plan::sample::Sampler;
+use crate::plan::value::Value;
 
 /// Name of the axis along which samples run.
 pub const SAMPLE: &str = "sample";
@@ -153,7 +166,7 @@ pub fn pair(key: &str, value: &Value) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::raw::Ends;
+    use crate::plan::raw::Ends;
 
     #[test]
     fn exact_points_of_a_grid_with_samples() {

@@ -1,6 +1,14 @@
 //! A worker: takes blocks of points, flies them, keeps their results; any number of workers share a directory,
 //! without a coordinator.
 
+pub(crate) mod cost;
+pub(crate) mod evaluate;
+pub(crate) mod flight;
+pub(crate) mod lease;
+pub(crate) mod point;
+pub(crate) mod process;
+pub(crate) mod trial;
+
 use std::io::ErrorKind;
 use std::ops::Range;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -10,10 +18,10 @@ use wingbeat_case::IoError;
 use wingbeat_results::manifest::hexadecimal;
 
 use crate::campaign::Campaign;
-use crate::flight::saved_step;
-use crate::lease::{Lease, Leases, Taken};
-use crate::point::{self, Done};
 use crate::store::{PointResult, Reason, Store};
+use crate::worker::flight::saved_step;
+use crate::worker::lease::{Lease, Leases, Taken};
+use crate::worker::point::Done;
 
 /// Time between two looks for a block that somebody has to let go.
 const WAIT: Duration = Duration::from_millis(50);

@@ -27,8 +27,9 @@ fn exact_rows_without_an_angle_are_left_out() {
     let loaded = |name: &str, cells: [&str; 2]| {
         let file = folder.join(format!("gaps-{name}.csv"));
         let [third, sixth] = cells;
-        let rows =
-            format!("phase,angle_deg\n0,10\n0.125,8\n{third}0.375,-8\n0.5,-10\n{sixth}0.75,3\n");
+        let rows = format!(
+            "phase,angle_deg\n0,10\n0.125,8\n{third}0.375,-8\n0.5,-10\n{sixth}0.75,3\n1,10\n"
+        );
         fs::write(&file, rows).unwrap();
         let law = format!("wing.right.motion.phi={{ table = {{ file = {file:?} }} }}");
         LoadedCase::find("fruit-fly-hover", &[law]).unwrap()

@@ -2,7 +2,7 @@
 
 use wingbeat_math::{BodyAcceleration, BodyMotion, DVec3, Wrench};
 
-use crate::body::{angular_momentum, inertia_wrench, kinetic_energy, linear_momentum};
+use crate::system::body::{angular_momentum, inertia_wrench, kinetic_energy, linear_momentum};
 use crate::{Budget, System};
 
 /// Mass centre of the system \[m\], N components.

@@ -2,11 +2,11 @@
 
 use wingbeat_math::{BodyAcceleration, BodyMotion, DMat3, DVec3, MovingRotation, tilde, trace};
 
-use crate::check::check_rotation;
 use crate::cycle::Cycle;
-use crate::placement::Placement;
-use crate::placement::carry;
-use crate::shape::ShapeMass;
+use crate::system::check::check_rotation;
+use crate::system::placement::Placement;
+use crate::system::placement::carry;
+use crate::system::shape::ShapeMass;
 use crate::{DynamicsError, System};
 
 /// Mass properties of the whole system and the momentum of its parts relative to the root.

@@ -1,11 +1,20 @@
 //! The interface between a mechanical system and a time integrator.
 
+pub mod euler;
+pub(crate) mod euler_form;
+pub(crate) mod inverse;
+pub(crate) mod mobility;
+pub(crate) mod momentum;
+pub(crate) mod quaternion;
+pub(crate) mod tether;
+pub(crate) mod workspace;
+
 use wingbeat_math::{BodyMotion, Wrench};
 
 use std::fmt;
 
-use crate::mirror::MirrorSymmetry;
-use crate::shape::ShapeMass;
+use crate::system::mirror::MirrorSymmetry;
+use crate::system::shape::ShapeMass;
 use crate::{AddedMass, DynamicsError, Solution, System, Workspace};
 
 /// A way to write the motion of a [`System`] as `y' = f(t, y)`.

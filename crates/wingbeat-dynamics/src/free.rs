@@ -16,7 +16,7 @@
 use wingbeat_math::{DMat3, DQuat, DVec3, SingularMatrix, Wrench, rotation_vector, solve_small};
 
 use crate::configuration::Composite;
-use crate::placement::Placement;
+use crate::system::placement::Placement;
 use crate::{JointType, System};
 
 /// Rates of a joint's coordinates.

@@ -48,63 +48,45 @@
 #![warn(missing_docs)]
 
 mod added_mass;
-mod baumgarte;
-mod body;
 mod budget;
-mod check;
 mod configuration;
 mod cycle;
-mod driven;
-mod effort;
 mod error;
-pub mod euler;
-mod euler_form;
 mod formulation;
 mod free;
-mod inverse;
-mod joint;
-mod joint_model;
 mod mechanism;
-mod mirror;
-mod mobility;
-mod momentum;
-mod offsets;
-mod placement;
 mod prescribed;
-mod quaternion;
 mod response;
-mod shape;
 mod solution;
 mod system;
-mod tether;
-mod workspace;
 
 pub use added_mass::AddedMass;
-pub use baumgarte::Baumgarte;
-pub use body::{
-    Body, NaturalUnits, angular_momentum, kinetic_energy, linear_momentum, weight_wrench,
-};
 pub use budget::{budget, load_power, mass_centre, relative_energy};
 pub use configuration::{Composite, CompositeRates, Configuration, ConfigurationTable};
 pub use cycle::Cycle;
-pub use driven::driven;
-pub use effort::Passive;
 pub use error::DynamicsError;
-pub use euler_form::EulerForm;
+pub use formulation::euler;
+pub use formulation::euler_form::EulerForm;
+pub use formulation::mobility::mobilities;
+pub use formulation::momentum::MomentumForm;
+pub use formulation::quaternion::QuaternionForm;
+pub use formulation::tether::{RootMotion, tethered, tethered_motions};
+pub use formulation::workspace::Workspace;
 pub use formulation::{Formulation, add_by_response};
-pub use joint::Joint;
-pub use joint_model::{Element, ElementLaw, JointModel, JointType, TravelLaw};
 pub use mechanism::Mechanism;
+pub use mechanism::baumgarte::Baumgarte;
+pub use mechanism::driven::driven;
+pub use mechanism::effort::Passive;
 pub use mechanism::form::{AbsoluteForm, AbsoluteScratch, Stabilization};
-pub use mirror::MirrorSymmetry;
-pub use mobility::mobilities;
-pub use momentum::MomentumForm;
-pub use offsets::JointOffsets;
-pub use placement::Placement;
-pub use quaternion::QuaternionForm;
-pub use shape::ShapeMass;
 pub use solution::{Budget, HingeReaction, Solution, Violation};
 pub use system::System;
-pub use tether::{RootMotion, tethered, tethered_motions};
+pub use system::body::{
+    Body, NaturalUnits, angular_momentum, kinetic_energy, linear_momentum, weight_wrench,
+};
+pub use system::joint::Joint;
+pub use system::joint_model::{Element, ElementLaw, JointModel, JointType, TravelLaw};
+pub use system::mirror::MirrorSymmetry;
+pub use system::offsets::JointOffsets;
+pub use system::placement::Placement;
+pub use system::shape::ShapeMass;
 pub use wingbeat_math::{BodyAcceleration, BodyMotion, Six, Wrench};
-pub use workspace::Workspace;

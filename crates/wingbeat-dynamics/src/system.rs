@@ -1,13 +1,22 @@
 //! The mechanical system: rigid bodies, hinges with prescribed rotation, gravity.
 
+pub(crate) mod body;
+pub(crate) mod check;
+pub(crate) mod joint;
+pub(crate) mod joint_model;
+pub(crate) mod mirror;
+pub(crate) mod offsets;
+pub(crate) mod placement;
+pub(crate) mod shape;
+
 use wingbeat_math::DVec3;
 
-use crate::body::{Body, NaturalUnits};
-use crate::check::{check_finite, check_positive};
 use crate::error::DynamicsError;
-use crate::joint::{Joint, check_joint, check_numbers_of};
-use crate::joint_model::{JointModel, JointType};
-use crate::offsets::{JointOffsets, start};
+use crate::system::body::{Body, NaturalUnits};
+use crate::system::check::{check_finite, check_positive};
+use crate::system::joint::{Joint, check_joint, check_numbers_of};
+use crate::system::joint_model::{JointModel, JointType};
+use crate::system::offsets::{JointOffsets, start};
 
 /// Bodies joined by hinges to a tree; body 0 is the root, which moves freely.
 ///

@@ -1,6 +1,9 @@
 //! From the animal to the multibody system: the root body, one driven hinge per wing, and the
 //! joints of further segments.
 
+pub(crate) mod joint_steps;
+pub mod joints;
+
 use std::sync::Arc;
 
 use wingbeat_dynamics::{
@@ -10,7 +13,7 @@ use wingbeat_dynamics::{
 use wingbeat_math::{DVec3, EulerSequence, RotationLaw};
 use wingbeat_model::{Animal, Wing};
 
-use crate::joints::closes_loop;
+use crate::bodies::joints::closes_loop;
 use crate::setup::{FlightSetup, FormulationChoice, MotionMode};
 
 /// The multibody system of an animal of body and wings: body 0 is the central body (2-3-1

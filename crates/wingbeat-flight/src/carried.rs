@@ -22,12 +22,14 @@
 //! The two differ by the error of D, of second order in the step whatever A is. That A is the lattice's own, from
 //! its influence matrix, leaves next to nothing of the difference.
 
+pub(crate) mod light;
+
 use wingbeat_dynamics::{AddedMass, BodyAcceleration, BodyMotion, System, Wrench};
 use wingbeat_math::DVec3;
 
 use crate::error::FlightError;
+use crate::interface::memory::AirMemory;
 use crate::interface::{Air, AirScratch, Instant, WingInertia};
-use crate::memory::AirMemory;
 use wingbeat_air::Wind;
 
 /// Wings that hang on free joints, or all of a flyer that is light as a whole.

@@ -2,7 +2,13 @@
 //! -> rates (seed sec. 4 and 5). Quadratures of work and impulse ride along, so that balances
 //! are integrated exactly as accurately as the motion itself.
 
+pub(crate) mod free;
 mod loads;
+pub(crate) mod mirrored;
+pub(crate) mod quadratures;
+pub(crate) mod solver;
+pub(crate) mod stages;
+pub(crate) mod tethered;
 
 use std::sync::Arc;
 
@@ -11,15 +17,15 @@ use wingbeat_dynamics::{
     Workspace, Wrench, mass_centre, relative_energy,
 };
 
+use crate::air::dynamic_pressure::DynamicPressure;
 use crate::air::{Air, AirScratch, Instant};
-use crate::applied::{AppliedLoad, PointSpring};
 use crate::carried::{CarriedAir, CarriedScratch, CarriedState};
-use crate::dynamic_pressure::DynamicPressure;
 use crate::elastic::{ElasticScratch, ElasticState, ElasticWings};
+use crate::equations::mirrored::Mirrored;
+use crate::equations::quadratures::{QUADRATURES, Quadratures, WORKS};
 use crate::error::FlightError;
-use crate::memory::AirMemory;
-use crate::mirrored::Mirrored;
-use crate::quadratures::{QUADRATURES, Quadratures, WORKS};
+use crate::interface::memory::AirMemory;
+use crate::setup::applied::{AppliedLoad, PointSpring};
 
 /// What a flight remembers beside its state vector, frozen within a step.
 #[derive(Clone, Copy, Debug, Default)]

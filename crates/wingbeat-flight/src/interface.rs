@@ -1,6 +1,11 @@
 //! The interface of the air: what the equations of motion ask of it, and what is asked of another
 //! program that stands behind it.
 
+pub(crate) mod air_probe;
+pub(crate) mod controller;
+pub(crate) mod memory;
+pub mod record;
+
 use std::fmt;
 
 use wingbeat_air::{AirLoads, AirWorkspace, NodeMotion, Points};
@@ -9,8 +14,8 @@ use wingbeat_dynamics::{AddedMass, BodyAcceleration, BodyMotion, Wrench};
 use wingbeat_math::DVec3;
 
 use crate::error::FlightError;
-use crate::memory::AirMemory;
-use crate::record::Snapshot;
+use crate::interface::memory::AirMemory;
+use crate::interface::record::Snapshot;
 
 /// What is said of models of the air in which no wing can bend.
 pub(crate) const NO_BENDING: &str = "it gives no loads along the wings, so no wing can bend in it: take vortex_lattice, blade_element or none, or leave out [wing.NAME.structure]";

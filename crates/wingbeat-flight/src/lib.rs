@@ -24,62 +24,39 @@
 #![warn(missing_docs)]
 
 pub mod air;
-mod air_probe;
-mod applied;
 mod bodies;
 mod carried;
-pub mod control;
-mod controller;
 mod doubts;
-mod dynamic_pressure;
 pub mod elastic;
 mod equations;
 mod error;
-mod free;
 mod interface;
-mod joint_steps;
-pub mod joints;
-mod light;
-mod memory;
-mod mirrored;
-mod pairs;
-mod planes;
-mod prescribed;
-mod quadratures;
-pub mod record;
-mod recorder;
 pub mod setup;
 pub mod simulation;
-mod solver;
-mod stages;
-mod tethered;
-mod turned_over;
-mod turns;
-mod validate;
 
 pub use air::{EdgeOnPlane, check_joined, check_joined_tip, strips};
-pub use air_probe::AirProbe;
+pub use bodies::joint_steps::{JointSteps, growing_joint, inertia_about};
+pub use bodies::joints::{self, closes_loop, faster, is_driven};
 pub use bodies::{
     JointCoordinate, WingLaw, check_assembly, doubtful_masses, joint_coordinates, loop_names,
     natural_units, system, system_of, system_with,
 };
-pub use control::MotionBlend;
-pub use controller::{Aim, Controller, Sensed};
+pub use doubts::turned_over::TurnedOver;
 pub use doubts::{CrossingWings, Doubt, DoubtKind};
+pub use equations::free::{FreeFlight, FreeFlightScratch};
 pub use error::{FlightError, RESUME_AS_SAVED};
-pub use free::{FreeFlight, FreeFlightScratch};
+pub use interface::air_probe::AirProbe;
+pub use interface::controller::{Aim, Controller, Sensed};
+pub use interface::memory::AirMemory;
+pub use interface::record::{
+    self, ElasticRecord, ParticleSnapshot, Record, STATIONS, SectionRecord, Snapshot,
+    SurfaceSnapshot, WakeSnapshot,
+};
 pub use interface::{
     Air, AirScratch, Announcement, ExternalAir, ExternalSession, Instant, Shape, WingInertia,
     WingResponse,
 };
-pub use joint_steps::{JointSteps, growing_joint, inertia_about};
-pub use joints::{closes_loop, faster, is_driven};
-pub use memory::AirMemory;
-pub use record::{
-    ElasticRecord, ParticleSnapshot, Record, STATIONS, SectionRecord, Snapshot, SurfaceSnapshot,
-    WakeSnapshot,
-};
-pub use recorder::Ledger;
 pub use setup::*;
+pub use simulation::control::{self, MotionBlend};
+pub use simulation::recorder::Ledger;
 pub use simulation::{FlightState, Past, Simulation};
-pub use turned_over::TurnedOver;

@@ -1,8 +1,11 @@
 //! What a flight is made of: the validated setup, before anything moves.
 
 mod air;
+pub(crate) mod applied;
 mod integration;
+pub(crate) mod prescribed;
 mod start;
+pub(crate) mod validate;
 
 use std::fmt;
 use std::sync::Arc;
@@ -17,10 +20,10 @@ pub use self::integration::{
     TimeGrid,
 };
 pub use self::start::{MotionMode, StartState};
-pub use crate::applied::{AppliedLoad, LoadFrame, PointSpring};
-use crate::controller::Controller;
 use crate::error::FlightError;
-pub use crate::prescribed::PrescribedMotion;
+use crate::interface::controller::Controller;
+pub use crate::setup::applied::{AppliedLoad, LoadFrame, PointSpring};
+pub use crate::setup::prescribed::PrescribedMotion;
 pub use wingbeat_math::DriftingFourier;
 
 /// Everything that defines one flight. Constant once built; the state is elsewhere.
@@ -128,7 +131,7 @@ impl FlightSetup {
 pub struct Feedback {
     /// The controller.
     pub controller: Arc<dyn ControlModel>,
-    /// Time steps from one look to the next, at least [`crate::control::MIN_INTERVAL`].
+    /// Time steps from one look to the next, at least [`crate::simulation::control::MIN_INTERVAL`].
     pub interval: usize,
     /// Looks from sensing to the beginning of the transition to the command.
     pub latency: usize,

@@ -4,13 +4,16 @@
 //! it; predict; correct bodies and air together until they agree; accept both; record.
 
 mod arrival;
+pub mod control;
 mod ending;
 mod fits;
 mod fly;
 mod newest;
+pub(crate) mod recorder;
 mod release;
 mod start;
 mod state;
+pub(crate) mod turns;
 mod wings;
 
 pub use state::{FlightState, Past};
@@ -25,17 +28,17 @@ use self::fits::check_fits;
 use self::start::Start;
 use self::wings::WingAngles;
 use crate::bodies::own_motion;
-use crate::control::{FeedbackLoop, feedback};
 use crate::elastic::ElasticState;
+use crate::equations::quadratures::QUADRATURES;
+use crate::equations::solver::{Solver, convergence};
+use crate::equations::stages::{Stage, stages};
 use crate::equations::{Equations, Memory, Scratch};
 use crate::error::FlightError;
-use crate::memory::{AirMemory, wakes_of};
-use crate::quadratures::QUADRATURES;
-use crate::record::Record;
-use crate::recorder::Ledger;
+use crate::interface::memory::{AirMemory, wakes_of};
+use crate::interface::record::Record;
 use crate::setup::{AirModel, FlightSetup};
-use crate::solver::{Solver, convergence};
-use crate::stages::{Stage, stages};
+use crate::simulation::control::{FeedbackLoop, feedback};
+use crate::simulation::recorder::Ledger;
 
 /// Target of the `log` events that say that a step begins; fields `step`, `steps`.
 pub const STEP_EVENT: &str = "wingbeat::step";

@@ -13,8 +13,8 @@ use super::strokes::{SteadyStroke, SteeredStroke, Transition};
 use super::task::Start;
 use crate::AnalysisError;
 use crate::beat::State;
-use crate::departure::{Controls, adjustments};
-use crate::disturbance::disturbed;
+use crate::control::departure::{Controls, adjustments};
+use crate::stability::disturbance::disturbed;
 use crate::trim::Trim;
 
 /// The equations of the flyers of a trimmed flight, with their intermediate results: what they share, so that

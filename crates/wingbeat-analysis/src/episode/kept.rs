@@ -3,8 +3,8 @@
 use wingbeat_dynamics::BodyMotion;
 use wingbeat_math::{DMat3, DVec3};
 
-use crate::departure::Departure;
-use crate::level::Perturbation;
+use crate::beat::level::Perturbation;
+use crate::control::departure::Departure;
 
 /// Everything that an episode remembers: another one of the same course goes on from it, bit for bit.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -31,8 +31,8 @@ use wingbeat_flight::Sensed;
 use wingbeat_math::{DVec3, SplitMix64};
 
 use crate::AnalysisError;
-use crate::departure::{CONTROLS, Controls, Departure, Limits, Reference};
-use crate::sensors::Sensors;
+use crate::control::departure::{CONTROLS, Controls, Departure, Limits, Reference};
+use crate::control::sensors::Sensors;
 use crate::trim::Trim;
 use kept::{Numbers, of_departure};
 

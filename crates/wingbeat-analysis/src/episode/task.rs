@@ -6,8 +6,8 @@ use wingbeat_air::{Gust, GustShape};
 use wingbeat_math::{DVec3, SplitMix64};
 
 use crate::beat::Beat;
-use crate::departure::{CONTROLS, Departure};
-use crate::level::Perturbation;
+use crate::beat::level::Perturbation;
+use crate::control::departure::{CONTROLS, Departure};
 
 /// A task.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

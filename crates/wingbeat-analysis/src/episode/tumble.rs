@@ -7,8 +7,8 @@ use wingbeat_math::DVec3;
 
 use super::{Draw, Flyer, Model, Start, Task};
 use crate::AnalysisError;
-use crate::departure::{CONTROLS, Departure, Limits, Reference};
-use crate::steering::Law;
+use crate::control::departure::{CONTROLS, Departure, Limits, Reference};
+use crate::control::steering::Law;
 use crate::trim::Trim;
 
 /// A flyer counts as recovered from the first of so many wingbeats in a row at which it is calm.

@@ -7,7 +7,7 @@
 use super::differences::map_between;
 use super::wings::{BODY, ElasticMonodromy};
 use crate::AnalysisError;
-use crate::eigen::eigen;
+use crate::stability::eigen::eigen;
 
 impl ElasticMonodromy {
     /// The map of departures that one mode fewer of every wing gives. None where some wing has none.

@@ -4,8 +4,8 @@ use wingbeat_dynamics::BodyMotion;
 use wingbeat_flight::{FlightSetup, MotionMode, Record, Simulation, StartState};
 
 use crate::AnalysisError;
-use crate::level::{Level, Perturbation};
-use crate::modes::Scales;
+use crate::beat::level::{Level, Perturbation};
+use crate::stability::modes::Scales;
 
 /// How a flight that was trimmed starts.
 pub(super) fn start(setup: &FlightSetup) -> &StartState {

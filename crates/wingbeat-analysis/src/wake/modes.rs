@@ -7,10 +7,10 @@ use super::differences::{departures, map_between};
 use super::free_beat::{free_beat, level, scales, seen, steps_per_beat};
 use super::trim::WakeTrim;
 use crate::AnalysisError;
-use crate::disturbance::Disturbance;
-use crate::eigen::eigen;
-use crate::level::Perturbation;
-use crate::modes::ModeSet;
+use crate::beat::level::Perturbation;
+use crate::stability::disturbance::Disturbance;
+use crate::stability::eigen::eigen;
+use crate::stability::modes::ModeSet;
 
 /// What is held fixed when the state of the body is disturbed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -11,12 +11,12 @@ use super::orbit::{check_alike, check_orbit, has_orbit, periodic_beat};
 use super::sway::sway;
 use crate::AnalysisError;
 use crate::beat::steadied;
-use crate::problem::{TrimProblem, first_controls};
 use crate::progress;
-use crate::residuals::{FlyerMotion, Measures, Residuals};
-use crate::root::{Map, Search, matrix_of, moved};
-use crate::solution::TrimSolution;
-use crate::steady::{AT_START, check_determined, check_symmetric};
+use crate::trim::preconditions::{AT_START, check_determined, check_symmetric};
+use crate::trim::problem::{TrimProblem, first_controls};
+use crate::trim::residuals::{FlyerMotion, Measures, Residuals};
+use crate::trim::root::{Map, Search, matrix_of, moved};
+use crate::trim::solution::TrimSolution;
 
 /// How the flights are flown.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -19,11 +19,11 @@ use super::free_beat::{level, scales, seen, steps_per_beat};
 use super::orbit::numbers;
 use super::trim::WakeTrim;
 use crate::AnalysisError;
-use crate::disturbance::Disturbance;
-use crate::eigen::{Eigenpair, eigen};
-use crate::level::{Level, Perturbation};
-use crate::modes::{ModeSet, Scales};
-use crate::moving::{enough, moving};
+use crate::beat::level::{Level, Perturbation};
+use crate::stability::disturbance::Disturbance;
+use crate::stability::eigen::{Eigenpair, eigen};
+use crate::stability::modes::{ModeSet, Scales};
+use crate::vibration::moving::{enough, moving};
 
 /// Components of a departure of the body.
 pub(super) const BODY: usize = 9;

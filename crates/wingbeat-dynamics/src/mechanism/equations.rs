@@ -7,8 +7,8 @@ use wingbeat_math::{
 use super::joint::{JointKinematics, Row};
 use super::structure::Mechanism;
 use crate::error::DynamicsError;
-use crate::joint::Joint;
 use crate::solution::HingeReaction;
+use crate::system::joint::Joint;
 
 /// Intermediate results, and what was solved for last.
 #[derive(Clone, Debug)]

@@ -18,9 +18,9 @@ pub use super::equations::AbsoluteScratch;
 use super::equations::{eliminate, put_bodies, put_constraints, put_efforts, read, step};
 use super::joint::{JointKinematics, Row, kinematics};
 use super::structure::Mechanism;
-use crate::check::check_state;
-use crate::joint::Joint;
-use crate::mirror::MirrorSymmetry;
+use crate::system::check::check_state;
+use crate::system::joint::Joint;
+use crate::system::mirror::MirrorSymmetry;
 use crate::{Baumgarte, DynamicsError, HingeReaction};
 
 /// Numbers per body in the state.

@@ -4,7 +4,7 @@ use wingbeat_math::{BodyMotion, DVec3};
 
 use super::form::AbsoluteForm;
 use crate::JointType;
-use crate::joint::Joint;
+use crate::system::joint::Joint;
 
 /// Rows of what joints are given for the start, in scaled columns, and what is missing there.
 #[derive(Default)]

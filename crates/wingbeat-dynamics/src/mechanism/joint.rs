@@ -9,8 +9,8 @@
 
 use wingbeat_math::{BodyMotion, DMat3, DVec3, rotation_vector_of_matrix};
 
-use crate::joint::Joint;
-use crate::joint_model::JointType;
+use crate::system::joint::Joint;
+use crate::system::joint_model::JointType;
 
 /// One scalar constraint.
 #[derive(Clone, Copy, Debug)]

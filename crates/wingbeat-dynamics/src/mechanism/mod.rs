@@ -8,6 +8,9 @@
 //! (consistent starts), `starts` (whether those are the ones given).
 
 pub(crate) mod assembly;
+pub(crate) mod baumgarte;
+pub(crate) mod driven;
+pub(crate) mod effort;
 mod equations;
 pub(crate) mod form;
 mod given;

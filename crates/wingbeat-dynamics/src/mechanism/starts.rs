@@ -5,7 +5,7 @@ use wingbeat_math::BodyMotion;
 use std::f64::consts::TAU;
 
 use super::Mechanism;
-use crate::joint::Joint;
+use crate::system::joint::Joint;
 use crate::{DynamicsError, JointType};
 
 /// Difference that counts as none \[rad, natural lengths, both over natural times for rates\], beside the same part of

@@ -3,12 +3,12 @@
 use wingbeat_math::{BodyMotion, DVec3};
 
 use super::joint::kinematics;
-use crate::body::{Body, NaturalUnits};
-use crate::check::{check_finite, check_positive};
 use crate::error::DynamicsError;
-use crate::joint::{Joint, check_joint};
-use crate::offsets::start;
 use crate::system::System;
+use crate::system::body::{Body, NaturalUnits};
+use crate::system::check::{check_finite, check_positive};
+use crate::system::joint::{Joint, check_joint};
+use crate::system::offsets::start;
 
 /// Bodies and joints.
 #[derive(Clone, Debug)]

@@ -16,8 +16,8 @@ use wingbeat_model::{Animal, Wing};
 use super::bent::{BentStrips, refuse_measured_surfaces};
 use super::strips::{MovingStrips, strips};
 use crate::error::FlightError;
+use crate::interface::memory::AirMemory;
 use crate::interface::{Air, AirScratch, Instant, StripScratch, WingResponse, misfit};
-use crate::memory::AirMemory;
 use crate::setup::BladeOptions;
 
 /// The blade elements of an animal.

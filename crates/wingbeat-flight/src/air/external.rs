@@ -11,8 +11,8 @@ use std::sync::{Mutex, MutexGuard};
 use wingbeat_dynamics::{System, Wrench};
 
 use crate::error::FlightError;
+use crate::interface::memory::AirMemory;
 use crate::interface::{Air, AirScratch, Announcement, ExternalAir, ExternalSession, Instant};
-use crate::memory::AirMemory;
 use crate::setup::FlightSetup;
 
 /// The session of a flight, shared by its stages, with the step asked for last.

@@ -10,9 +10,9 @@ use super::mirror::mirror_pairs;
 use super::on_plane::EdgeOnPlane;
 use super::surfaces::SurfaceMap;
 use crate::error::FlightError;
+use crate::interface::memory::{AirMemory, wakes_of};
+use crate::interface::record::{ParticleSnapshot, Snapshot, SurfaceSnapshot, WakeSnapshot};
 use crate::interface::{Air, AirScratch, Instant, WingInertia, WingResponse, misfit};
-use crate::memory::{AirMemory, wakes_of};
-use crate::record::{ParticleSnapshot, Snapshot, SurfaceSnapshot, WakeSnapshot};
 use crate::setup::{AirOptions, FlightSetup, MotionMode};
 
 /// Gravity across the plane of symmetry that is still the rounding of an attitude, over gravity.

@@ -12,6 +12,7 @@
 
 mod bent;
 mod blade;
+pub(crate) mod dynamic_pressure;
 pub mod external;
 mod lattice;
 mod mirror;
@@ -27,7 +28,7 @@ use wingbeat_dynamics::{System, Wrench};
 use wingbeat_math::DVec3;
 
 use crate::error::FlightError;
-use crate::memory::AirMemory;
+use crate::interface::memory::AirMemory;
 use crate::setup::{AirModel, FlightSetup};
 
 pub(crate) use self::mirror::wing_pairs;

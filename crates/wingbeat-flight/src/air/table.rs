@@ -5,8 +5,8 @@ use wingbeat_dynamics::{AddedMass, Wrench};
 use wingbeat_model::Animal;
 
 use crate::error::FlightError;
+use crate::interface::memory::AirMemory;
 use crate::interface::{Air, AirScratch, Instant};
-use crate::memory::AirMemory;
 
 /// A table of derivatives as the air of the whole animal.
 #[derive(Clone, Copy, Debug)]

@@ -30,11 +30,14 @@ mod jumps;
 mod late_gusts;
 mod list;
 mod on_bodies;
+pub(crate) mod pairs;
+pub(crate) mod planes;
 mod revolving;
 mod said;
 mod scattered;
 mod shed_by_motion;
 mod starts_apart;
+pub(crate) mod turned_over;
 mod unjoined;
 
 pub use impossible::CrossingWings;

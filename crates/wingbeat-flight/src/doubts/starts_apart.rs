@@ -3,7 +3,7 @@
 use wingbeat_math::DriftingFourier;
 use wingbeat_model::Start;
 
-use crate::prescribed::PrescribedMotion;
+use crate::setup::prescribed::PrescribedMotion;
 use crate::setup::{FlightSetup, MotionMode};
 
 /// Part of a period that is rounding \[1\].

@@ -13,7 +13,7 @@ use super::step::WingScratch;
 use super::wing::ElasticState;
 use super::wings::ElasticWings;
 use crate::interface::Instant;
-use crate::record::ElasticRecord;
+use crate::interface::record::ElasticRecord;
 
 impl ElasticWings {
     /// What the masses of the wings do otherwise than those of rigid ones, at the instant last asked for.

@@ -8,8 +8,8 @@ use super::step::{ROUNDING, SMALL, WingScratch};
 use super::wing::{ElasticState, ElasticWing};
 use super::wings::{ElasticWings, frame_motion};
 use crate::error::FlightError;
+use crate::interface::memory::AirMemory;
 use crate::interface::{Air, AirScratch, Instant, Shape};
-use crate::memory::AirMemory;
 
 /// Most passes.
 pub const MAX_PASSES: usize = 40;

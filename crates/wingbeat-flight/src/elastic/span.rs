@@ -3,7 +3,7 @@
 use wingbeat_math::DVec3;
 use wingbeat_structure::{Configuration, Follower};
 
-use crate::record::{STATIONS, SectionRecord};
+use crate::interface::record::{STATIONS, SectionRecord};
 
 /// A section between two columns of nodes of the mesh.
 #[derive(Clone, Debug, PartialEq)]

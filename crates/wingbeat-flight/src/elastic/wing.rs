@@ -10,9 +10,9 @@ use wingbeat_structure::{
 
 use super::span::Station;
 use super::tangent::added_mass;
+use crate::carried::light::{is_positive, rigid_mass};
 use crate::error::FlightError;
 use crate::interface::{Shape, WingResponse};
-use crate::light::{is_positive, rigid_mass};
 
 /// A wing that loads bend.
 #[derive(Debug)]

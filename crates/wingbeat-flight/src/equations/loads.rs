@@ -5,8 +5,8 @@ use wingbeat_math::DVec3;
 
 use super::{Equations, Memory, Scratch};
 use crate::air::Instant;
+use crate::equations::quadratures::Quadratures;
 use crate::error::FlightError;
-use crate::quadratures::Quadratures;
 
 impl Equations {
     /// All loads on the bodies in the core's state `y` into `s.total`.

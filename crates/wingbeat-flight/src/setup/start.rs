@@ -4,7 +4,7 @@ use wingbeat_dynamics::BodyMotion;
 use wingbeat_math::{DMat3, DVec3, DriftingFourier, EulerSequence};
 use wingbeat_model::Start;
 
-use crate::prescribed::PrescribedMotion;
+use crate::setup::prescribed::PrescribedMotion;
 
 /// How the root body moves.
 #[derive(Clone, Debug)]

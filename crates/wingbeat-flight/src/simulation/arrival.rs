@@ -7,12 +7,12 @@ use wingbeat_math::ode::StepReport;
 use wingbeat_math::rotation_vector_of_matrix;
 
 use super::Simulation;
-use crate::air_probe::AirProbe;
-use crate::control::Sensed;
 use crate::equations::{Equations, Scratch};
 use crate::error::FlightError;
-use crate::memory::AirMemory;
-use crate::recorder::Sources;
+use crate::interface::air_probe::AirProbe;
+use crate::interface::memory::AirMemory;
+use crate::simulation::control::Sensed;
+use crate::simulation::recorder::Sources;
 
 impl Simulation {
     /// Record, acceptance of the air, and the start of a stage that begins here.

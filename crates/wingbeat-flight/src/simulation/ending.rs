@@ -6,8 +6,8 @@ use std::f64::consts::TAU;
 use wingbeat_dynamics::DynamicsError;
 
 use super::Simulation;
+use crate::bodies::joint_steps::growing_joint;
 use crate::error::FlightError;
-use crate::joint_steps::growing_joint;
 use crate::setup::{FormulationChoice, IntegratorChoice};
 
 /// Lengths of a flyer by which no body moves in a step [1].

@@ -4,10 +4,10 @@ use wingbeat_structure::State;
 
 use super::state::FlightState;
 use crate::elastic::ElasticState;
+use crate::equations::stages::Stage;
 use crate::error::{FlightError, RESUME_AS_SAVED};
-use crate::memory::wakes_of;
-use crate::recorder::Ledger;
-use crate::stages::Stage;
+use crate::interface::memory::wakes_of;
+use crate::simulation::recorder::Ledger;
 
 /// No flight counts so many steps or events.
 const MOST: u64 = 1 << 60;

@@ -9,8 +9,8 @@ use super::Simulation;
 use crate::air::LatticeAir;
 use crate::elastic::ElasticWings;
 use crate::error::FlightError;
+use crate::interface::record::{Snapshot, SurfaceSnapshot};
 use crate::interface::{Instant, WingResponse};
-use crate::record::{Snapshot, SurfaceSnapshot};
 use crate::setup::AirModel;
 
 impl Simulation {

@@ -5,11 +5,11 @@ use wingbeat_math::DVec3;
 use wingbeat_math::ode::StepReport;
 
 use crate::bodies::carry;
+use crate::equations::quadratures::QUADRATURES;
 use crate::error::FlightError;
-use crate::quadratures::QUADRATURES;
-use crate::recorder::Ledger;
 use crate::setup::MotionMode;
 use crate::simulation::Simulation;
+use crate::simulation::recorder::Ledger;
 
 impl Simulation {
     /// Goes over into the next stage where one starts, records, accepts, starts.

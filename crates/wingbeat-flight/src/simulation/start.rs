@@ -6,7 +6,7 @@ use crate::carried::CarriedState;
 use crate::elastic::ElasticState;
 use crate::equations::{Equations, Memory, Scratch};
 use crate::error::FlightError;
-use crate::memory::AirMemory;
+use crate::interface::memory::AirMemory;
 
 /// The coupled right-hand side over the starting steps: the wake is replayed with them.
 pub(super) struct Start<'a> {

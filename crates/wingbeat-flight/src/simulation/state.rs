@@ -3,11 +3,11 @@
 use wingbeat_math::ode::{Multistep, StepReport};
 
 use crate::carried::CarriedState;
-use crate::control::ControlState;
 use crate::elastic::ElasticState;
 use crate::equations::Memory;
-use crate::memory::AirMemory;
-use crate::recorder::Ledger;
+use crate::interface::memory::AirMemory;
+use crate::simulation::control::ControlState;
+use crate::simulation::recorder::Ledger;
 
 /// Everything that is integrated: plain data, enough to go on bit for bit.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]

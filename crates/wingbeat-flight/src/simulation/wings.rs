@@ -3,10 +3,10 @@
 use wingbeat_dynamics::{Cycle, System};
 use wingbeat_math::DVec3;
 
-use crate::control::FeedbackLoop;
-use crate::record::Record;
+use crate::equations::stages::cycle;
+use crate::interface::record::Record;
 use crate::setup::FlightSetup;
-use crate::stages::cycle;
+use crate::simulation::control::FeedbackLoop;
 
 /// Angles of the wings: known beforehand where their motion repeats itself in whole steps.
 pub(super) struct WingAngles {

@@ -1,0 +1,138 @@
+//! What to trim: the steady flight that is wanted, and what may be chosen for it.
+
+use wingbeat_math::DVec3;
+
+use crate::trim::unknown::{Bound, Unknown};
+
+/// What to trim.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TrimProblem {
+    /// What may be chosen: three of the plane of symmetry; six, three of them lateral, where the flight turns, slips
+    /// sideways or has wings that differ.
+    pub unknowns: Vec<Unknown>,
+    /// Values of further unknowns, which are kept.
+    pub given: Vec<(Unknown, f64)>,
+    /// Between what unknowns must lie; others within [`Bound::default_of`] where there is a choice.
+    pub bounds: Vec<Bound>,
+    /// Mean velocity wanted: along the heading, to the right of it, down [m/s]. Heading along n1: N components.
+    pub velocity: DVec3,
+    /// Turn of the heading about the vertical, positive to the right [rad/s].
+    pub turn_rate: f64,
+    /// Body pitch at the start of the iteration (kept if not an unknown) \[rad\].
+    pub body_pitch: f64,
+    /// Body roll, as the pitch \[rad\].
+    pub body_roll: f64,
+    /// Iteration.
+    pub settings: TrimSettings,
+}
+
+impl TrimProblem {
+    /// Straight flight with `velocity` [m/s], N components, in the plane n1-n3: body pitch, stroke amplitude and mean
+    /// stroke angle are found, from the pitch `body_pitch` \[rad\].
+    pub fn straight(velocity: DVec3, body_pitch: f64) -> Self {
+        Self {
+            unknowns: vec![
+                Unknown::BodyPitch,
+                Unknown::StrokeAmplitude,
+                Unknown::StrokeOffset,
+            ],
+            given: vec![],
+            bounds: vec![],
+            velocity,
+            turn_rate: 0.0,
+            body_pitch,
+            body_roll: 0.0,
+            settings: TrimSettings::default(),
+        }
+    }
+
+    /// Between what `unknown` must lie.
+    pub fn bound(&self, unknown: Unknown) -> Bound {
+        let own = self.bounds.iter().find(|b| b.unknown == unknown);
+        own.copied().unwrap_or_else(|| Bound::default_of(unknown))
+    }
+
+    /// The unknowns whose values are outside the given bounds or turn strokes inside out, and those at a bound, both
+    /// to rounding: a confined search that a bound stops ends on it.
+    pub(crate) fn beyond(&self, unknowns: &[Unknown], values: &[f64]) -> [Vec<Unknown>; 2] {
+        let given = |u: &Unknown| self.given.iter().any(|g| g.0 == *u);
+        let bounded = |u: &Unknown| given(u) || self.bounds.iter().any(|b| b.unknown == *u);
+        let pairs = || unknowns.iter().zip(values).filter(|(u, _)| bounded(u));
+        let outside = pairs().filter(|(u, x)| self.bound(**u).excludes(**x));
+        let at = pairs().filter(|(u, x)| self.bound(**u).is_reached(**x, 0.0));
+        let (mut outside, at): (Vec<_>, _) =
+            (outside.map(|p| *p.0).collect(), at.map(|p| *p.0).collect());
+        let turned = turned_inside_out(unknowns, values);
+        outside.extend(turned.filter(|u| !outside.contains(u)));
+        [outside, at]
+    }
+
+    /// Moves values of the chosen unknowns into the bounds that were given.
+    pub(crate) fn confine(&self, values: &mut [f64]) {
+        for (u, x) in self.unknowns.iter().zip(values) {
+            if let Some(b) = self.bounds.iter().find(|b| b.unknown == *u) {
+                *x = x.clamp(b.from, b.to);
+            }
+        }
+    }
+
+    /// Chosen unknowns with `values`, then those that are given.
+    pub(crate) fn with_given(&self, values: &[f64]) -> (Vec<Unknown>, Vec<f64>) {
+        let (given, kept): (Vec<_>, Vec<_>) = self.given.iter().copied().unzip();
+        (
+            [&self.unknowns[..], &given].concat(),
+            [values, &kept].concat(),
+        )
+    }
+
+    /// Pitch and roll at the start of the iteration.
+    pub(crate) fn angles(&self) -> [f64; 2] {
+        [self.body_pitch, self.body_roll]
+    }
+}
+
+/// The unknown by which wings stroke the other way round, with an amplitude below nothing: another motion in
+/// antiphase, not a smaller stroke.
+pub fn turned_inside_out(unknowns: &[Unknown], values: &[f64]) -> Option<Unknown> {
+    let value = |u: Unknown| {
+        let at = unknowns.iter().position(|k| *k == u);
+        at.map_or(0.0, |k| values[k])
+    };
+    let both = 1.0 + value(Unknown::StrokeAmplitude);
+    let apart = value(Unknown::StrokeAmplitudeDifference);
+    match () {
+        () if both < 0.0 => Some(Unknown::StrokeAmplitude),
+        () if both < 0.5 * apart.abs() => Some(Unknown::StrokeAmplitudeDifference),
+        () => None,
+    }
+}
+
+/// How the iteration runs.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TrimSettings {
+    /// Steps per wingbeat.
+    pub steps: usize,
+    /// Largest residual that counts as trimmed \[1\].
+    pub tolerance: f64,
+    /// Most Newton steps.
+    pub iterations: usize,
+}
+
+impl Default for TrimSettings {
+    fn default() -> Self {
+        Self {
+            steps: 100,
+            tolerance: 1e-9,
+            iterations: 40,
+        }
+    }
+}
+
+/// The controls of the point at which a search begins.
+pub(crate) fn first_controls(problem: &TrimProblem) -> impl Iterator<Item = f64> {
+    problem.unknowns.iter().map(|u| match u {
+        Unknown::BodyPitch => problem.body_pitch,
+        Unknown::BodyRoll => problem.body_roll,
+        _ => 0.0,
+    })
+}

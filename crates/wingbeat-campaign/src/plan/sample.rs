@@ -1,0 +1,217 @@
+//! What is drawn: sample number s of a key follows from the seed, the key and s alone, so that samples can be had in
+//! any order and more of them leave the first ones as they are (a Latin hypercube apart, whose parts are as many as its
+//! samples). A Sobol sequence has a dimension in place of the key: how many keys are drawn before it in the file.
+//!
+//! Random numbers are SHA-256 of (seed, key, s), read as a fraction. Values are rounded to 12 digits, which
+//! hides the last bits in which mathematical libraries of different systems differ.
+
+use sha2::{Digest, Sha256};
+use statrs::function::erf::erfc_inv;
+use wingbeat_math::to_twelve_digits;
+
+use crate::plan::raw::{Ends, Normal};
+
+/// Samples of a Sobol sequence at most, as the library has them.
+pub const MAX_SOBOL: usize = 1 << 16;
+/// Keys of a Sobol sequence at most.
+pub const MAX_SOBOL_KEYS: usize = sobol_burley::NUM_DIMENSIONS as usize;
+
+/// How the values of a key are drawn.
+#[derive(Clone, Debug)]
+pub struct Sampler {
+    key: String,
+    seed: u64,
+    law: Law,
+}
+
+/// From a number between 0 and 1 to a value.
+#[derive(Clone, Debug)]
+enum Law {
+    Uniform(Ends),
+    LogUniform(Ends),
+    Normal(Normal),
+    /// With the part of each sample.
+    LatinHypercube(Ends, Vec<u32>),
+    /// With the number of its dimension.
+    Sobol(Ends, u32),
+}
+
+impl Sampler {
+    /// All values equally likely.
+    pub fn uniform(key: &str, seed: u64, ends: Ends) -> Self {
+        Self::new(key, seed, Law::Uniform(ends))
+    }
+
+    /// All logarithms equally likely.
+    pub fn log_uniform(key: &str, seed: u64, ends: Ends) -> Self {
+        Self::new(key, seed, Law::LogUniform(ends))
+    }
+
+    /// Normal.
+    pub fn normal(key: &str, seed: u64, normal: Normal) -> Self {
+        Self::new(key, seed, Law::Normal(normal))
+    }
+
+    /// One of each of `samples` equal parts, in random order.
+    pub fn latin_hypercube(key: &str, seed: u64, ends: Ends, samples: usize) -> Self {
+        let mut parts: Vec<u32> = (0..samples as u32).collect();
+        for k in (1..samples).rev() {
+            // Fisher-Yates; the remainder of 64 bits is uneven by less than 1e-9.
+            let other = random(seed, key, "order", k) % (k as u64 + 1);
+            parts.swap(k, other as usize);
+        }
+        Self::new(key, seed, Law::LatinHypercube(ends, parts))
+    }
+
+    /// Dimension number `dimension` of a Sobol sequence, whose seed is below 2^32.
+    pub fn sobol(key: &str, seed: u64, ends: Ends, dimension: usize) -> Self {
+        Self::new(key, seed, Law::Sobol(ends, dimension as u32))
+    }
+
+    fn new(key: &str, seed: u64, law: Law) -> Self {
+        Self {
+            key: key.to_owned(),
+            seed,
+            law,
+        }
+    }
+
+    /// The key.
+    pub fn key(&self) -> &str {
+        &self.key
+    }
+
+    /// Sample number `s`.
+    pub fn value(&self, s: usize) -> f64 {
+        let u = || fraction(random(self.seed, &self.key, "value", s));
+        to_twelve_digits(match &self.law {
+            Law::Uniform(ends) => between(ends, u()),
+            Law::LogUniform(ends) => (ends.from.ln() + u() * (ends.to / ends.from).ln()).exp(),
+            Law::Normal(normal) => quantile(normal, u()),
+            Law::LatinHypercube(ends, parts) => {
+                between(ends, (f64::from(parts[s]) + u()) / parts.len() as f64)
+            }
+            Law::Sobol(ends, dimension) => between(
+                ends,
+                f64::from(sobol_burley::sample(s as u32, *dimension, self.seed as u32)),
+            ),
+        })
+    }
+}
+
+fn between(ends: &Ends, u: f64) -> f64 {
+    ends.from + u * (ends.to - ends.from)
+}
+
+/// The value below which a part `u` of a normal distribution lies, of what its ends leave.
+fn quantile(normal: &Normal, u: f64) -> f64 {
+    use std::f64::consts::SQRT_2;
+    let scaled = |x: f64| (x - normal.mean) / normal.standard_deviation;
+    let below = |x: Option<f64>, open: f64| x.map_or(open, |x| cumulative(scaled(x)));
+    let [low, high] = [below(normal.from, 0.0), below(normal.to, 1.0)];
+    let part = low + u * (high - low);
+    let x = normal.mean - normal.standard_deviation * SQRT_2 * erfc_inv(2.0 * part);
+    let least = normal.from.unwrap_or(f64::NEG_INFINITY);
+    x.clamp(least, normal.to.unwrap_or(f64::INFINITY))
+}
+
+/// Part of the standard normal distribution below `x`.
+pub fn cumulative(x: f64) -> f64 {
+    0.5 * statrs::function::erf::erfc(-x / std::f64::consts::SQRT_2)
+}
+
+/// 64 random bits.
+fn random(seed: u64, key: &str, what: &str, s: usize) -> u64 {
+    let mut hash = Sha256::new_with_prefix(seed.to_le_bytes());
+    hash.update((s as u64).to_le_bytes());
+    hash.update(what);
+    hash.update([0]);
+    hash.update(key);
+    let digest = hash.finalize();
+    let mut bits = [0; 8];
+    bits.copy_from_slice(&digest[..8]);
+    u64::from_le_bytes(bits)
+}
+
+/// Above 0 and below 1.
+fn fraction(bits: u64) -> f64 {
+    ((bits >> 12) as f64 + 0.5) / (1_u64 << 52) as f64
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const ENDS: Ends = Ends { from: 2.0, to: 6.0 };
+
+    fn moments(values: &[f64]) -> [f64; 2] {
+        let n = values.len() as f64;
+        let mean = values.iter().sum::<f64>() / n;
+        let square = values.iter().map(|x| (x - mean).powi(2)).sum::<f64>();
+        [mean, square / (n - 1.0)]
+    }
+
+    /// Means and variances as of the laws; 20,000 samples scatter by sigma / 141, four times which is allowed.
+    #[test]
+    fn exact_moments_of_what_is_drawn() {
+        let n = 20_000;
+        let draw = |s: Sampler| -> Vec<f64> { (0..n).map(|k| s.value(k)).collect() };
+        let [mean, variance] = moments(&draw(Sampler::uniform("a", 7, ENDS)));
+        assert!((mean - 4.0).abs() < 4.0 * 1.155 / 141.0, "{mean}");
+        assert!((variance - 16.0 / 12.0).abs() < 0.04, "{variance}");
+        let normal = |from, to| Normal {
+            mean: 3.0,
+            standard_deviation: 0.5,
+            from,
+            to,
+        };
+        let [mean, variance] = moments(&draw(Sampler::normal("a", 7, normal(None, None))));
+        assert!((mean - 3.0).abs() < 4.0 * 0.5 / 141.0, "{mean}");
+        assert!(
+            (variance - 0.25).abs() < 4.0 * 0.25 * 1.414 / 141.0,
+            "{variance}"
+        );
+        // Cut off at the mean: the half-normal distribution, mean sigma sqrt(2 / pi).
+        let half = draw(Sampler::normal("a", 7, normal(Some(3.0), None)));
+        let [mean, _] = moments(&half);
+        assert!(
+            (mean - 3.0 - 0.5 * 0.797_885).abs() < 4.0 * 0.3 / 141.0,
+            "{mean}"
+        );
+        assert!(half.iter().all(|x| *x >= 3.0));
+        let logs: Vec<f64> = draw(Sampler::log_uniform("a", 7, ENDS));
+        let logs: Vec<f64> = logs.iter().map(|x| x.ln()).collect();
+        let middle = 0.5 * (2.0_f64.ln() + 6.0_f64.ln());
+        assert!((moments(&logs)[0] - middle).abs() < 4.0 * 0.317 / 141.0);
+    }
+
+    /// Two keys of one seed are independent, and so are two seeds of one key.
+    #[test]
+    fn invariant_keys_and_seeds_are_independent() {
+        let n = 20_000;
+        let draw = |key: &str, seed| -> Vec<f64> {
+            let s = Sampler::uniform(key, seed, ENDS);
+            (0..n).map(|k| s.value(k) - 4.0).collect()
+        };
+        let first = draw("a", 1);
+        for other in [draw("b", 1), draw("a", 2)] {
+            let product = first.iter().zip(&other).map(|(x, y)| x * y).sum::<f64>();
+            let r = product / n as f64 / (16.0 / 12.0);
+            assert!(r.abs() < 4.0 / 141.0, "{r}");
+        }
+    }
+
+    #[test]
+    fn exact_latin_hypercube_and_sobol_have_one_sample_in_each_part() {
+        let n = 64;
+        let latin = Sampler::latin_hypercube("a", 3, ENDS, n);
+        let sobol = Sampler::sobol("a", 3, ENDS, 1);
+        for sampler in [latin, sobol] {
+            let part = |k: usize| ((sampler.value(k) - 2.0) / 4.0 * n as f64) as usize;
+            let mut parts: Vec<usize> = (0..n).map(part).collect();
+            assert!(parts.windows(2).any(|w| w[1] < w[0]), "not in order");
+            parts.sort_unstable();
+            assert_eq!(parts, (0..n).collect::<Vec<_>>());
+        }
+    }
+}

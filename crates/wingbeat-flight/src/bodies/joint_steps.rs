@@ -1,0 +1,162 @@
+//! Free joints in steps: whether what a joint carries, on its springs and dampers, dies out in the steps of a
+//! flight by its integrator, or alternates and grows.
+//!
+//! | symbol | name in code | meaning | unit |
+//! |---|---|---|---|
+//! | c, k, I | | damping, stiffness and inertia that is moved along a free direction | N m s, N m, kg m2 (N s/m, N/m, kg) |
+//! | c h / I | `damping` | what of a rate the damper takes in a step | 1 |
+//! | w h | `vibration` | angular frequency `sqrt(k / I)` times the step | 1 |
+//! | | `growth` | largest root of the method there ([`EqualSteps::growth`]) | 1 |
+//!
+//! The inertia is what moves where the flight starts, rigid and in a vacuum, when the flyer and all of its joints give
+//! way: its fastest vibration is at least as fast. The air's mass and damping, which help, are left out, and so are
+//! stops: they act for a few steps.
+
+use std::sync::Arc;
+
+use wingbeat_dynamics::{Formulation, Joint, JointType, QuaternionForm, Stabilization, mobilities};
+use wingbeat_math::DVec3;
+use wingbeat_math::ode::EqualSteps;
+
+use crate::bodies::joints::closes_loop;
+use crate::bodies::system_of;
+use crate::setup::{FlightSetup, IntegratorChoice, MotionMode};
+
+/// Growth a step from which a joint is not carried by the steps \[1\]: a hundred steps make it e times as
+/// large. Vibrations that grow less are those the air damps.
+const GROWS: f64 = 1.01;
+
+/// Growth a step that is none \[1\]: a few parts in a thousand over a hundred steps.
+const STAYS: f64 = 1.0 + 1e-4;
+
+/// Most times as many steps that are looked at as a remedy.
+const MAX_FINER: u32 = 1000;
+
+/// A free direction of a joint in the steps of a flight.
+#[derive(Clone, Debug, PartialEq)]
+pub struct JointSteps {
+    /// Name of the joint.
+    pub joint: String,
+    /// c h / I \[1\].
+    pub damping: f64,
+    /// w h \[1\].
+    pub vibration: f64,
+    /// Growth a step of the motion along it, by springs and dampers alone \[1\].
+    pub growth: f64,
+    /// What to try.
+    pub remedy: String,
+}
+
+impl JointSteps {
+    /// What is said of it under the integrator of `setup`.
+    pub fn said(&self, setup: &FlightSetup) -> String {
+        format!(
+            "spring and damper of joint `{}` act faster than dynamics.integrator = \"{}\" carries: c h / I = {:.2}, w h = {:.2} (damping, angular frequency, and step; rigid and in a vacuum), where a disturbance becomes {:.2} times as large in every step",
+            self.joint,
+            setup.integrator.name(),
+            self.damping,
+            self.vibration,
+            self.growth
+        )
+    }
+}
+
+/// The free direction of a joint whose motion grows most by the steps of `setup`; none where none grows.
+pub fn growing_joint(setup: &FlightSetup) -> Option<JointSteps> {
+    let method = equal_steps(setup)?;
+    let h = setup.time.step;
+    let joints = setup.joints.iter().enumerate();
+    let open = joints.filter(|(k, _)| !closes_loop(&setup.joints, *k));
+    let directions = open.flat_map(|(_, j)| (0..j.model.kind.directions()).map(move |k| (j, k)));
+    let acted = directions.filter(|(j, k)| j.model.damping_and_stiffness(*k) != [0.0; 2]);
+    let acted: Vec<(&Joint, usize)> = acted.collect();
+    let found = mobilities_of(setup, &acted)?;
+    let of = |(&(joint, k), mobility): (&(&Joint, usize), f64)| {
+        let [damping, stiffness] = joint.model.damping_and_stiffness(k);
+        let both = [damping * mobility, stiffness.max(0.0) * mobility];
+        let growth = method.growth(both, h);
+        let found = JointSteps {
+            joint: joint.name.clone(),
+            damping: both[0] * h,
+            vibration: both[1].sqrt() * h,
+            growth,
+            remedy: remedy(setup, method, both),
+        };
+        (growth > GROWS).then_some(found)
+    };
+    let all = acted.iter().zip(found).filter_map(of);
+    all.max_by(|a, b| a.growth.total_cmp(&b.growth))
+}
+
+/// One over the inertia that is moved along free directions of joints \[1/(kg m2) or 1/kg\]; none where there are none,
+/// or where the flight cannot start.
+fn mobilities_of(setup: &FlightSetup, directions: &[(&Joint, usize)]) -> Option<Vec<f64>> {
+    let system = system_of(setup).ok().filter(|_| !directions.is_empty())?;
+    let hinge = |joint: &Joint| system.hinges().iter().position(|h| h.child == joint.child);
+    let places = directions.iter().map(|&(j, k)| hinge(j).map(|h| (h, k)));
+    let places: Vec<(usize, usize)> = places.collect::<Option<_>>()?;
+    let form = QuaternionForm::new(system, Stabilization::None);
+    let form = match &setup.mode {
+        MotionMode::Tethered(motion) => {
+            let motion = Arc::new(motion.clone());
+            form.supported(motion.clone(), motion)
+        }
+        MotionMode::Free(_) => form,
+    };
+    let y = form.initial(0.0, &setup.root_at_start()).ok()?;
+    mobilities(&form, (0.0, &y), &places).ok()
+}
+
+/// What a joint that carries `both` c / I \[1/s\] and k / I \[1/s^2\] wants instead of `method`.
+fn remedy(setup: &FlightSetup, method: EqualSteps, both: [f64; 2]) -> String {
+    let h = setup.time.step;
+    let is_carried = |m: EqualSteps, h: f64| m.growth(both, h) <= STAYS;
+    let mut ways = vec![];
+    if method != EqualSteps::Bdf && is_carried(EqualSteps::Bdf, h) {
+        ways.push("dynamics.integrator = \"bdf\"".to_owned());
+    }
+    if !setup.air.keeps_wake() && !setup.animal.is_elastic() {
+        ways.push(
+            "dynamics.integrator = \"order_eight\", which chooses its steps itself".to_owned(),
+        );
+    }
+    let finer = (2..=MAX_FINER).find(|n| is_carried(method, h / f64::from(*n)));
+    match finer {
+        Some(n) => ways.push(format!(
+            "{n} times as many steps (time.steps_per_beat, or a smaller time.step_s)"
+        )),
+        None => ways.push("less stiffness or damping: look at their units".to_owned()),
+    }
+    ways.join(", or ")
+}
+
+/// The method of equal steps that integrates the joints of `setup`; none where steps are chosen by their error,
+/// or the formula is that of order two, which takes all vibrations back.
+fn equal_steps(setup: &FlightSetup) -> Option<EqualSteps> {
+    match setup.integrator {
+        IntegratorChoice::Hamming => Some(EqualSteps::Hamming),
+        IntegratorChoice::Bdf if setup.animal.is_elastic() => None,
+        IntegratorChoice::Bdf => Some(EqualSteps::Bdf),
+        IntegratorChoice::Adams => Some(EqualSteps::Adams),
+        IntegratorChoice::RungeKutta => Some(EqualSteps::RungeKutta),
+        IntegratorChoice::OrderEight { .. } => None,
+    }
+}
+
+/// Moment of inertia \[kg m2\] about the axis of free direction `k` of `joint`, one that turns, of the child of
+/// `carried`, which stands as the child of `joint` does; its mass \[kg\] where `joint` slides.
+pub fn inertia_about(setup: &FlightSetup, carried: &Joint, joint: &Joint, k: usize) -> Option<f64> {
+    let system = system_of(setup).ok()?;
+    let mass = system.bodies().get(carried.child)?.mass;
+    let axis = match joint.model.kind {
+        JointType::Prismatic { .. } => return Some(mass.mass).filter(|m| *m > 0.0),
+        JointType::Revolute { axis } => axis,
+        JointType::Universal { axes } => *axes.get(k)?,
+        JointType::Spherical | JointType::PointOnLine { .. } => *DVec3::AXES.get(k)?,
+        JointType::Weld => return None,
+    };
+    // Steiner, from the origin of the child to the joint.
+    let [a, s] = [carried.anchor_child, mass.first_moment].map(|x| x - x.dot(axis) * axis);
+    let about = axis.dot(mass.inertia * axis) - 2.0 * a.dot(s) + mass.mass * a.length_squared();
+    Some(about).filter(|j| *j > 0.0)
+}
