@@ -26,3 +26,14 @@ def test_behaves_blocks_run_in_order(tmp_path):
     assert done.returncode == 0, done.stderr[-3000:]
     assert done.stdout.splitlines()[-1] == str(len(blocks) - 1), done.stdout
     assert (tmp_path / "results" / "python" / "summary.json").is_file() and (tmp_path / "fly.mat").is_file()
+
+
+def test_balances_the_battery_of_the_page_on_motors(tmp_path):
+    page = (Path(__file__).parents[3] / "docs" / "motors.md").read_text(encoding="utf-8")
+    (tmp_path / "motor.toml").write_text(re.findall(r"```toml\n(.*?)```", page, flags=re.DOTALL)[0], encoding="utf-8")
+    (block,) = re.findall(r"```python\n(.*?)```", page, flags=re.DOTALL)
+    fly = 'import wingbeat\nwingbeat.Flight.from_case("motor.toml").fly(out="motor")\n'
+    command = [sys.executable, "-c", fly + block]
+    done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, timeout=300)
+    assert done.returncode == 0, done.stderr[-3000:]
+    assert done.stdout.startswith("0.537 W, of it 0.069 W heat"), done.stdout

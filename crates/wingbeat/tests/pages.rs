@@ -7,6 +7,7 @@ use std::path::Path;
 use std::process::Command;
 
 use support::{Scratch, said};
+use wingbeat::results::History;
 
 fn page(name: &str) -> String {
     let docs = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs");
@@ -172,4 +173,65 @@ fn agrees_the_foil_of_the_page_on_settings_with_garrick() {
     assert!((power / (scale * real) - 1.0).abs() < 0.05, "{power}");
     let shown = said(dir, &["show", "foil"]);
     assert!(shown.starts_with("green"), "{shown}");
+}
+
+/// What the motor of the page takes from its battery is what heats its windings and what its shaft gives; the shaft's is
+/// the power of the summary.
+#[test]
+fn balances_the_battery_of_the_page_on_motors() {
+    let page = page("motors.md");
+    let scratch = Scratch::new("motor");
+    let dir = &scratch.0;
+    let [case, volts] = blocks(&page, "toml")[..] else {
+        panic!("two files")
+    };
+    fs::write(dir.join("motor.toml"), case).unwrap();
+    fs::write(dir.join("volts.toml"), volts).unwrap();
+    let lines = blocks(&page, "sh");
+    lines.iter().flat_map(|b| b.lines()).for_each(|l| run(dir, l));
+    let [ohm, volt_second, volt] = [2.0, 0.02, 3.0];
+    let means = |name: &str| {
+        let history = History::read(&dir.join(name).join("history.csv")).unwrap();
+        let last = history.rows() - 200..history.rows();
+        let column = |name: &str| history.column(name)[last.clone()].to_vec();
+        let rate = column("joint_right_rotation_1_rate_rad_per_s");
+        let (mut battery, mut heat) = (0.0, 0.0);
+        for (t, rate) in column("time_s").iter().zip(&rate) {
+            let voltage = volt * (std::f64::consts::TAU * 20.0 * t).cos();
+            let current = (voltage - volt_second * rate) / ohm;
+            battery += 2.0 * voltage * current / 200.0;
+            heat += 2.0 * ohm * current * current / 200.0;
+        }
+        let angle = |k: usize| {
+            let angles = column(&format!("joint_right_rotation_{k}_rad"));
+            angles.iter().fold(0.0_f64, |m, q| m.max(q.abs())).to_degrees()
+        };
+        let text = fs::read_to_string(dir.join(name).join("summary.json")).unwrap();
+        let summary: serde_json::Value = serde_json::from_str(&text).unwrap();
+        let last = &summary["beats"][7];
+        let of = |key: &str| last[key].as_f64().unwrap();
+        let shaft = of("power_watt");
+        // Both are sums over the same steps of a periodic motion: what is left of the start decides.
+        assert!((battery - heat - shaft).abs() < 1e-5 * shaft, "{battery} {heat} {shaft}");
+        ([battery, heat, shaft, of("lift_over_weight")], [angle(1), angle(2)])
+    };
+    let (of_motor, angles) = means("motor");
+    println!("{of_motor:?} {angles:?} {:?} {:?}", means("soft").0, means("stiff").0);
+    let said = |number: f64, digits: usize| assert!(page.contains(&format!("{number:.digits$}")), "{number}");
+    of_motor[..3].iter().for_each(|x| said(*x, 3));
+    angles.iter().for_each(|x| said(*x, 1));
+    for name in ["soft", "stiff"] {
+        let ([battery, heat, _, lift], _) = means(name);
+        let row = format!("| {lift:.3} | {battery:.3} W | {heat:.3} W |");
+        assert!(page.contains(&row), "{row}");
+    }
+    let points = fs::read_to_string(dir.join("volts/points.csv")).unwrap();
+    let rows: Vec<Vec<&str>> = points.lines().skip(1).map(|l| l.split(',').collect()).collect();
+    let number = |row: &Vec<&str>, c: usize| row[c].parse::<f64>().unwrap();
+    let [a, b, c] = [0, 1, 2].map(|k| [number(&rows[k], 4), number(&rows[k], 5)]);
+    let sentence = format!(
+        "{:.2}, {:.2} and {:.2} weights for {:.3}, {:.3} and {:.3} W",
+        a[0], b[0], c[0], a[1], b[1], c[1]
+    );
+    assert!(page.contains(&sentence), "{sentence}");
 }
