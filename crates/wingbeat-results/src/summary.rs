@@ -31,6 +31,7 @@ use wingbeat_model::Wing;
 
 use super::Outcome;
 pub use beats::{BeatMeans, Beats, down, over_weight};
+pub use bent::BentWing;
 pub use comparison::MeanDifference;
 pub(crate) use each_step::EachStep;
 pub use ensemble::{Ensemble, EnsembleBeat, Members};
@@ -136,6 +137,7 @@ impl Summary {
             wake_particles: s.last.wake_particles,
             net_flux_residual_m_s: each.net_flux_residual.most,
             impulse_budget: ImpulseBudget::between(setup, [&s.first, &s.last], &each.parting),
+            elastic_wings: bent::wings(setup, &each.bent),
             departures: each.departures.clone(),
             warnings: vec![],
             means: ManyBeats::of(&s.beats),

@@ -22,6 +22,8 @@ mod slips;
 #[path = "elastic/starts.rs"]
 mod starts;
 mod support;
+#[path = "elastic/tips.rs"]
+mod tips;
 mod veins;
 #[path = "elastic/wakes.rs"]
 mod wakes;

@@ -1,8 +1,7 @@
 //! How far loads moved the tips of elastic wings.
 
 use serde::{Deserialize, Serialize};
-use wingbeat_flight::{FlightSetup, Record};
-use wingbeat_math::DVec3;
+use wingbeat_flight::{ElasticRecord, FlightSetup, Record};
 use wingbeat_model::{Members, Wing};
 
 use super::verdict::Warnings;
@@ -15,6 +14,39 @@ pub(super) struct Bent {
     /// Distance of the tip from the root over that at rest, of wings that are held at the root alone; 0 of
     /// others \[1\].
     stretched: f64,
+    /// Displacement of the tip from rest \[m\].
+    tip: f64,
+    /// Twist of the tip from rest \[rad\].
+    twist: f64,
+    /// Elastic energy \[J\].
+    strain_energy: f64,
+}
+
+/// How far loads bent an elastic wing: the largest of a flight.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct BentWing {
+    /// Name of the wing.
+    pub wing: String,
+    /// Displacement of the middle of its tip from rest \[m\].
+    pub tip_displacement_m: f64,
+    /// The same over the larger of its length and its chord \[1\].
+    pub tip_displacement_relative: f64,
+    /// Twist of its tip from rest, either way \[deg\].
+    pub tip_twist_deg: f64,
+    /// Elastic energy \[J\].
+    pub strain_energy_joule: f64,
+}
+
+/// The elastic wings of a flight in which these were largest.
+pub(super) fn wings(setup: &FlightSetup, all: &[Bent]) -> Vec<BentWing> {
+    let of = |(wing, bent): (&Wing, &Bent)| BentWing {
+        wing: wing.name.clone(),
+        tip_displacement_m: bent.tip,
+        tip_displacement_relative: bent.displaced,
+        tip_twist_deg: bent.twist.to_degrees(),
+        strain_energy_joule: bent.strain_energy,
+    };
+    elastic(setup).zip(all).map(of).collect()
 }
 
 /// Displacement over length that no wing comes back from by itself: its tip is turned by 60 degrees or more \[1\].
@@ -24,8 +56,12 @@ const FAR: f64 = 1.0;
 const TORN: f64 = 1.1;
 
 impl Bent {
-    /// With the middle of the tip of `wing` displaced by `tip` \[m\], wing components.
-    fn take(&mut self, wing: &Wing, tip: DVec3) {
+    /// With what `wing` is at this step.
+    fn take(&mut self, wing: &Wing, now: &ElasticRecord) {
+        let tip = now.tip;
+        self.tip = self.tip.max(tip.length());
+        self.twist = self.twist.max(now.twist.abs());
+        self.strain_energy = self.strain_energy.max(now.strain_energy);
         let mesh = &wing.mesh;
         let chord = |col: usize| [0, mesh.rows].map(|row| mesh.nodes[mesh.node(row, col)]);
         let [root, end] = [0, mesh.cols].map(chord);
@@ -43,7 +79,7 @@ impl Bent {
     pub(super) fn take_all(all: &mut Vec<Self>, r: &Record, setup: &FlightSetup) {
         all.resize(r.elastic.len(), Self::default());
         for ((bent, wing), e) in all.iter_mut().zip(elastic(setup)).zip(&r.elastic) {
-            bent.take(wing, e.tip);
+            bent.take(wing, e);
         }
     }
 }
@@ -70,6 +106,7 @@ pub(super) fn warnings(setup: &FlightSetup, all: &[Bent], list: &mut Warnings) {
         let Bent {
             displaced,
             stretched,
+            ..
         } = bent;
         if *stretched > TORN {
             list.fault(format!(

@@ -5,7 +5,7 @@ use super::per_beat::Quantity;
 
 impl Summary {
     /// Its numbers in the order of comparisons; those of wingbeats are [`super::PerBeat::QUANTITIES`].
-    pub const NUMBERS: [Quantity<Self>; 32] = [
+    pub const NUMBERS: [Quantity<Self>; 35] = [
         Quantity {
             name: "steps",
             unit: "1",
@@ -96,6 +96,27 @@ impl Summary {
             label: Some("thrust coefficient, last fifth [1]"),
             about: "thrust coefficient over the last fifth of a flight without wingbeats",
             of: |s| s.last_part.as_ref()?.mean.thrust_coefficient,
+        },
+        Quantity {
+            name: "tip_displacement_m",
+            unit: "m",
+            label: Some("tip displaced by up to [m]"),
+            about: "largest displacement of the tip of an elastic wing from rest",
+            of: |s| s.largest_bent(|w| w.tip_displacement_m),
+        },
+        Quantity {
+            name: "tip_twist_deg",
+            unit: "deg",
+            label: Some("tip twisted by up to [deg]"),
+            about: "largest twist of the tip of an elastic wing from rest, either way",
+            of: |s| s.largest_bent(|w| w.tip_twist_deg),
+        },
+        Quantity {
+            name: "strain_energy_joule",
+            unit: "J",
+            label: Some("elastic energy up to [J]"),
+            about: "largest elastic energy of an elastic wing",
+            of: |s| s.largest_bent(|w| w.strain_energy_joule),
         },
         Quantity {
             name: "energy_residual_relative",

@@ -1,8 +1,10 @@
 //! Numbers of a run.
 
 use serde::{Deserialize, Serialize};
+use wingbeat_math::larger;
 
 use super::beats::BeatMeans;
+use super::bent::BentWing;
 use super::held::Departures;
 use super::impulse::ImpulseBudget;
 use super::last_part::LastPart;
@@ -90,6 +92,9 @@ pub struct Summary {
     /// What became of the impulse that surfaces gave to the air; none without a lattice.
     #[serde(default)]
     pub impulse_budget: Option<ImpulseBudget>,
+    /// How far loads bent the elastic wings.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub elastic_wings: Vec<BentWing>,
     /// Under feedback: how far the flight was from what it is to hold.
     #[serde(default)]
     pub departures: Option<Departures>,
@@ -119,6 +124,11 @@ impl Summary {
             Some((label, (q.of)(&a)?, (q.of)(&b)?))
         }));
         rows
+    }
+
+    /// The largest of all elastic wings; none where no wing is elastic.
+    pub(super) fn largest_bent(&self, of: impl Fn(&BentWing) -> f64) -> Option<f64> {
+        self.elastic_wings.iter().map(of).reduce(larger)
     }
 
     /// As JSON in one line, with the directory it belongs to.

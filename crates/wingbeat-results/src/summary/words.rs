@@ -5,6 +5,7 @@ use std::fmt::Write as _;
 use wingbeat_math::larger;
 
 use super::beats::BeatMeans;
+use super::bent::BentWing;
 use super::estimate::Estimate;
 use super::impulse::ImpulseBudget;
 use super::last_part::LastPart;
@@ -71,6 +72,29 @@ impl Summary {
             signed_or_power(yaw, 2),
             signed_or_power(roll, 2)
         );
+        if let Some(text) = self.bent() {
+            out.push_str(&wrapped("", &text));
+        }
+    }
+
+    /// How far the elastic wing that was bent most was bent; none where no wing is elastic.
+    fn bent(&self) -> Option<String> {
+        let size = |w: &&BentWing| w.tip_displacement_relative;
+        let most = self
+            .elastic_wings
+            .iter()
+            .max_by(|a, b| size(a).total_cmp(&size(b)))?;
+        let of = match self.elastic_wings.len() {
+            1 => String::new(),
+            count => format!(", most of the {count} elastic wings"),
+        };
+        Some(format!(
+            "Loads displaced the tip of the wing `{}`{of}, by up to {} ({} of its length) and twisted it by up to {} deg.",
+            most.wing,
+            alone(most.tip_displacement_m, "m"),
+            fixed(most.tip_displacement_relative, 3),
+            fixed(most.tip_twist_deg, 2)
+        ))
     }
 
     fn beat_table(&self, out: &mut String) {

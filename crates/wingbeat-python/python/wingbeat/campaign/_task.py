@@ -93,6 +93,9 @@ def of_summary(summary: Mapping[str, Any]) -> dict[str, Any]:
     for name in ("lift_coefficient", "thrust_coefficient"):
         value = last.get(name)
         numbers[f"last_{name}"] = float("nan") if value is None else value
+    wings = summary.get("elastic_wings", ())
+    for name in ("tip_displacement_m", "tip_twist_deg", "strain_energy_joule"):
+        numbers[name] = max((wing[name] for wing in wings), default=float("nan"))
     numbers["impulse_residual_relative"] = (summary.get("impulse_budget") or {}).get("largest_relative")
     for name in ("leading_rings", "impulse_residual_relative"):  # of air without wakes, and where it is not judged
         if numbers[name] is None:
