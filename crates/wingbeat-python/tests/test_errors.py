@@ -49,6 +49,12 @@ def problem(blade: Flight) -> wingbeat.Problem:
 
 
 BAD: dict[str, Bad] = {
+    "frames that are no truth value": lambda blade, _: blade.fly(frames="no"),
+    "steady that is no truth value": lambda blade, _: blade.wing_modes(steady=1),
+    "campaign whose file is no path": lambda *_: wingbeat.campaign.run(3),
+    "campaign whose folder is no path": lambda blade, _: wingbeat.campaign.map(
+        {"time.beats": [1]}, wingbeat.campaign.Serial(), base=blade, out=3
+    ),
     "unknown preset": lambda *_: Flight.preset("fruit-fli"),
     "empty preset": lambda *_: Flight.preset(""),
     "no such file": lambda *_: Flight.from_case("nowhere.toml"),

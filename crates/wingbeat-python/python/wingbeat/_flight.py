@@ -14,7 +14,7 @@ from wingbeat import _core, _toml
 from wingbeat._case import Part
 from wingbeat._frame import Frame
 from wingbeat._mechanics import Derivatives, LinearModel, Power, Trim, WakeTrim
-from wingbeat._numbers import finite, real, reals, whole
+from wingbeat._numbers import finite, flag, real, reals, whole
 from wingbeat._own import Air, Controller, Loads, Steering
 from wingbeat._paths import path
 from wingbeat._run import Run
@@ -260,7 +260,7 @@ class Flight:
                 remedy="fly() in memory, then run.write(FOLDER)",
             )
         bar = shown(progress, self.name, "step")
-        run, error = self._core.fly(folder, bar, frames)
+        run, error = self._core.fly(folder, bar, flag("frames", frames))
         if error is not None:
             _keep(error, None if run is None else Run(run))
             raise error
@@ -336,7 +336,7 @@ class Flight:
         the wing at rest, or with ``steady`` about its deformed steady state in the stream of the case (minutes in a wake).
         See docs/flexible-modes.md.
         """
-        return wing_modes(self._core, whole("count", count, 1, 100), steady)
+        return wing_modes(self._core, whole("count", count, 1, 100), flag("steady", steady))
 
     def flutter(
         self,
@@ -353,11 +353,8 @@ class Flight:
         ``modes`` of the deformed wing are disturbed by ``disturbance`` over its length, and the response is followed for
         ``periods`` of the first of them, with ``antisymmetric`` of mirror images against each other. ``progress`` is called with speeds done and all speeds. See docs/flexible-flutter.md.
         """
-        if not isinstance(antisymmetric, bool):
-            raise CaseError(
-                f"antisymmetric = {antisymmetric!r:.60}", key="antisymmetric", remedy="True, of wings against each other; False"
-            )
-        how = whole("modes", modes, 1, 20), _share("disturbance", disturbance), _positive("periods", periods), antisymmetric
+        shares = _share("disturbance", disturbance), _positive("periods", periods)
+        how = whole("modes", modes, 1, 20), *shares, flag("antisymmetric", antisymmetric)
         speeds = [float(v) for v in reals("speeds_m_per_s", speeds_m_per_s).ravel()]
         return flutter(self._core, speeds, how, shown(progress, self.name, "speed"))
 

@@ -227,7 +227,8 @@ class _Trimmed(Generic[_Core]):
         return self._solution.body_pitch_rad
 
     def flight(self) -> Flight:
-        """The trimmed flight, to be flown on; in air with a memory held, released, and the free wingbeat."""
+        """The flight that was found, to be flown on, trimmed (``converged``) or not; in air with a memory held, released, and the
+        free wingbeat."""
         return _flight(self._core.case_text)
 
     def power(self) -> Power:

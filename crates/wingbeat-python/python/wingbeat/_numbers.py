@@ -23,6 +23,13 @@ def whole(key: str, number: Any, least: int, most: int) -> int:
     return plain
 
 
+def flag(key: str, given: Any) -> bool:
+    """A truth value: True or False, numpy's as well."""
+    if not isinstance(given, bool) and getattr(given, "dtype", None) != bool:
+        raise CaseError(f"{key} = {given!r:.60}: no truth value", key=key, remedy="True or False")
+    return bool(given)
+
+
 def real(key: str, number: Any) -> float:
     """A real number; texts that read like one and truth values are none."""
     try:

@@ -88,7 +88,10 @@ class Problem:
         )
 
     def evaluate(self, X: ArrayLike) -> NDArray[Any]:
-        """Numbers of points: from shape (n, d) to (n, m), or from (d,) to (m,); NaN where a point failed."""
+        """Numbers of points: from shape (n, d) to (n, m), or from (d,) to (m,); NaN where a point failed.
+
+        Optimisers with penalties ask for points outside the bounds, too: they are flown. Gradients are refused there.
+        """
         import numpy as np
 
         points = reals("X", X)

@@ -16,6 +16,7 @@ from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, Executor, Future
 from pathlib import Path
 from typing import Any
 
+from wingbeat import _paths
 from wingbeat.campaign import _engines
 from wingbeat.errors import CaseError, FlightError
 
@@ -41,8 +42,9 @@ def run(
     being done. Returns how many ``points`` there are, how many are ``done`` and how many of those ``failed``.
     ``wingbeat campaign merge FILE`` makes the tables.
     """
-    path = Path(file).absolute()  # names beside a link are relative to the link
-    folder = Path(out).absolute() if out is not None else Path("results").absolute() / _name(path)
+    path = Path(_paths.path("file", file)).absolute()  # names beside a link are relative to the link
+    kept = "results" if out is None else _paths.path("out", out)
+    folder = Path(kept).absolute() / _name(path) if out is None else Path(kept).absolute()
     if isinstance(attempts, bool) or not isinstance(attempts, int) or attempts < 1:
         raise CaseError(f"attempts = {attempts!r}: no count", key="attempts", remedy="1 or more")
     _begin(path, folder)

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from wingbeat._flight import Flight
+from wingbeat._paths import path
 from wingbeat.campaign import _engines, _names
 from wingbeat.campaign._points import Points
 from wingbeat.campaign._schedule import Schedule
@@ -100,7 +101,7 @@ def plan(
     task = _task(base, do, tuple(units), last_beats)
     _check_keys(task, keys)
     _check_numbers(workers, chunk_s, attempts)
-    return Plan(task, units, None if out is None else Store(out, task), workers, chunk_s, attempts)
+    return Plan(task, units, None if out is None else Store(path("out", out), task), workers, chunk_s, attempts)
 
 
 def _is_death(result: Found) -> bool:
