@@ -224,15 +224,19 @@ fn draw(setup: &FlightSetup, chords: &[Vec<Chord>; 2], when: &str, look: &Look) 
 }
 
 /// Where the two half strokes are drawn in one scale, and the height of the whole: below each other, or beside
-/// each other where they are too tall for that.
+/// each other where that makes them larger.
 fn frames(x: &mut [f64; 2], y: &mut [f64; 2], look: &Look) -> ([Area; 2], f64) {
     let left = 5.0 * look.font;
     let right = 1.6 * look.font;
-    let width = look.width - left - right;
     let most = 1.5 * look.panel;
-    let are_beside = width * (y[1] - y[0]) > most * (x[1] - x[0]);
+    let width = |columns: f64| look.width / columns - left - right;
+    let scale = |columns: f64| {
+        let [across, upward] = [x[1] - x[0], y[1] - y[0]];
+        f64::min(width(columns) / across, columns * most / upward)
+    };
+    let are_beside = scale(2.0) > scale(1.0);
     let columns = if are_beside { 2.0 } else { 1.0 };
-    let width = look.width / columns - left - right;
+    let width = width(columns);
     let height = one_scale(x, y, width, [0.5 * look.panel, columns * most]);
     let above = look.row() + 0.6 * look.font;
     let step = match are_beside {
