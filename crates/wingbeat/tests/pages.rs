@@ -188,7 +188,10 @@ fn balances_the_battery_of_the_page_on_motors() {
     fs::write(dir.join("motor.toml"), case).unwrap();
     fs::write(dir.join("volts.toml"), volts).unwrap();
     let lines = blocks(&page, "sh");
-    lines.iter().flat_map(|b| b.lines()).for_each(|l| run(dir, l));
+    lines
+        .iter()
+        .flat_map(|b| b.lines())
+        .for_each(|l| run(dir, l));
     let [ohm, volt_second, volt] = [2.0, 0.02, 3.0];
     let means = |name: &str| {
         let history = History::read(&dir.join(name).join("history.csv")).unwrap();
@@ -204,7 +207,10 @@ fn balances_the_battery_of_the_page_on_motors() {
         }
         let angle = |k: usize| {
             let angles = column(&format!("joint_right_rotation_{k}_rad"));
-            angles.iter().fold(0.0_f64, |m, q| m.max(q.abs())).to_degrees()
+            angles
+                .iter()
+                .fold(0.0_f64, |m, q| m.max(q.abs()))
+                .to_degrees()
         };
         let text = fs::read_to_string(dir.join(name).join("summary.json")).unwrap();
         let summary: serde_json::Value = serde_json::from_str(&text).unwrap();
@@ -212,12 +218,24 @@ fn balances_the_battery_of_the_page_on_motors() {
         let of = |key: &str| last[key].as_f64().unwrap();
         let shaft = of("power_watt");
         // Both are sums over the same steps of a periodic motion: what is left of the start decides.
-        assert!((battery - heat - shaft).abs() < 1e-5 * shaft, "{battery} {heat} {shaft}");
-        ([battery, heat, shaft, of("lift_over_weight")], [angle(1), angle(2)])
+        assert!(
+            (battery - heat - shaft).abs() < 1e-5 * shaft,
+            "{battery} {heat} {shaft}"
+        );
+        (
+            [battery, heat, shaft, of("lift_over_weight")],
+            [angle(1), angle(2)],
+        )
     };
     let (of_motor, angles) = means("motor");
-    println!("{of_motor:?} {angles:?} {:?} {:?}", means("soft").0, means("stiff").0);
-    let said = |number: f64, digits: usize| assert!(page.contains(&format!("{number:.digits$}")), "{number}");
+    println!(
+        "{of_motor:?} {angles:?} {:?} {:?}",
+        means("soft").0,
+        means("stiff").0
+    );
+    let said = |number: f64, digits: usize| {
+        assert!(page.contains(&format!("{number:.digits$}")), "{number}")
+    };
     of_motor[..3].iter().for_each(|x| said(*x, 3));
     angles.iter().for_each(|x| said(*x, 1));
     for name in ["soft", "stiff"] {
@@ -226,7 +244,11 @@ fn balances_the_battery_of_the_page_on_motors() {
         assert!(page.contains(&row), "{row}");
     }
     let points = fs::read_to_string(dir.join("volts/points.csv")).unwrap();
-    let rows: Vec<Vec<&str>> = points.lines().skip(1).map(|l| l.split(',').collect()).collect();
+    let rows: Vec<Vec<&str>> = points
+        .lines()
+        .skip(1)
+        .map(|l| l.split(',').collect())
+        .collect();
     let number = |row: &Vec<&str>, c: usize| row[c].parse::<f64>().unwrap();
     let [a, b, c] = [0, 1, 2].map(|k| [number(&rows[k], 4), number(&rows[k], 5)]);
     let sentence = format!(

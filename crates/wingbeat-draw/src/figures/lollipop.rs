@@ -378,6 +378,20 @@ mod tests {
         }
     }
 
+    /// Level strokes stand below each other, as long as the page is wide, steep ones side by side.
+    #[test]
+    fn exact_half_strokes_stand_where_they_are_larger() {
+        let look = super::super::style::Style::Screen.look();
+        let drawn = |mut x: [f64; 2], mut y: [f64; 2]| {
+            let ([a, b], _) = frames(&mut x, &mut y, &look);
+            (a.top == b.top, a.width / (x[1] - x[0]))
+        };
+        let (beside, level) = drawn([-3.0, 2.0], [-0.6, 1.8]);
+        assert!(!beside && level > 0.8 * look.width / 5.0, "{level}");
+        let (beside, steep) = drawn([-0.6, 1.8], [-3.0, 2.0]);
+        assert!(beside && steep > 0.4 * look.width / 5.0, "{steep}");
+    }
+
     #[test]
     fn exact_known_forces_are_round() {
         assert_eq!(known_force(7.3e-3, 1e-3), (5e-3, "5 × weight".to_owned()));
