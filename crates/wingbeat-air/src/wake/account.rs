@@ -97,8 +97,8 @@ pub(crate) fn oldest_rings(sheet: &WakeSheet, rows: usize) -> DVec3 {
     impulse_with(sheet, rows, |r, c| sheet.node(r, c))
 }
 
-/// The same with the nodes elsewhere: `at` (row, column). Where rings of the sheet have become particles, that of its
-/// filaments, which hold what borders on those.
+/// Impulse per density [m4/s], N, of the oldest `rows` rows of rings of a sheet with its nodes at `at` (row, column).
+/// Where rings of the sheet have become particles, that of its filaments, which hold what borders on those.
 pub(crate) fn impulse_with(
     sheet: &WakeSheet,
     rows: usize,
