@@ -24,7 +24,7 @@
 //!   [`REMAINDER`] is left.
 //! - An edge that has again no more suction than it holds recovers within [`RECOVERY`] chords.
 
-use crate::error::{AirError, require};
+use crate::error::{AirError, is_positive, require};
 use wingbeat_math::smoothstep;
 
 /// Rounding, relative to the threshold and to T*: plates hold 0.11 to 0.19 about 0.15 [Ramesh et al. 2014, J.
@@ -106,7 +106,6 @@ impl VortexLift {
     /// # Errors
     /// [`AirError::Setting`] names the first number that makes no sense.
     pub(crate) fn validate(&self) -> Result<(), AirError> {
-        let is_positive = |x: f64| x.is_finite() && x > 0.0;
         for (key, value) in [
             ("leading suction threshold", self.threshold),
             ("leading vortex formation", self.formation),

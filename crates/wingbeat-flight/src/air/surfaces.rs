@@ -397,7 +397,7 @@ fn part_surface(part: &BodyPart) -> Surface {
     Surface::closed(&part.name, part.mesh.nodes.len(), part.mesh.quads.clone())
 }
 
-/// A wing as a lattice surface: its panels turned so that normals point up on either side of the body.
+/// A wing as a lattice surface: normals along +axis 3 on both sides.
 fn wing_surface(name: &str, mesh: &GridMesh, side: Side) -> Surface {
     Surface {
         panels: mesh.panels(side),

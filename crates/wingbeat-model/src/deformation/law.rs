@@ -36,7 +36,7 @@ impl SpanLaw {
     pub fn at(&self, r: f64, root: f64) -> f64 {
         match self {
             &Self::Linear { root: a, tip: b } => a + (b - a) * ((r - root) / (1.0 - root)),
-            Self::Table(rows) => crate::integrate::interpolate(rows, r),
+            Self::Table(rows) => wingbeat_math::interpolate_pairs(rows, r),
         }
     }
 
