@@ -53,7 +53,7 @@ pub use interface::record::{
     SurfaceSnapshot, WakeSnapshot,
 };
 pub use interface::{
-    Air, AirScratch, Announcement, ExternalAir, ExternalSession, Instant, Shape, WingInertia,
+    Air, AirScratch, Announcement, BentShape, ExternalAir, ExternalSession, Instant, WingInertia,
     WingResponse,
 };
 pub use setup::*;

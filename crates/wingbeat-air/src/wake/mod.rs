@@ -20,5 +20,5 @@ mod truncation;
 
 pub(crate) use convection::WakeMotion;
 pub use filaments::Filaments;
-pub(crate) use near_wake::{NEW_VORTEX, Row, Share, at_edge};
+pub(crate) use near_wake::{NEW_VORTEX, NearWakeRow, NearWakeShare, at_edge};
 pub(crate) use summation::{NEAR, Sums, WakeVelocityCache};

@@ -134,7 +134,7 @@ pub(super) fn over_time(series: &Fourier, [x, x1, x2]: [f64; 3]) -> [f64; 3] {
 
 /// Deformation of one section, each with its first two time derivatives.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Section {
+pub struct SectionDeformation {
     /// Twist tau \[rad\].
     pub twist: [f64; 3],
     /// Height of the mean line over the chord \[1\].
