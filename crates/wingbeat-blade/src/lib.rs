@@ -58,7 +58,7 @@ pub use coefficients::{NamedSet, SETS, Translation, find_set};
 pub use deforming::{DeformingLoad, SectionMotion};
 pub use derivatives::{DerivativeTable, ReferenceSizes};
 pub use error::BladeError;
-pub use indicial::{Indicial, MAX_STATES, Pole, Unsteady};
+pub use indicial::{Indicial, Pole, Unsteady};
 pub use lag::{Lag, StripMemory, StripTrial, WingMemory};
 pub use settings::{AddedMassModel, BladeSettings, CentreOfPressure, Rotation, ViscousMoment};
 pub use strip::{PlacedStrip, Strip};
