@@ -9,14 +9,17 @@ mod cores;
 mod filaments;
 mod force_free;
 mod joined_nodes;
-mod mover;
+mod move_step;
 mod near_wake;
+mod node_flow;
 mod particle_flow;
 mod particle_motion;
 mod separation;
 mod shedding;
+mod sheet_move;
 mod summation;
 mod truncation;
+mod wake_flow;
 
 pub(crate) use convection::WakeMotion;
 pub use filaments::Filaments;
