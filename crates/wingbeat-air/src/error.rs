@@ -384,3 +384,8 @@ pub(crate) fn require(
         }),
     }
 }
+
+/// Whether it is finite and above 0.
+pub(crate) fn is_positive(x: f64) -> bool {
+    x.is_finite() && x > 0.0
+}

@@ -216,7 +216,7 @@ impl Lattice {
     }
 
     /// Strips of panels behind the leading edges, in the order of [`crate::AirState::leading`].
-    pub fn strips(&self) -> &[Strip] {
+    pub(crate) fn strips(&self) -> &[Strip] {
         &self.strips
     }
 

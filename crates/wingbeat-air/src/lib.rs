@@ -59,12 +59,11 @@ pub use edges::{EdgeKind, SheddingKinds};
 pub use error::AirError;
 pub use geometry::{
     Edge, JoinedColumns, JoinedEdge, MirrorPairs, NodeMotion, PanelEdge, Panels, SheddingSegment,
-    Sheet, Strip, Surface, Topology, WakeColumn,
+    Sheet, Surface, Topology, WakeColumn,
 };
 pub use images::Plane;
 pub use lattice::Lattice;
 pub use loads::{AirLoads, SurfaceLoads};
-pub use response::NodeWash;
 pub use settings::{
     AIR_VISCOSITY, AirSettings, CirculationRate, Convection, Friction, Gust, GustShape,
     LeadingEdge, LoadMethod, NEUTRAL_WIDTH, NewestRow, OVERLAP_SLOPE, ParticleSettings,

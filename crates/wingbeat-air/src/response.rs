@@ -14,10 +14,6 @@ use crate::state::AirState;
 use crate::workspace::AirWorkspace;
 use wingbeat_math::{DVec3, DenseLu};
 
-/// How the normal velocity of a panel changes with a node of its surface: by its velocity \[1\] and by its
-/// place \[1/s\], N components. The first is also how the node shares in a normal force of the panel.
-pub type NodeWash = [DVec3; 2];
-
 impl Lattice {
     /// Derivative of the normal forces of the panels of the open surface `s` by the normal velocities of their
     /// control points \[N s/m\], row by row, at the instant that `ws` and `out` were last asked for
@@ -98,13 +94,14 @@ impl Lattice {
 
     /// How the normal velocity of panel `p`, that of the surface less that of the air, changes with the nodes
     /// of its surface (their numbers on it), at the instant of `ws` and `loads`, all nodes of the surfaces
-    /// being at `position` [m, N]; some nodes several times.
+    /// being at `position` [m, N]; some nodes several times. Of each node by its velocity \[1\] and by its place \[1/s\], N
+    /// components; the first is also how the node shares in a normal force of the panel.
     pub fn normal_wash(
         &self,
         p: usize,
         ws: &AirWorkspace,
         (loads, position): (&AirLoads, &[DVec3]),
-        mut see: impl FnMut(usize, NodeWash),
+        mut see: impl FnMut(usize, [DVec3; 2]),
     ) {
         let first = self.nodes_of(self.topology().panel_surface[p]).start;
         let corners = self.topology().panels[p];

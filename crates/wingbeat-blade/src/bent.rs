@@ -24,7 +24,7 @@ use crate::wing::BladeWing;
 
 /// How much a node shares in the place, the chord \[1/m\] and the sides of a section.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Share {
+struct NodeWeight {
     node: usize,
     place: f64,
     chord: f64,
@@ -33,8 +33,8 @@ struct Share {
 
 /// A section of the mesh.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Section {
-    shares: Vec<Share>,
+pub struct MeshSection {
+    shares: Vec<NodeWeight>,
     /// Place at rest along the chord ahead of the feathering axis, and those of the leading and the trailing
     /// edge \[m\].
     x: f64,
@@ -84,7 +84,7 @@ struct Gathered {
     span: DVec3,
 }
 
-impl Section {
+impl MeshSection {
     /// Through the nodes `inner` and `outer` of two columns, each from the leading to the trailing edge, of the
     /// mesh `rest` \[m\], wing frame.
     pub fn new(rest: &[DVec3], inner: &[usize], outer: &[usize]) -> Self {
@@ -108,7 +108,7 @@ impl Section {
         for (i, nodes) in rows.iter().enumerate() {
             let (w, chord) = (weight(i), weight(i) * (x[i] - mean) / spread);
             for (node, sign) in nodes.iter().zip([-1.0, 1.0]) {
-                shares.push(Share {
+                shares.push(NodeWeight {
                     node: *node,
                     place: 0.5 * w / total,
                     chord: 0.5 * chord,
@@ -261,7 +261,7 @@ impl BladeWing {
     /// `states`: all of [`Self::lagging_load`] and [`Self::acceleration_load`].
     pub fn bent_forces(
         &self,
-        sections: &[Section],
+        sections: &[MeshSection],
         states: &[SectionState],
         mut lag: Option<Lag<'_>>,
         out: &mut [DVec3],
@@ -335,7 +335,7 @@ impl BladeWing {
     /// wakes lagging as `lag` says; terms of second order in the rates of turning are left out.
     pub fn bent_answers(
         &self,
-        sections: &[Section],
+        sections: &[MeshSection],
         states: &[SectionState],
         mut lag: Option<Lag<'_>>,
         out: &mut Vec<SectionAnswer>,
@@ -441,7 +441,7 @@ fn pairs_of(
 }
 
 /// Fills the three ways to move a section, by its nodes.
-fn set_ways(section: &Section, s: &SectionState, out: &mut [Vec<(usize, [DVec3; 2])>; 3]) {
+fn set_ways(section: &MeshSection, s: &SectionState, out: &mut [Vec<(usize, [DVec3; 2])>; 3]) {
     let ([e1, _, n], [u, w, _]) = (s.e, s.moves());
     out.iter_mut().for_each(Vec::clear);
     for share in &section.shares {

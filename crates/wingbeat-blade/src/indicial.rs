@@ -34,7 +34,7 @@ pub enum Unsteady {
 }
 
 /// Most states of Peters' theory.
-pub const MAX_STATES: usize = 8;
+const MAX_STATES: usize = 8;
 
 impl Unsteady {
     /// Checks the number of states.

@@ -31,7 +31,7 @@
 //! but for the circulation of feathering, which hangs on the feathering axis alone, as in the sources.
 //! Velocities along the span are ignored, as in all the sources, but by the moment of the added momentum.
 //! Strips of wings that are not flat have frames of their own ([`PlacedStrip`]). Twist and bending of a wing
-//! place and move its strips ([`SectionMotion`] where they are prescribed, [`Section`] where loads bend the
+//! place and move its strips ([`SectionMotion`] where they are prescribed, [`MeshSection`] where loads bend the
 //! wing).
 //!
 //! What this crate does not know: wakes of other strips, animals, coordinates; of time no more than the age of
@@ -52,13 +52,13 @@ mod strip;
 mod wind;
 mod wing;
 
-pub use bent::{NodesInMotion, Section, SectionAnswer, SectionState};
+pub use bent::{MeshSection, NodesInMotion, SectionAnswer, SectionState};
 pub use body_drag::BodyDrag;
 pub use coefficients::{NamedSet, SETS, Translation, find_set};
 pub use deforming::{DeformingLoad, SectionMotion};
 pub use derivatives::{DerivativeTable, ReferenceSizes};
 pub use error::BladeError;
-pub use indicial::{Indicial, MAX_STATES, Pole, Unsteady};
+pub use indicial::{Indicial, Pole, Unsteady};
 pub use lag::{Lag, StripMemory, StripTrial, WingMemory};
 pub use settings::{AddedMassModel, BladeSettings, CentreOfPressure, Rotation, ViscousMoment};
 pub use strip::{PlacedStrip, Strip};

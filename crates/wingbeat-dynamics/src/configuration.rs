@@ -26,7 +26,7 @@ pub struct Composite {
 
 /// What a [`Composite`] changes at, free joints moving at the speeds they have.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct CompositeRates {
+pub(crate) struct CompositeRates {
     /// Acceleration of the mass centre as seen from the root, root components [m/s2].
     pub c_ddot: DVec3,
     /// Rate of the inertia about the mass centre [kg m2/s].

@@ -41,7 +41,7 @@ struct Direction {
 
 /// First moment and inertia of a body about its origin, and what it still needs, root components.
 #[derive(Clone, Copy, Debug, Default)]
-struct Part {
+struct BodyTerms {
     first: DVec3,
     inertia: DMat3,
     bias_force: [DVec3; 2],
@@ -51,7 +51,7 @@ struct Part {
 #[derive(Clone, Debug)]
 pub(crate) struct FreeScratch {
     directions: Vec<Direction>,
-    parts: Vec<Part>,
+    terms: Vec<BodyTerms>,
     /// Momenta of the whole for unit speeds.
     momenta: Vec<[DVec3; 2]>,
     matrix: Vec<f64>,
@@ -65,7 +65,7 @@ impl FreeScratch {
         let n = system.speeds();
         Self {
             directions: vec![Direction::default(); n],
-            parts: vec![Part::default(); system.bodies().len()],
+            terms: vec![BodyTerms::default(); system.bodies().len()],
             momenta: vec![[DVec3::ZERO; 2]; n],
             matrix: vec![0.0; n * n],
             scale: vec![0.0; n],
@@ -84,7 +84,7 @@ impl FreeScratch {
         bias_force: &[Wrench],
     ) -> Result<(), SingularMatrix> {
         self.find_directions(system, placements, q);
-        self.find_parts(system, placements, r, bias_force);
+        self.find_terms(system, placements, r, bias_force);
         let inverse = whole.inertia.inverse();
         let total = self.total_demand(placements, whole.c);
         for j in 0..self.u_dot.len() {
@@ -125,7 +125,7 @@ impl FreeScratch {
         }
     }
 
-    fn find_parts(
+    fn find_terms(
         &mut self,
         system: &System,
         placements: &[Placement],
@@ -134,7 +134,7 @@ impl FreeScratch {
     ) {
         let back = r.transpose();
         for (i, (b, at)) in system.bodies().iter().zip(placements).enumerate() {
-            self.parts[i] = Part {
+            self.terms[i] = BodyTerms {
                 first: at.c * b.mass.first_moment,
                 inertia: at.c * b.mass.inertia * at.c.transpose(),
                 bias_force: [back * bias_force[i].force, back * bias_force[i].moment],
@@ -150,7 +150,7 @@ impl FreeScratch {
 
     /// Momentum of body i and its moment about the body's origin for unit speed j.
     fn body_momentum(&self, system: &System, i: usize, j: usize, d: DVec3) -> [DVec3; 2] {
-        let (p, v, w) = (&self.parts[i], self.velocity(j, d), self.directions[j].spin);
+        let (p, v, w) = (&self.terms[i], self.velocity(j, d), self.directions[j].spin);
         let mass = system.bodies()[i].mass.mass;
         [
             mass * v + w.cross(p.first),
@@ -184,7 +184,7 @@ impl FreeScratch {
 
     fn total_demand(&self, placements: &[Placement], c: DVec3) -> [DVec3; 2] {
         let mut sum = [DVec3::ZERO; 2];
-        for (p, at) in self.parts.iter().zip(placements) {
+        for (p, at) in self.terms.iter().zip(placements) {
             let [f, n] = p.bias_force;
             sum[0] += f;
             sum[1] += n + (at.d - c).cross(f);
@@ -195,7 +195,7 @@ impl FreeScratch {
     /// D_j.
     fn work(&self, system: &System, placements: &[Placement], j: usize) -> f64 {
         let one = |i: usize| {
-            let [f, n] = self.parts[i].bias_force;
+            let [f, n] = self.terms[i].bias_force;
             self.velocity(j, placements[i].d).dot(f) + self.directions[j].spin.dot(n)
         };
         self.moved(system, j).map(one).sum()

@@ -62,7 +62,7 @@ mod system;
 
 pub use added_mass::AddedMass;
 pub use budget::{budget, load_power, mass_centre, relative_energy};
-pub use configuration::{Composite, CompositeRates, Configuration, ConfigurationTable};
+pub use configuration::{Composite, Configuration, ConfigurationTable};
 pub use cycle::Cycle;
 pub use error::DynamicsError;
 pub use formulation::euler;

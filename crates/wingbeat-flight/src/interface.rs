@@ -32,7 +32,7 @@ pub struct Instant<'a> {
     /// Their accelerations as far as they are known; empty where no wing bends.
     pub accelerations: &'a [BodyAcceleration],
     /// Shapes of the wings that loads bend, wing by wing; none for the others, empty where no wing bends.
-    pub shapes: &'a [Option<Shape>],
+    pub shapes: &'a [Option<BentShape>],
 }
 
 impl<'a> Instant<'a> {
@@ -50,7 +50,7 @@ impl<'a> Instant<'a> {
 
 /// A wing as loads bend it: the nodes of its mesh relative to the frame of the wing, wing components.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Shape {
+pub struct BentShape {
     /// Places [m].
     pub position: Vec<DVec3>,
     /// Velocities [m/s].

@@ -39,7 +39,7 @@ pub use bodies::joint_steps::{JointSteps, growing_joint, inertia_about};
 pub use bodies::joints::{self, closes_loop, faster, is_driven};
 pub use bodies::{
     JointCoordinate, WingLaw, check_assembly, doubtful_masses, joint_coordinates, loop_names,
-    natural_units, system, system_of, system_with,
+    natural_units, system, system_of,
 };
 pub use doubts::turned_over::TurnedOver;
 pub use doubts::{CrossingWings, Doubt, DoubtKind};
@@ -53,7 +53,7 @@ pub use interface::record::{
     SurfaceSnapshot, WakeSnapshot,
 };
 pub use interface::{
-    Air, AirScratch, Announcement, ExternalAir, ExternalSession, Instant, Shape, WingInertia,
+    Air, AirScratch, Announcement, BentShape, ExternalAir, ExternalSession, Instant, WingInertia,
     WingResponse,
 };
 pub use setup::*;

@@ -25,7 +25,7 @@ use wingbeat_math::ode::{
 };
 
 use self::fits::check_fits;
-use self::start::Start;
+use self::start::StartingSteps;
 use self::wings::WingAngles;
 use crate::bodies::own_motion;
 use crate::elastic::ElasticState;
@@ -355,7 +355,7 @@ impl Simulation {
     fn start(&mut self) -> Result<(), FlightError> {
         let equations = &self.stages[self.state.stage].equations;
         let (h, first, state) = (self.setup.time.step, self.state.step, &mut self.state);
-        let mut start = Start {
+        let mut start = StartingSteps {
             equations,
             scratch: Scratch::new(equations),
             first,

@@ -48,7 +48,7 @@ pub use rotation::{
     rotation_vector_of_matrix, tilde, untilde,
 };
 pub use secants::{Secants, Shown};
-pub use series::{DriftingFourier, interpolate, with_harmonics};
+pub use series::{DriftingFourier, interpolate, interpolate_pairs, with_harmonics};
 pub use six_by_six::{Six, SixBySix, six};
 pub use small_lu::{SingularMatrix, SmallLu, solve_small};
 pub use smoothstep::{smoothstep, smoothstep7};

@@ -103,3 +103,12 @@ pub fn interpolate(rows: usize, row: impl Fn(usize) -> (f64, f64), x: f64) -> f6
     let ((x0, y0), (x1, y1)) = (row(next - 1), row(next));
     y0 + (y1 - y0) * ((x - x0) / (x1 - x0))
 }
+
+/// The same of a table of pairs of abscissa and value.
+///
+/// ```
+/// assert_eq!(wingbeat_math::interpolate_pairs(&[(0.0, 1.0), (2.0, 5.0)], 0.5), 2.0);
+/// ```
+pub fn interpolate_pairs(rows: &[(f64, f64)], x: f64) -> f64 {
+    interpolate(rows.len(), |k| rows[k], x)
+}

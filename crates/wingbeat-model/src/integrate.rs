@@ -9,7 +9,7 @@
 
 use crate::error::{ModelError, check_rising, in_row, not_negative, positive};
 use crate::mesh::{GridMesh, QuadMesh, Side};
-use wingbeat_math::{DMat3, DVec3, MassProperties, outer, trace};
+use wingbeat_math::{DMat3, DVec3, MassProperties, interpolate_pairs, outer, trace};
 
 /// Abscissas on [0, 1] and weights of the three-point Gauss rule (exact to degree five).
 pub(crate) const GAUSS: [(f64, f64); 3] = [
@@ -161,7 +161,7 @@ impl MassInput {
             MassInput::SpanTable(rows) => {
                 let tip = quads.nodes.iter().fold(0.0_f64, |a, x| a.max(x.y.abs()));
                 check_span_table(&key, rows, tip)?;
-                shell(&quads, |x| interpolate(rows, x.y.abs()))
+                shell(&quads, |x| interpolate_pairs(rows, x.y.abs()))
             }
             &MassInput::Given(given) => given,
         };
@@ -223,9 +223,4 @@ fn check_span_table(key: &str, rows: &[(f64, f64)], tip: f64) -> Result<(), Mode
     }
     positive(key, rows.iter().map(|r| r.1).sum())?;
     Ok(())
-}
-
-/// Piecewise linear interpolation, constant beyond the ends.
-pub(crate) fn interpolate(rows: &[(f64, f64)], x: f64) -> f64 {
-    wingbeat_math::interpolate(rows.len(), |k| rows[k], x)
 }

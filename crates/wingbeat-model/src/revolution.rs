@@ -6,11 +6,11 @@
 
 use crate::ModelError;
 use crate::error::{finite, in_row, positive, require, require_count};
-use crate::integrate::{GAUSS, from_moments, interpolate};
+use crate::integrate::{GAUSS, from_moments};
 use crate::mesh::QuadMesh;
 use statrs::function::beta::beta;
 use std::f64::consts::{PI, TAU};
-use wingbeat_math::{DMat3, DVec3, MassProperties, outer};
+use wingbeat_math::{DMat3, DVec3, MassProperties, interpolate_pairs, outer};
 
 /// Radius along the axis, relative to the largest, over the station s in [0, 1] from front pole
 /// to rear pole.
@@ -36,7 +36,7 @@ impl Profile {
             Profile::Superellipse { exponent: n } => {
                 (1.0 - z.abs().powf(*n)).max(0.0).powf(1.0 / n)
             }
-            Profile::Table(rows) => interpolate(rows, s),
+            Profile::Table(rows) => interpolate_pairs(rows, s),
         }
     }
 

@@ -10,7 +10,7 @@ use wingbeat::analysis::episode::{self, Task};
 use wingbeat::analysis::{AnalysisError, Trim};
 
 use crate::errors::{named, raised};
-use crate::own::Parts;
+use crate::own::OwnFunctions;
 use crate::threads::detached;
 
 /// Settings of episodes: a dictionary of Python.
@@ -64,12 +64,17 @@ pub struct Shared {
 pub struct Course {
     pub shared: Arc<Shared>,
     /// Parts of the flyer that are written in Python.
-    pub parts: Parts,
+    pub parts: OwnFunctions,
 }
 
 impl Course {
     /// Of episodes about the trimmed flight `trim`.
-    pub fn of(py: Python<'_>, trim: Trim, settings: Settings, parts: Parts) -> PyResult<Self> {
+    pub fn of(
+        py: Python<'_>,
+        trim: Trim,
+        settings: Settings,
+        parts: OwnFunctions,
+    ) -> PyResult<Self> {
         let task = named(py, "task", &settings.task, &Task::ALL)?;
         let built = detached(py, move || {
             let course = settings.course(task, trim)?;

@@ -12,21 +12,21 @@ use wingbeat::flight::FlightError;
 
 /// What an exception carries beside its message.
 #[derive(Default)]
-struct Parts {
+struct ErrorFields {
     key: String,
     line: Option<usize>,
     remedy: String,
 }
 
 /// The exception of this class.
-fn exception(py: Python<'_>, class: &str, message: &str, parts: Parts) -> PyErr {
+fn exception(py: Python<'_>, class: &str, message: &str, fields: ErrorFields) -> PyErr {
     let build = || -> PyResult<PyErr> {
-        let fields = PyDict::new(py);
-        fields.set_item("key", parts.key)?;
-        fields.set_item("line", parts.line)?;
-        fields.set_item("remedy", parts.remedy)?;
+        let dict = PyDict::new(py);
+        dict.set_item("key", fields.key)?;
+        dict.set_item("line", fields.line)?;
+        dict.set_item("remedy", fields.remedy)?;
         let class = py.import("wingbeat.errors")?.getattr(class)?;
-        let value = class.call((message,), Some(&fields))?;
+        let value = class.call((message,), Some(&dict))?;
         Ok(PyErr::from_value(value))
     };
     build().unwrap_or_else(|e| e)
@@ -35,12 +35,12 @@ fn exception(py: Python<'_>, class: &str, message: &str, parts: Parts) -> PyErr 
 /// A value that is refused before any case is made of it.
 pub fn refused(py: Python<'_>, key: &str, problem: &str, remedy: &str) -> PyErr {
     let message = format!("{key}: {problem}; try: {remedy}");
-    let parts = Parts {
+    let fields = ErrorFields {
         key: key.to_owned(),
         line: None,
         remedy: remedy.to_owned(),
     };
-    exception(py, "CaseError", &message, parts)
+    exception(py, "CaseError", &message, fields)
 }
 
 /// Of a folder with the numbers of a flight in memory, which no case goes with.
@@ -50,12 +50,12 @@ pub fn without_case(py: Python<'_>, dir: &Path) -> PyErr {
         "`{key}`: it holds the numbers of a flight in memory (run.write), and no case to read them with"
     );
     let remedy = "fly(out=FOLDER) writes what read() takes; history.csv and summary.json are read by other means (numpy, json)";
-    let parts = Parts {
+    let fields = ErrorFields {
         key,
         line: None,
         remedy: remedy.to_owned(),
     };
-    exception(py, "ResultError", &message, parts)
+    exception(py, "ResultError", &message, fields)
 }
 
 /// Of a question to air that is no vortex lattice.
@@ -76,7 +76,7 @@ pub fn named<T: Copy>(py: Python<'_>, key: &str, name: &str, all: &[(&str, T)]) 
 
 /// What went wrong, as an exception.
 pub fn raised(py: Python<'_>, error: &Error) -> PyErr {
-    let (class, parts) = match error {
+    let (class, fields) = match error {
         Error::Io(e) => file(e),
         Error::Flight(e) => flight(e),
         Error::Analysis(e) => analysis(e),
@@ -87,11 +87,11 @@ pub fn raised(py: Python<'_>, error: &Error) -> PyErr {
         Error::Ensemble { remedy, .. } => ("FlightError", about("members", *remedy)),
         Error::Threads(_) => ("FlightError", about("threads", "fly on fewer threads")),
     };
-    let parts = Parts {
-        remedy: in_python(&parts.remedy),
-        ..parts
+    let fields = ErrorFields {
+        remedy: in_python(&fields.remedy),
+        ..fields
     };
-    exception(py, class, &in_python(&error.to_string()), parts)
+    exception(py, class, &in_python(&error.to_string()), fields)
 }
 
 /// Words of the command line and those of Python in their place. A new flight takes no directory of an old one there.
@@ -114,15 +114,15 @@ pub fn broken() -> PyErr {
     PyRuntimeError::new_err("wingbeat failed within itself; please report the case")
 }
 
-fn about(key: impl Into<String>, remedy: impl Into<String>) -> Parts {
-    Parts {
+fn about(key: impl Into<String>, remedy: impl Into<String>) -> ErrorFields {
+    ErrorFields {
         key: key.into(),
         line: None,
         remedy: remedy.into(),
     }
 }
 
-fn file(error: &IoError) -> (&'static str, Parts) {
+fn file(error: &IoError) -> (&'static str, ErrorFields) {
     match error {
         IoError::Case(e) => ("CaseError", of_case(e)),
         IoError::NoCase { name, hint } => {
@@ -167,19 +167,19 @@ fn or_case(key: &str) -> String {
     }
 }
 
-fn of_case(error: &CaseError) -> Parts {
+fn of_case(error: &CaseError) -> ErrorFields {
     let remedy = match &error.remedy[..] {
         "" => &error.allowed,
         remedy => remedy,
     };
-    Parts {
+    ErrorFields {
         key: or_case(&error.key),
         line: error.line,
         remedy: remedy.to_owned(),
     }
 }
 
-fn flight(error: &FlightError) -> (&'static str, Parts) {
+fn flight(error: &FlightError) -> (&'static str, ErrorFields) {
     match error {
         FlightError::Setup { key, problem, .. } => ("CaseError", about(*key, last_clause(problem))),
         FlightError::NotConverged { .. } => {
@@ -223,7 +223,7 @@ fn last_clause(message: &str) -> &str {
     parts.map_or(message, |(_, last)| last)
 }
 
-fn analysis(error: &AnalysisError) -> (&'static str, Parts) {
+fn analysis(error: &AnalysisError) -> (&'static str, ErrorFields) {
     match error {
         AnalysisError::Flight(e) => flight(e),
         AnalysisError::NotCovered { remedy, .. }

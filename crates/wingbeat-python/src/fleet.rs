@@ -14,7 +14,7 @@ use wingbeat::analysis::episode::{Episode, Kept, OBSERVED, SharedModel, Task};
 use crate::arrays::array;
 use crate::course::{Course, Shared};
 use crate::errors::{broken, named, raised, refused};
-use crate::own::Parts;
+use crate::own::OwnFunctions;
 use crate::threads::detached;
 
 /// An episode that is stepped over and over.
@@ -54,7 +54,7 @@ pub struct Fleet {
     flights: usize,
     autoreset: Autoreset,
     /// Parts of the flyers that are written in Python, flight by flight.
-    parts: Vec<Parts>,
+    parts: Vec<OwnFunctions>,
 }
 
 /// Episodes of `courses`, which take turns, of these seeds. Neighbours of one flight share a model.

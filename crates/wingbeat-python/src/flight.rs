@@ -15,7 +15,7 @@ use wingbeat::flight::{AirModel, MotionMode, Snapshot};
 use crate::errors::{raised, refused};
 use crate::frame::is_framed;
 use crate::mechanics::{self, Trim};
-use crate::own::{Parts, PendingException, air, controller};
+use crate::own::{OwnFunctions, PendingException, air, controller};
 use crate::run::Run;
 use crate::stepping::Stepper;
 use crate::threads::detached;
@@ -34,7 +34,7 @@ pub struct Flight {
     /// Exceptions of parts written in Python.
     pending: PendingException,
     /// Such parts, if it has any.
-    parts: Parts,
+    parts: OwnFunctions,
     /// Whether one of these remembers what it was called with.
     remembers: bool,
 }
@@ -47,7 +47,7 @@ impl Flight {
             base,
             sets,
             pending: PendingException::default(),
-            parts: Parts::default(),
+            parts: OwnFunctions::default(),
             remembers: false,
         }
     }

@@ -14,7 +14,7 @@ use wingbeat::math::DVec3;
 use crate::arrays::array;
 use crate::course::{Course, Settings};
 use crate::errors::{raised, refused};
-use crate::own::Parts;
+use crate::own::OwnFunctions;
 use crate::solution::TrimSolution;
 use crate::worker::analyse;
 
@@ -87,7 +87,7 @@ pub fn trim(
     flight: &wingbeat::Flight,
     problem: TrimProblem,
     case: Option<LoadedCase>,
-    parts: Parts,
+    parts: OwnFunctions,
 ) -> PyResult<Trim> {
     let mut open = flight.clone();
     open.setup.feedback = None;
@@ -102,7 +102,7 @@ pub struct Trim {
     trim: wingbeat::analysis::Trim,
     /// None where parts written in Python fly, which no case says.
     case: Option<LoadedCase>,
-    parts: Parts,
+    parts: OwnFunctions,
 }
 
 /// Name, plane, growth [1/s], frequency [rad/s], multiplier, eigenvector: component, size, phase [rad].

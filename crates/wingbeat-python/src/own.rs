@@ -3,7 +3,7 @@
 //! An exception in one of them ends the flight; it is kept in its [`PendingException`] and raised when the
 //! flight has stopped.
 //!
-//! Their functions belong to the Python objects that fly them ([`Parts`]), where the garbage collector of
+//! Their functions belong to the Python objects that fly them ([`OwnFunctions`]), where the garbage collector of
 //! Python sees them: an object whose method is the controller of a flight that it keeps is freed with it. The
 //! flight itself, which Rust shares and the collector cannot look into, has weak references.
 
@@ -53,9 +53,9 @@ impl PendingException {
 
 /// The functions of the parts of a flight, owned by a Python object: each object that flies them has its own.
 #[derive(Default)]
-pub struct Parts(Vec<Py<PyAny>>);
+pub struct OwnFunctions(Vec<Py<PyAny>>);
 
-impl Parts {
+impl OwnFunctions {
     /// The same of another object.
     pub fn copy(&self, py: Python<'_>) -> Self {
         Self(self.0.iter().map(|part| part.clone_ref(py)).collect())
@@ -184,7 +184,7 @@ impl Sensed {
     }
 }
 
-/// A function of Python in a part of the flight, which [`Parts`] own.
+/// A function of Python in a part of the flight, which [`OwnFunctions`] own.
 #[derive(Clone)]
 struct Function {
     function: Arc<Py<PyWeakrefReference>>,
@@ -219,7 +219,7 @@ struct PythonController {
     has_memory: bool,
 }
 
-/// The controller `function`, which somebody's [`Parts`] own. One with a memory is reset when a flight begins.
+/// The controller `function`, which somebody's [`OwnFunctions`] own. One with a memory is reset when a flight begins.
 pub fn controller(
     function: &Bound<'_, PyAny>,
     pending: &PendingException,
@@ -289,7 +289,7 @@ struct PythonAir {
     is_steady_and_uniform: bool,
 }
 
-/// The air of `function`, which somebody's [`Parts`] own, called with time [s] and the motions of all bodies,
+/// The air of `function`, which somebody's [`OwnFunctions`] own, called with time [s] and the motions of all bodies,
 /// shape (bodies, 18): origin, rotation to N by rows, velocity, angular velocity in body components; it answers
 /// forces and moments about the origins, N components, shape (bodies, 6). An air with a memory hears which
 /// steps are accepted (`function.accept(step)`), and is called with the number of the step as well. Loads that

@@ -14,7 +14,7 @@ use wingbeat::results::Outcome;
 use crate::arrays::{points, rows};
 use crate::errors::{broken, no_lattice, raised, refused};
 use crate::frame::{Frame, is_framed};
-use crate::own::{Parts, PendingException};
+use crate::own::{OwnFunctions, PendingException};
 use crate::run::Run;
 use crate::threads::within;
 
@@ -65,7 +65,7 @@ pub struct Stepper {
     holder: Holder,
     output: OutputSettings,
     case: String,
-    parts: Parts,
+    parts: OwnFunctions,
     pending: PendingException,
     /// Whether parts written in Python remember what they were called with.
     remembers: bool,
@@ -78,7 +78,7 @@ impl Stepper {
         flight: Simulation,
         output: OutputSettings,
         case: String,
-        parts: Parts,
+        parts: OwnFunctions,
         (pending, remembers): (PendingException, bool),
     ) -> Self {
         let course = Course {

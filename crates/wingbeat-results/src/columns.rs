@@ -71,12 +71,12 @@ pub struct Columns {
     list: Vec<Column>,
     /// Numbers of those that hold more than their own step.
     folded: Vec<usize>,
-    shape: Shape,
+    counts: RecordCounts,
 }
 
 /// How many of each there are in a record of the flight.
 #[derive(Clone, Copy, Debug)]
-struct Shape {
+struct RecordCounts {
     bodies: usize,
     wings: usize,
     joints: usize,
@@ -152,7 +152,7 @@ impl Columns {
         let loops = loop_names(setup)?;
         let bodies = bodies(&setup.animal);
         let wings = setup.animal.wings.len();
-        let shape = Shape {
+        let counts = RecordCounts {
             bodies: bodies.len(),
             wings,
             joints: coordinates.len(),
@@ -181,7 +181,7 @@ impl Columns {
         };
         let mut list = vec![];
         for group in GROUPS {
-            for subject in subjects.of(group.of, &shape) {
+            for subject in subjects.of(group.of, &counts) {
                 subject.columns(group, &mut list);
             }
         }
@@ -190,7 +190,7 @@ impl Columns {
         Ok(Self {
             folded: folded.map(|(k, _)| k).collect(),
             list,
-            shape,
+            counts,
         })
     }
 
@@ -242,7 +242,7 @@ impl Columns {
 
     /// A record of the right shape, every number zero.
     pub fn blank(&self) -> Record {
-        let s = self.shape;
+        let s = self.counts;
         let children = s.bodies - 1;
         Record {
             wing_angles: vec![Default::default(); s.wings],
@@ -312,26 +312,26 @@ struct Subjects {
 }
 
 impl Subjects {
-    fn of(&self, of: Of, shape: &Shape) -> Vec<Subject> {
+    fn of(&self, of: Of, counts: &RecordCounts) -> Vec<Subject> {
         let numbered = |range: std::ops::Range<usize>| {
             let one =
                 |k| Subject::new(format!("{}", k + 1), &format!("{}", k + 1), Kind::Flight, k);
             range.map(one).collect()
         };
         let flight = |times| vec![Subject::new(String::new(), "", Kind::Flight, 0); times];
-        let half = 3 * (shape.bodies - 1);
+        let half = 3 * (counts.bodies - 1);
         match of {
             Of::Flight => flight(1),
-            Of::Steered => flight(shape.commanded.min(1)),
-            Of::Following => flight(shape.following),
-            Of::Holding => flight(shape.holding),
+            Of::Steered => flight(counts.commanded.min(1)),
+            Of::Following => flight(counts.following),
+            Of::Holding => flight(counts.holding),
             Of::Elastic => self.elastic.clone(),
-            Of::Bending => flight(shape.elastic.min(1)),
-            Of::Jointed => flight(shape.joints.min(1)),
+            Of::Bending => flight(counts.elastic.min(1)),
+            Of::Jointed => flight(counts.joints.min(1)),
             Of::Bodies => self.bodies.clone(),
-            Of::Wings => self.wings(shape.wings),
-            Of::Deforming => self.wings(shape.deforming),
-            Of::Commanded => self.wings(shape.commanded),
+            Of::Wings => self.wings(counts.wings),
+            Of::Deforming => self.wings(counts.deforming),
+            Of::Commanded => self.wings(counts.commanded),
             Of::Children => {
                 let shifted = |s: &Subject| Subject {
                     index: s.index - 1,

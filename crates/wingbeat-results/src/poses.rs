@@ -21,14 +21,14 @@ pub struct Surface {
     pub body: usize,
     /// Nodes in the axes of the body \[m\]; at rest where they are deformed.
     pub nodes: Vec<DVec3>,
-    shape: Shape,
+    shape: SurfaceShape,
     /// Panels as four nodes.
     pub quads: Vec<[usize; 4]>,
 }
 
 /// How nodes move in the axes of their body.
 #[derive(Clone, Debug)]
-enum Shape {
+enum SurfaceShape {
     Rigid,
     /// As prescribed, in the phase of the motion.
     Deforming(Box<(DeformingMesh, WingMotion)>),
@@ -36,7 +36,7 @@ enum Shape {
     Bent(Bent),
 }
 
-impl Shape {
+impl SurfaceShape {
     fn of(wing: &Wing, names: &[String]) -> Self {
         let bent = wing.structure.as_ref().and_then(|_| Bent::new(wing, names));
         match (&wing.deformation, bent) {
@@ -57,7 +57,7 @@ impl Surface {
             name: part.name.clone(),
             body,
             nodes: part.mesh.nodes.clone(),
-            shape: Shape::Rigid,
+            shape: SurfaceShape::Rigid,
             quads: part.mesh.quads.clone(),
         }
     }
@@ -82,7 +82,7 @@ impl Poses {
             name: w.name.clone(),
             body: k + 1,
             nodes: w.mesh.nodes.clone(),
-            shape: Shape::of(w, names),
+            shape: SurfaceShape::of(w, names),
             quads: w.panels(),
         });
         let own = animal.parts.iter().map(|p| Surface::part(p, 0));
@@ -129,12 +129,12 @@ impl Poses {
     pub fn shape(&self, row: &[f64], surface: usize) -> Vec<DVec3> {
         let s = &self.surfaces[surface];
         match &s.shape {
-            Shape::Rigid => s.nodes.clone(),
-            Shape::Deforming(prescribed) => {
+            SurfaceShape::Rigid => s.nodes.clone(),
+            SurfaceShape::Deforming(prescribed) => {
                 let (mesh, motion) = &**prescribed;
                 mesh.places(motion.phase_at(row[TIME])[0])
             }
-            Shape::Bent(bent) => bent.places(&s.nodes, row),
+            SurfaceShape::Bent(bent) => bent.places(&s.nodes, row),
         }
     }
 

@@ -98,7 +98,7 @@ impl PolyData {
             ("age_rows", row),
             ("sheet", id),
         ];
-        // Of flights with particles alone.
+        // Only flights with particles have it.
         data.cells.extend(shared.map(|all| (SHARED, all)));
         data
     }

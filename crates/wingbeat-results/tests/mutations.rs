@@ -7,24 +7,18 @@ use std::path::Path;
 
 use wingbeat_case::{LoadedCase, presets::PRESETS};
 use wingbeat_flight::{FlightState, Simulation};
+use wingbeat_math::SplitMix64;
 use wingbeat_results::History;
 use wingbeat_results::checkpoint::{self, Header};
 use wingbeat_results::frames::Mesh;
 use wingbeat_results::vtp::PolyData;
 
-/// splitmix64 (Steele, Lea & Flood 2014).
-struct Chance(u64);
+/// Numbers that look random, the same ones in every run.
+struct Chance(SplitMix64);
 
 impl Chance {
-    fn next(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let z = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
-    }
-
     fn below(&mut self, n: usize) -> usize {
-        (self.next() % n.max(1) as u64) as usize
+        (self.0.bits() % n.max(1) as u64) as usize
     }
 }
 
@@ -208,7 +202,7 @@ fn scratch(name: &str) -> std::path::PathBuf {
 #[test]
 fn refuses_damaged_input_without_panic() {
     let (corpus, folder) = (corpus(), scratch("mutations"));
-    let mut chance = Chance(1);
+    let mut chance = Chance(SplitMix64::new(1));
     let rounds = 400;
     let accepted: usize = (0..rounds)
         .map(|_| feed(&corpus, &mut chance, &folder))

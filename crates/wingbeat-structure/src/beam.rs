@@ -16,7 +16,7 @@
 mod section;
 mod viscous;
 
-pub use section::{Section, Stiffness};
+pub use section::{BeamSection, Stiffness};
 
 use wingbeat_math::six_by_six::{from_quarters, product, times, transpose};
 use wingbeat_math::{DMat3, DQuat, DVec3, MassProperties, SixBySix, tilde};
@@ -71,7 +71,7 @@ impl Beam {
         rest: &Configuration,
         nodes: [usize; 2],
         towards: DVec3,
-        section: &Section,
+        section: &BeamSection,
     ) -> Result<Self, StructureError> {
         check_nodes(rest, nodes)?;
         let places = nodes.map(|n| rest.position[n]);
@@ -89,7 +89,7 @@ impl Beam {
         rest: &Configuration,
         nodes: [usize; 2],
         ends: [BeamEnd; 2],
-        section: &Section,
+        section: &BeamSection,
     ) -> Result<Self, StructureError> {
         check_nodes(rest, nodes)?;
         let offset = |e: usize| {

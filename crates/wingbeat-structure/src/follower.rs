@@ -7,7 +7,7 @@ use crate::configuration::Configuration;
 
 /// Part of a point that one node carries.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Share {
+pub struct NodeWeight {
     /// The node.
     pub node: usize,
     /// Part of the point that it carries \[1\].
@@ -20,7 +20,7 @@ pub struct Share {
 /// any rigid motion. Forces on it go back to the nodes transposed, which keeps force, moment and work.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Follower {
-    shares: Vec<Share>,
+    shares: Vec<NodeWeight>,
 }
 
 impl Follower {
@@ -28,7 +28,7 @@ impl Follower {
     /// with these weights, which are scaled so that their sum is 1.
     pub fn new(x: DVec3, nodes: &[(usize, f64)], rest: &Configuration) -> Self {
         let total: f64 = nodes.iter().map(|n| n.1).sum();
-        let share = |&(node, weight): &(usize, f64)| Share {
+        let share = |&(node, weight): &(usize, f64)| NodeWeight {
             node,
             weight: weight / total,
             arm: rest.rotation[node].inverse() * (x - rest.position[node]),
@@ -40,19 +40,19 @@ impl Follower {
     }
 
     /// Who carries it.
-    pub fn shares(&self) -> &[Share] {
+    pub fn shares(&self) -> &[NodeWeight] {
         &self.shares
     }
 
     /// Its place \[m\], W components.
     pub fn position(&self, at: &Configuration) -> DVec3 {
-        let part = |s: &Share| s.weight * (at.position[s.node] + at.rotation[s.node] * s.arm);
+        let part = |s: &NodeWeight| s.weight * (at.position[s.node] + at.rotation[s.node] * s.arm);
         self.shares.iter().map(part).sum()
     }
 
     /// Its velocity relative to W \[m/s\], W components, from six numbers a node ([`crate::State::velocity`]).
     pub fn velocity(&self, at: &Configuration, velocity: &[f64]) -> DVec3 {
-        let part = |s: &Share| {
+        let part = |s: &NodeWeight| {
             let [v, w] = pair(velocity, s.node);
             s.weight * (v + at.rotation[s.node] * w.cross(s.arm))
         };
@@ -66,7 +66,7 @@ impl Follower {
         velocity: &[f64],
         acceleration: &[f64],
     ) -> DVec3 {
-        let part = |s: &Share| {
+        let part = |s: &NodeWeight| {
             let ([_, w], [a, turn]) = (pair(velocity, s.node), pair(acceleration, s.node));
             let relative = turn.cross(s.arm) + w.cross(w.cross(s.arm));
             s.weight * (a + at.rotation[s.node] * relative)

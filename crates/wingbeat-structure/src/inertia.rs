@@ -98,7 +98,7 @@ pub(crate) struct Tangents {
 }
 
 /// What forces and tangents share.
-struct Parts {
+struct NodeKinematics {
     /// Absolute acceleration less gravity, W components.
     a: DVec3,
     /// Angular velocity of W in node components.
@@ -109,10 +109,10 @@ struct Parts {
     w_dot: DVec3,
 }
 
-fn parts(frame: &FrameMotion, n: &NodeMotion) -> Parts {
+fn parts(frame: &FrameMotion, n: &NodeMotion) -> NodeKinematics {
     let back = n.r.transpose();
     let carried = back * frame.w;
-    Parts {
+    NodeKinematics {
         a: frame.point(n.u, n.v, n.v_dot),
         carried,
         w: carried + n.omega,

@@ -35,7 +35,7 @@ mod slowest;
 mod statics;
 mod structure;
 
-pub use beam::{Beam, BeamEnd, Section, Stiffness};
+pub use beam::{Beam, BeamEnd, BeamSection, Stiffness};
 pub use builder::StructureBuilder;
 pub use configuration::{Configuration, NODE};
 pub use dynamics::{
@@ -43,7 +43,7 @@ pub use dynamics::{
 };
 pub use element::{Element, ElementForces, MassBetween};
 pub use error::StructureError;
-pub use follower::{Follower, Share};
+pub use follower::{Follower, NodeWeight};
 pub use frame::FrameMotion;
 pub use loads::{Loading, NodeLoad};
 pub use modes::{Mode, Slowest, first_frequency, modes, slowest_modes};

@@ -7,7 +7,7 @@ use allocation_counter::measure;
 use common::{coupled, straight};
 use plate::rectangle;
 use wingbeat_math::DVec3;
-use wingbeat_structure::shell::Section as Sheet;
+use wingbeat_structure::shell::ShellSection;
 use wingbeat_structure::*;
 
 /// A frame that accelerates as it turns.
@@ -29,7 +29,7 @@ fn damped(body: StructureBuilder) -> Structure {
 }
 
 /// A square of two by two panels, all numbers held at one edge or only places all round.
-fn sheet(section: Sheet, is_membrane: bool) -> Structure {
+fn sheet(section: ShellSection, is_membrane: bool) -> Structure {
     let mesh = rectangle(2, 2, 1.0, 1.0);
     let mut body = StructureBuilder::new(mesh.rest.clone());
     for shell in mesh.shells(|_| Some(section)).unwrap() {

@@ -25,7 +25,7 @@ fn exact_cantilever_under_a_tip_moment_is_a_circle_with_any_number_of_elements()
         (10, 1.0),
         (40, 1.0),
     ] {
-        let section = Section::rectangle([1e9, 4e8], 1000.0, [0.02, 0.01]);
+        let section = BeamSection::rectangle([1e9, 4e8], 1000.0, [0.02, 0.01]);
         let body = straight(elements, 1.0, &section).clamp(0).build().unwrap();
         let ei = section.stiffness[4][4];
         let k = 2.0 * PI * turns;
@@ -166,7 +166,7 @@ fn order_foreseen_stresses_of_a_beam_differ_by_squares_of_the_increment() {
 #[test]
 fn exact_small_deflections_under_loads_at_nodes() {
     // Timoshenko's cantilever under a tip force: L^3 / 3 EI + L / GA, whatever the number of elements.
-    let section = Section::new(&Stiffness {
+    let section = BeamSection::new(&Stiffness {
         axial: 1e4,
         shear: [50.0, 80.0],
         torsion: 0.7,
@@ -259,7 +259,7 @@ fn behaves_corrections_under_loads_that_are_not_numbers_are_not_numbers_either()
 #[test]
 fn exact_bodies_have_as_many_modes_as_motions_with_mass() {
     // Ten thin rods on a beam without mass, none along an axis: what turns each about itself has no mass.
-    let section = Section {
+    let section = BeamSection {
         mass: MassProperties::ZERO,
         ..slender()
     };
@@ -280,7 +280,7 @@ fn two_ways(other: f64) -> Structure {
         torsion: 1.0,
         bending: [1.0, other],
     };
-    let section = Section::new(&stiffness).with_mass(1.0, [0.0; 2], [1e-4; 2]);
+    let section = BeamSection::new(&stiffness).with_mass(1.0, [0.0; 2], [1e-4; 2]);
     straight(8, 1.0, &section).clamp(0).build().unwrap()
 }
 

@@ -8,7 +8,7 @@ use wingbeat_structure::*;
 
 /// Geradin & Cardona's cantilever [Simpson & Palacios 2013]: tip down 2.159 m, shortening 0.596 m, rotation 0.672 rad.
 fn geradin(elements: usize) -> (DVec3, f64) {
-    let section = Section::new(&Stiffness {
+    let section = BeamSection::new(&Stiffness {
         axial: 4.8e8,
         shear: [3.231e8; 2],
         torsion: 1e6,
@@ -41,7 +41,7 @@ fn published_cantilever_of_geradin_and_cardona() {
 /// Bathe & Bolourchi's bend of 45 degrees [Int. J. Numer. Methods Engrg 14:961, 1979].
 fn bend(elements: usize, force: f64) -> DVec3 {
     // Authors take the polar moment 1/6 for the torsion constant, which is 0.1406.
-    let section = Section::new(&Stiffness {
+    let section = BeamSection::new(&Stiffness {
         axial: 1e7,
         shear: [5e6; 2],
         torsion: 5e6 / 6.0,

@@ -6,7 +6,7 @@ mod plate;
 use common::damping_tangent_error;
 use plate::{FREE, Plate, askew, lattice, rectangle};
 use wingbeat_math::{DMat3, DQuat, DVec3, MassProperties};
-use wingbeat_structure::shell::Section;
+use wingbeat_structure::shell::ShellSection;
 use wingbeat_structure::{Configuration, Element, ElementForces, Lamina, ShellError, ShellMesh};
 
 /// A mesh without right angles; its last panel is a triangle.
@@ -302,17 +302,17 @@ fn refuses_what_is_no_shell() {
     ));
     let mesh = rectangle(1, 1, 1.0, 1.0);
     let good = askew(0.1).section().unwrap();
-    let with = |section: Section| mesh.shells(|_| Some(section)).map(|s| s.len());
+    let with = |section: ShellSection| mesh.shells(|_| Some(section)).map(|s| s.len());
     assert_eq!(with(good), Ok(1));
     assert!(matches!(
-        with(Section {
+        with(ShellSection {
             axis: DVec3::Z,
             ..good
         }),
         Err(ShellError::Axis { .. })
     ));
     assert!(matches!(
-        with(Section { shear: 0.0, ..good }),
+        with(ShellSection { shear: 0.0, ..good }),
         Err(ShellError::Material { name: "shear", .. })
     ));
     let shell = |corners| {

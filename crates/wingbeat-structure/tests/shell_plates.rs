@@ -6,7 +6,7 @@ use std::f64::consts::PI;
 
 use plate::{CLAMPED, Plate, askew, rectangle};
 use wingbeat_math::{DMat3, DVec3};
-use wingbeat_structure::shell::Section;
+use wingbeat_structure::shell::ShellSection;
 use wingbeat_structure::{Element, Lamina};
 
 /// Simply supported on all sides, hard: deflection and the turn along the side are held.
@@ -107,7 +107,7 @@ fn order_frequencies_of_a_stretched_membrane() {
         prestress: [3.0, 3.0, 0.0],
         ..Lamina::isotropic(1e6, 0.3, 1e-3, 1e3)
     };
-    let section = Section {
+    let section = ShellSection {
         bending: DMat3::ZERO,
         shear: 0.0,
         ..lamina.section().unwrap()

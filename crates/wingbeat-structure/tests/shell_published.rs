@@ -171,7 +171,7 @@ fn published_hemispherical_shell() {
         let (up, round) = (0.8 * quarter * r, quarter * c);
         10.0 * DVec3::new(up.cos() * round.cos(), up.cos() * round.sin(), up.sin())
     });
-    let section = wingbeat_structure::shell::Section {
+    let section = wingbeat_structure::shell::ShellSection {
         axis: DVec3::new(1.0, -1.0, 0.1),
         ..section
     };

@@ -68,7 +68,7 @@ fn order_of_a_beam_under_a_force_from_the_start() {
         torsion: 1.0,
         bending: [1.0, 1.0],
     };
-    let section = Section::new(&stiffness).with_mass(1.0, [0.0; 2], [1e-2; 2]);
+    let section = BeamSection::new(&stiffness).with_mass(1.0, [0.0; 2], [1e-2; 2]);
     let body = straight(3, 1.0, &section).clamp(0).build().unwrap();
     let all = modes(&body, body.rest(), &FrameMotion::REST, None).unwrap();
     for rho in [1.0, 0.8, 0.3] {

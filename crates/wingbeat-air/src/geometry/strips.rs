@@ -8,7 +8,7 @@ use wingbeat_math::DVec3;
 
 /// A chordwise row of panels from a segment of the leading edge backward.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Strip {
+pub(crate) struct Strip {
     /// The leading-edge segment (global edge).
     pub edge: usize,
     /// Panels from the leading edge on (global).

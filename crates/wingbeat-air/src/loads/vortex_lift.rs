@@ -3,13 +3,13 @@
 use crate::geometry::{NodeMotion, Strip, section};
 use crate::lattice::Lattice;
 use crate::loads::values::AirLoads;
-use crate::settings::{Parts, Passage, VortexLift};
+use crate::settings::{ForceFactors, Passage, VortexLift};
 use crate::solve::LeadingSection;
 use wingbeat_math::DVec3;
 
 /// A strip at one instant.
 pub(crate) struct Yielding {
-    pub parts: Parts,
+    pub parts: ForceFactors,
     /// Chords for which its vortex has been fed \[1\].
     pub fed: f64,
     /// Suction parameter, positive where the leading panel lifts along its normal \[1\].

@@ -17,5 +17,5 @@ pub use section_drag::{Friction, SectionDrag};
 pub use street::{NEUTRAL_WIDTH, VortexStreet};
 pub use turbulence::{Spectrum, Turbulence};
 pub use vortex_lift::VortexLift;
-pub(crate) use vortex_lift::{Parts, Passage};
+pub(crate) use vortex_lift::{ForceFactors, Passage};
 pub use wind::{Gust, GustShape, Wind};

@@ -1,6 +1,6 @@
 //! Which rows of wake become vortex particles.
 
-use crate::error::{AirError, require};
+use crate::error::{AirError, is_positive, require};
 use wingbeat_vortex::Stretching;
 
 /// Which rows of wake become particles, and how these behave.
@@ -36,7 +36,7 @@ impl ParticleSettings {
             "rows to be kept or leading_at_once: otherwise nothing becomes a particle",
         )?;
         require(
-            self.radius.is_finite() && self.radius > 0.0,
+            is_positive(self.radius),
             "particles: radius",
             self.radius,
             "a finite length in m above 0",

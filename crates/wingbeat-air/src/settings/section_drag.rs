@@ -1,6 +1,6 @@
 //! Drag of the sections of wings at low Reynolds number: coefficients.
 
-use crate::error::{AirError, require};
+use crate::error::{AirError, is_positive, require};
 
 /// Drag of the sections of wings.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -75,7 +75,7 @@ impl SectionDrag {
         match self.friction {
             Friction::None => Ok(()),
             Friction::Blasius { viscosity } => require(
-                viscosity.is_finite() && viscosity > 0.0,
+                is_positive(viscosity),
                 "section drag viscosity",
                 viscosity,
                 "a finite viscosity in m2/s above 0",

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use crate::error::{AirError, require};
+use crate::error::{AirError, is_positive, require};
 use wingbeat_math::DVec3;
 
 /// Two rows of vortices of opposite sense, a half spacing apart along each other, that travel as they are: the
@@ -95,7 +95,6 @@ impl VortexStreet {
     /// # Errors
     /// [`AirError::Setting`] names the first number that makes no sense.
     pub(crate) fn validate(&self) -> Result<(), AirError> {
-        let positive = |x: f64| x.is_finite() && x > 0.0;
         require(
             self.circulation.is_finite(),
             "vortex street circulation",
@@ -103,7 +102,7 @@ impl VortexStreet {
             "a finite number in m2/s",
         )?;
         require(
-            positive(self.spacing) && positive(self.width),
+            is_positive(self.spacing) && is_positive(self.width),
             "vortex street spacing",
             format!("{}, width {}", self.spacing, self.width),
             "lengths in m above 0",

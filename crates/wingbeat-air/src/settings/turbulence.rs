@@ -19,7 +19,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use wingbeat_math::SplitMix64;
 
-use crate::error::{AirError, require};
+use crate::error::{AirError, is_positive, require};
 
 /// Which spectrum, and of which component.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
@@ -93,8 +93,8 @@ impl Turbulence {
     /// A time scale that is not above 0.
     pub fn new(spectrum: Spectrum, time_scale: f64, seed: u64) -> Result<Self, AirError> {
         let allowed = "a time in s above 0";
-        let is_time = time_scale.is_finite() && time_scale > 0.0;
-        require(is_time, "turbulence time scale", time_scale, allowed)?;
+        let key = "turbulence time scale";
+        require(is_positive(time_scale), key, time_scale, allowed)?;
         let mut draw = SplitMix64::new(seed);
         let ratio = (BAND.1 / BAND.0).powf(1.0 / WAVES as f64);
         let bin = |k: usize| {

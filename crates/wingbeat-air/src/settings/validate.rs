@@ -1,7 +1,7 @@
 //! Which numbers make sense.
 
 use crate::edges::SheddingKinds;
-use crate::error::{AirError, require};
+use crate::error::{AirError, is_positive, require};
 use crate::images::{Plane, mirrors};
 use crate::settings::air::AirSettings;
 use crate::settings::choices::{LeadingEdge, LoadMethod};
@@ -269,8 +269,4 @@ fn check_suction(threshold: f64, efficiency: f64) -> Result<(), AirError> {
 /// A limit that there may be, as a user writes it.
 fn shown(value: Option<impl ToString>) -> String {
     value.map_or_else(|| "none".to_owned(), |value| value.to_string())
-}
-
-fn is_positive(x: f64) -> bool {
-    x.is_finite() && x > 0.0
 }

@@ -24,7 +24,7 @@
 //!   [`REMAINDER`] is left.
 //! - An edge that has again no more suction than it holds recovers within [`RECOVERY`] chords.
 
-use crate::error::{AirError, require};
+use crate::error::{AirError, is_positive, require};
 use wingbeat_math::smoothstep;
 
 /// Rounding, relative to the threshold and to T*: plates hold 0.11 to 0.19 about 0.15 [Ramesh et al. 2014, J.
@@ -72,7 +72,7 @@ pub(crate) struct Passage {
 
 /// What becomes of the forces of a strip \[1\].
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Parts {
+pub(crate) struct ForceFactors {
     /// Of the suction, that which acts as such.
     pub suction: f64,
     /// Of the suction, that which acts along the normal.
@@ -92,11 +92,11 @@ impl VortexLift {
     }
 
     /// What becomes of the forces of a strip at this suction parameter, whose vortex has been fed for so many chords.
-    pub(crate) fn parts(&self, a0: f64, fed: f64) -> Parts {
+    pub(crate) fn parts(&self, a0: f64, fed: f64) -> ForceFactors {
         let sigma = held_part(a0.abs() / self.threshold).powi(2);
         let grown = fed / self.formation;
         let lost = step(grown - SPREAD); // from T* to 1.5 T*
-        Parts {
+        ForceFactors {
             suction: self.efficiency * sigma,
             vortex: (1.0 - sigma) * ((1.0 - lost) * grown + lost * REMAINDER),
             normal: 1.0 - lost + lost * (0.5 * (1.0 + sigma)).powi(2),
@@ -106,7 +106,6 @@ impl VortexLift {
     /// # Errors
     /// [`AirError::Setting`] names the first number that makes no sense.
     pub(crate) fn validate(&self) -> Result<(), AirError> {
-        let is_positive = |x: f64| x.is_finite() && x > 0.0;
         for (key, value) in [
             ("leading suction threshold", self.threshold),
             ("leading vortex formation", self.formation),
@@ -186,7 +185,7 @@ mod tests {
             ..VortexLift::default()
         };
         for a0 in [0.0, 1e-9, -0.05, 0.1, 0.1125] {
-            let all = Parts {
+            let all = ForceFactors {
                 suction: 1.0,
                 vortex: 0.0,
                 normal: 1.0,

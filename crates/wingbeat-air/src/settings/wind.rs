@@ -1,10 +1,10 @@
 //! The undisturbed air: uniform stream, steady shear, gusts, a vortex street.
 
-use crate::error::{AirError, require};
+use crate::error::{AirError, is_positive, require};
 use crate::images::{Mirror, Plane, ROUNDING};
 use crate::settings::street::VortexStreet;
 use crate::settings::turbulence::Turbulence;
-use wingbeat_math::{DMat3, DVec3, interpolate, trace};
+use wingbeat_math::{DMat3, DVec3, interpolate_pairs, largest, trace};
 
 /// How a gust rises and falls with its own time tau [s]: the share of its amplitude.
 #[derive(Clone, Debug, PartialEq)]
@@ -54,9 +54,7 @@ impl GustShape {
             Self::Turbulence(_) => 0.0,
         }
     }
-}
 
-impl GustShape {
     /// Rate of that share at the gust's own time `tau` [1/s]; at a corner of a table that of the line after it.
     /// Jumps have none.
     ///
@@ -91,7 +89,7 @@ fn table_rate(rows: &[(f64, f64)], tau: f64) -> f64 {
 
 fn table(rows: &[(f64, f64)], tau: f64) -> f64 {
     match rows.first() {
-        Some(first) if tau >= first.0 => interpolate(rows.len(), |k| rows[k], tau),
+        Some(first) if tau >= first.0 => interpolate_pairs(rows, tau),
         _ => 0.0,
     }
 }
@@ -157,11 +155,11 @@ impl Wind {
     pub(crate) fn asymmetric_part(&self, mirror: &Mirror) -> Option<&'static str> {
         let turns = |v: DVec3| mirror.vector(v).distance(v) > ROUNDING * v.length();
         let turns_shear = |s: DMat3| {
-            let change = (mirror.gradient(s) - s).to_cols_array();
-            let size = largest(s.to_cols_array());
+            let change = largest_entry(mirror.gradient(s) - s);
+            let size = largest_entry(s);
             // The air of a mirrored place also lacks what the shear makes of the way to it.
             let rest = (s * mirror.shift()).length();
-            largest(change) > ROUNDING * size || rest > ROUNDING * size * mirror.shift().length()
+            change > ROUNDING * size || rest > ROUNDING * size * mirror.shift().length()
         };
         let gusts = || self.gusts.iter();
         if self.shear.is_some_and(turns_shear) {
@@ -186,7 +184,7 @@ impl Wind {
         let crosses = |v: DVec3| v.dot(n).abs() > ROUNDING * v.length();
         // At p + t, t along the plane, n . shear (p + t) is to be 0.
         let crosses_by_shear = |s: DMat3| {
-            let (size, across) = (largest(s.to_cols_array()), s.transpose() * n);
+            let (size, across) = (largest_entry(s), s.transpose() * n);
             let along = across - across.dot(n) * n;
             let place = plane.point.dot(n);
             along.length() > ROUNDING * size
@@ -211,7 +209,7 @@ impl Wind {
     pub fn validate(&self) -> Result<(), AirError> {
         if let Some(shear) = self.shear {
             require(shear.is_finite(), "shear", shear, "finite numbers in 1/s")?;
-            let size = largest(shear.to_cols_array());
+            let size = largest_entry(shear);
             require(
                 trace(shear).abs() <= 1e-9 * size,
                 "shear",
@@ -231,7 +229,7 @@ impl Wind {
             )?;
             match &g.shape {
                 GustShape::OneMinusCosine { duration } => require(
-                    duration.is_finite() && *duration > 0.0,
+                    is_positive(*duration),
                     "gust duration",
                     duration,
                     "a time in s above 0",
@@ -249,8 +247,9 @@ fn turns_over(mirror: &Mirror, v: DVec3) -> bool {
     (mirror.vector(v) + v).length() <= ROUNDING * v.length()
 }
 
-fn largest(of: [f64; 9]) -> f64 {
-    of.iter().fold(0.0, |most, x| most.max(x.abs()))
+/// Largest entry by size.
+fn largest_entry(of: DMat3) -> f64 {
+    largest(of.to_cols_array().map(f64::abs))
 }
 
 fn check_table(gust: usize, rows: &[(f64, f64)]) -> Result<(), AirError> {

@@ -10,7 +10,7 @@ use crate::solve::row_blocks::RowBlocks;
 use crate::solve::self_influence::{KnownShapes, SelfInfluence, augment};
 use crate::solve::unknowns::{add_part, columns, is_computed, panel, unknown, unknowns};
 use crate::state::AirState;
-use crate::wake::{Filaments, Row, Share, at_edge};
+use crate::wake::{Filaments, NearWakeRow, NearWakeShare, at_edge};
 use rayon::prelude::*;
 use std::ops::Range;
 use wingbeat_math::DVec3;
@@ -216,7 +216,7 @@ impl Sources {
         let keeps = |edge: &Edge| {
             let part = edge.wake.map_or(0.0, |w| {
                 let (s, shape) = (w.sheet, &filaments.newest[w.sheet]);
-                let row = Row {
+                let row = NearWakeRow {
                     lattice,
                     state: now.state,
                     s,
@@ -251,7 +251,7 @@ impl Sources {
     fn fill(
         &self,
         (now, known): (Instant, &[SelfInfluence]),
-        shares: &[Share],
+        shares: &[NearWakeShare],
         rows: Range<usize>,
         block: &mut [f64],
         rates: &mut [f64],
@@ -338,7 +338,7 @@ impl Sources {
     fn add_near_wake(
         &self,
         lattice: &Lattice,
-        shares: &[Share],
+        shares: &[NearWakeShare],
         points: impl ExactSizeIterator<Item = [DVec3; 2]>,
         rates: &mut [f64],
         block: &mut [f64],

@@ -2,7 +2,7 @@
 
 use crate::error::AirError;
 use crate::solve::influence::{Influence, Instant};
-use crate::solve::leaving::{Leaving, Part};
+use crate::solve::leaving::{InducedBy, Leaving};
 use crate::solve::suction::{LeadingStrip, PLACES, Release, threshold};
 use crate::solve::unknowns::{is_computed, panel, unknown};
 use crate::wake::{Filaments, Sums, WakeVelocityCache};
@@ -138,9 +138,9 @@ impl LeadingEdges {
         }
         by_leaving.clear();
         by_leaving.resize(n * n, 0.0);
-        let see = |i: usize, part: Part, rate: f64| match part {
-            Part::Fixed => net[i / PLACES] += weight(i) * rate,
-            Part::Leaving(k) => by_leaving[i / PLACES * n + k] += weight(i) * rate,
+        let see = |i: usize, part: InducedBy, rate: f64| match part {
+            InducedBy::Fixed => net[i / PLACES] += weight(i) * rate,
+            InducedBy::Leaving(k) => by_leaving[i / PLACES * n + k] += weight(i) * rate,
         };
         (self.leaving).near_wake(now.lattice, &filaments.shares, &self.at_places, see);
     }
@@ -162,8 +162,8 @@ impl LeadingEdges {
         let answer = &mut self.answer;
         answer.clear();
         answer.resize(n * strips, 0.0);
-        let see = |i: usize, part: Part, rate: f64| {
-            if let Part::Leaving(k) = part {
+        let see = |i: usize, part: InducedBy, rate: f64| {
+            if let InducedBy::Leaving(k) = part {
                 answer[k * n + i] -= rate;
             }
         };

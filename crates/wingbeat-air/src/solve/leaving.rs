@@ -2,7 +2,7 @@
 
 use crate::images::Mirror;
 use crate::lattice::Lattice;
-use crate::wake::{Filaments, Share};
+use crate::wake::{Filaments, NearWakeShare};
 use wingbeat_math::DVec3;
 use wingbeat_vortex::{BLOCK, Network, UnitEdges};
 
@@ -20,7 +20,7 @@ pub(crate) struct Leaving {
 }
 
 /// A normal velocity at a place: of what is there anyway in the newest rows, or of what leaves the strip of an unknown.
-pub(crate) enum Part {
+pub(crate) enum InducedBy {
     Fixed,
     Leaving(usize),
 }
@@ -55,9 +55,9 @@ impl Leaving {
     pub fn near_wake(
         &mut self,
         lattice: &Lattice,
-        shares: &[Share],
+        shares: &[NearWakeShare],
         points: &[[DVec3; 2]],
-        mut see: impl FnMut(usize, Part, f64),
+        mut see: impl FnMut(usize, InducedBy, f64),
     ) {
         if self.near_wake.is_empty() {
             return;
@@ -74,10 +74,14 @@ impl Leaving {
             near_wake.normal_velocities(model, 0, chunk.iter().copied(), rates);
             for (share, rates) in shares.iter().zip(rates.chunks(BLOCK)) {
                 for (i, rate) in rates[..chunk.len()].iter().enumerate() {
-                    see(first + i, Part::Fixed, share.fixed * rate);
+                    see(first + i, InducedBy::Fixed, share.fixed * rate);
                     for k in (0..2).filter(|&k| share.leaving[k] != 0.0) {
                         let strip = unknown[share.strip[k]].expect("its edge sheds");
-                        see(first + i, Part::Leaving(strip), share.leaving[k] * rate);
+                        see(
+                            first + i,
+                            InducedBy::Leaving(strip),
+                            share.leaving[k] * rate,
+                        );
                     }
                 }
             }

@@ -23,7 +23,7 @@ const TOLERANCE: f64 = 1e-10;
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct SelfInfluence {
     pub surface: usize,
-    shape: Shape,
+    shape: RestShape,
     /// Its unknowns among all.
     pub unknowns: Range<usize>,
     /// Normal velocity at its control points of the rings of its unknowns: ring after ring.
@@ -103,7 +103,7 @@ impl SelfInfluence {
             .collect::<Option<Vec<_>>>()?;
         let mut new = Self {
             surface: s,
-            shape: Shape::new(rest)?,
+            shape: RestShape::new(rest)?,
             unknowns: first..first + points.len(),
             rings: Vec::new(),
             shedding: Vec::new(),
@@ -220,7 +220,7 @@ pub(crate) fn augment(lattice: &Lattice, s: usize, first: usize, block: &mut Row
 
 /// Positions of nodes relative to each other.
 #[derive(Clone, Debug, PartialEq)]
-struct Shape {
+struct RestShape {
     /// Three nodes far apart: origin, along the first axis, in the plane of the first and second.
     base: [usize; 3],
     /// All nodes in these axes [m].
@@ -228,7 +228,7 @@ struct Shape {
     size: f64,
 }
 
-impl Shape {
+impl RestShape {
     /// None if all nodes are on one line.
     fn new(nodes: &[DVec3]) -> Option<Self> {
         let farthest = |from: &dyn Fn(DVec3) -> f64| {

@@ -1,8 +1,10 @@
 //! What happens to the impulse of a wake sheet within a step.
 
 use crate::images::Mirror;
+use crate::lattice::Lattice;
 use crate::state::{AirState, ImpulseAccount, WakeSheet};
-use crate::wake::mover::Mover;
+use crate::wake::move_step::MoveStep;
+use crate::wake::sheet_move::SheetMove;
 use wingbeat_math::DVec3;
 
 /// Changes of the impulse per density [m4/s] of one sheet, N components.
@@ -35,27 +37,27 @@ impl SheetAccount {
         }
     }
 
-    /// The account of the `sheet` k moved last, its new row shed; `before` is what its free rings had before,
+    /// The account of `sheet` k, moved in `step` and with its new row shed; `before` is what its free rings had before,
     /// and what its particles had.
     pub(crate) fn of_move(
-        mover: &Mover,
+        (step, moved): (&MoveStep, &SheetMove),
         (k, state): (usize, &AirState),
         sheet: &WakeSheet,
         before: [DVec3; 2],
     ) -> Self {
         let rows = sheet.rows();
-        let edge = |c: usize| mover.node_before(rows - 1, sheet, c);
+        let edge = |c: usize| moved.node_before(rows - 1, sheet, c);
         let start = impulse_with(sheet, rows, |r, c| {
-            mover.node_before(r.min(rows - 1), sheet, c)
+            moved.node_before(r.min(rows - 1), sheet, c)
         });
         let end = impulse_with(sheet, rows, |r, c| match r < rows {
             true => sheet.node(r, c),
             false => edge(c),
         });
-        let absorbed = taken_by_surfaces(mover, (k, state), sheet);
+        let absorbed = taken_by_surfaces((step, moved), (k, state), sheet);
         let [rings_before, particles_before] = before;
         let (rings, particles) = (free_rings(sheet), sheet.particles.impulse());
-        let taken = mover.taken_from_particles;
+        let taken = moved.taken;
         Self {
             impulse: ImpulseAccount {
                 moved: (end + absorbed - start) + (particles + taken - particles_before),
@@ -71,18 +73,22 @@ impl SheetAccount {
 /// Impulse per density [m4/s], N, of the rings of sheet `k` without surfaces in the way, less what it is with
 /// them. The newest rows reach to where the shedding edge goes within the step: were it left behind, they would
 /// be longer by the way of the animal, and what is taken would depend on the inertial frame.
-fn taken_by_surfaces(mover: &Mover, (k, state): (usize, &AirState), sheet: &WakeSheet) -> DVec3 {
-    if mover.unhindered.is_empty() {
+fn taken_by_surfaces(
+    (step, moved): (&MoveStep, &SheetMove),
+    (k, state): (usize, &AirState),
+    sheet: &WakeSheet,
+) -> DVec3 {
+    if moved.unhindered.is_empty() {
         return DVec3::ZERO;
     }
-    let (rows, edge) = (sheet.rows(), &mover.lattice.sheets()[k].nodes);
+    let (rows, edge) = (sheet.rows(), &step.lattice.sheets()[k].nodes);
     let with = |free: &dyn Fn(usize, usize) -> DVec3| {
         impulse_with(sheet, rows, |r, c| match r < rows {
             true => free(r, c),
-            false => state.position[edge[c]] + mover.dt * state.velocity[edge[c]],
+            false => state.position[edge[c]] + step.dt * state.velocity[edge[c]],
         })
     };
-    let unhindered = with(&|r, c| mover.unhindered[r * (sheet.columns + 1) + c]);
+    let unhindered = with(&|r, c| moved.unhindered[r * (sheet.columns + 1) + c]);
     unhindered - with(&|r, c| sheet.node(r, c))
 }
 
@@ -97,8 +103,8 @@ pub(crate) fn oldest_rings(sheet: &WakeSheet, rows: usize) -> DVec3 {
     impulse_with(sheet, rows, |r, c| sheet.node(r, c))
 }
 
-/// The same with the nodes elsewhere: `at` (row, column). Where rings of the sheet have become particles, that of its
-/// filaments, which hold what borders on those.
+/// Impulse per density [m4/s], N, of the oldest `rows` rows of rings of a sheet with its nodes at `at` (row, column).
+/// Where rings of the sheet have become particles, that of its filaments, which hold what borders on those.
 pub(crate) fn impulse_with(
     sheet: &WakeSheet,
     rows: usize,
@@ -125,4 +131,24 @@ pub(crate) fn impulse_with(
         }
     }
     sum
+}
+
+/// Impulses per density [m4/s], N, of all rings of the sheets, the newest rows reaching to the edges, and of free ones.
+pub(crate) fn impulses(lattice: &Lattice, state: &AirState, sheets: &[WakeSheet]) -> [DVec3; 2] {
+    let each = sheets.iter().zip(lattice.sheets()).map(|(sheet, root)| {
+        let all = impulse_with(sheet, sheet.rows(), |r, c| match r < sheet.rows() {
+            true => sheet.node(r, c),
+            false => state.position[root.nodes[c]],
+        });
+        [all, free_rings(sheet)]
+    });
+    each.fold([DVec3::ZERO; 2], |[all, free], [a, f]| [all + a, free + f])
+}
+
+/// Puts what happened within a step into the account of the state.
+pub(crate) fn book(lattice: &Lattice, state: &mut AirState, step: &SheetAccount) {
+    let density = lattice.settings().density;
+    state.impulse += step.impulse.map(|x| density * x);
+    state.attached_impulse -= density * step.released;
+    state.free_impulse = density * step.free;
 }

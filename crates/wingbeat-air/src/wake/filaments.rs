@@ -5,7 +5,9 @@ use crate::lattice::Lattice;
 use crate::settings::AirSettings;
 use crate::state::{AirState, WakeSheet};
 use crate::wake::cores::{add_cores, join_cores};
-use crate::wake::near_wake::{Row, RowShape, Share, add_near_wake, at_edge, strips};
+use crate::wake::near_wake::{
+    NearWakeRow, NearWakeShare, RowShape, add_near_wake, at_edge, strips,
+};
 use wingbeat_math::DVec3;
 use wingbeat_vortex::{Blob, Network, Points, WINDOW};
 
@@ -25,7 +27,7 @@ pub struct Filaments {
     /// surfaces. Nodes: sheet after sheet, first the free row, last the shedding edge.
     pub near_wake: Network,
     /// How their circulations follow from those of the panels.
-    pub(crate) shares: Vec<Share>,
+    pub(crate) shares: Vec<NearWakeShare>,
     /// Rows of nodes of the newest row of a sheet.
     levels: usize,
     /// Nodes of the rings behind leading edges from which wakes leave, which end the newest row of each sheet.
@@ -72,7 +74,7 @@ impl Filaments {
             self.add_sheet(sheet, lattice.settings(), t);
             let edge = root.nodes.iter().map(|&n| self.roots[n]);
             self.newest[s].take((lattice, state), s, &self.bound.nodes, t);
-            let row = Row {
+            let row = NearWakeRow {
                 lattice,
                 state,
                 s,
@@ -239,7 +241,7 @@ impl Filaments {
             let minus = edge.minus.map_or(0.0, |p| gamma[p]);
             let wake = edge.wake.map_or(0.0, |w| {
                 let (s, shape) = (w.sheet, &self.newest[w.sheet]);
-                let row = Row {
+                let row = NearWakeRow {
                     lattice,
                     state,
                     s,

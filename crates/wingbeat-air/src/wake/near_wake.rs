@@ -126,7 +126,7 @@ fn is_before_new_vortex(strips: usize, k: usize) -> bool {
 /// How the net circulation of one filament of the row follows from the panels: `fixed` plus a share
 /// of the circulation of up to two panels.
 #[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Share {
+pub(crate) struct NearWakeShare {
     pub fixed: f64,
     pub panel: [usize; 2],
     pub part: [f64; 2],
@@ -137,9 +137,9 @@ pub(crate) struct Share {
     pub feeding: f64,
 }
 
-impl Share {
+impl NearWakeShare {
     /// Adds `sign` times the circulation of strip `k` of a column.
-    fn add(&mut self, at: usize, sign: f64, strip: &Strip) {
+    fn add(&mut self, at: usize, sign: f64, strip: &NearWakeStrip) {
         self.fixed += sign * strip.past;
         self.panel[at] = strip.panel;
         self.part[at] += sign * strip.part;
@@ -176,7 +176,7 @@ impl Share {
 }
 
 /// The circulation of a strip: `past` plus `part` of the present one of `panel`, or of what leaves a leading edge.
-struct Strip {
+struct NearWakeStrip {
     past: f64,
     part: f64,
     panel: usize,
@@ -185,7 +185,7 @@ struct Strip {
 
 /// The newest row of one sheet.
 #[derive(Clone, Copy)]
-pub(crate) struct Row<'a> {
+pub(crate) struct NearWakeRow<'a> {
     pub lattice: &'a Lattice,
     pub state: &'a AirState,
     /// The sheet.
@@ -193,8 +193,8 @@ pub(crate) struct Row<'a> {
     pub shape: &'a RowShape,
 }
 
-fn strip(row: &Row, column: usize, k: usize) -> Strip {
-    let Row {
+fn strip(row: &NearWakeRow, column: usize, k: usize) -> NearWakeStrip {
+    let NearWakeRow {
         lattice,
         state,
         s,
@@ -203,7 +203,7 @@ fn strip(row: &Row, column: usize, k: usize) -> Strip {
     let (root, old) = (&lattice.sheets()[s], state.sheets[s].newest(column));
     if let Some(strip) = lattice.suction().of_column(s, column) {
         let is_before = is_before_new_vortex(strips(lattice.settings()), k);
-        return Strip {
+        return NearWakeStrip {
             past: old,
             part: 0.0,
             panel: root.panels[column],
@@ -217,7 +217,7 @@ fn strip(row: &Row, column: usize, k: usize) -> Strip {
     // What the edge held at the last step it holds on.
     let present = root.signs[column] * state.gamma[root.panels[column]];
     let held = present - lattice.to_shed(state, (s, column), present, old);
-    Strip {
+    NearWakeStrip {
         past: (1.0 - part) * old - part * held,
         part: part * root.signs[column],
         panel: root.panels[column],
@@ -230,8 +230,8 @@ fn strip(row: &Row, column: usize, k: usize) -> Strip {
 /// Where a wake begins ahead of the rings, at the very leading edge, its sides go on from there to the rings,
 /// whose nodes come last (`inner`: column and place).
 pub(crate) fn add_near_wake(
-    (near_wake, shares): (&mut Network, &mut Vec<Share>),
-    row: &Row,
+    (near_wake, shares): (&mut Network, &mut Vec<NearWakeShare>),
+    row: &NearWakeRow,
     t: f64,
     edge: impl Iterator<Item = DVec3> + Clone,
     inner: impl Iterator<Item = (usize, DVec3)>,
@@ -254,7 +254,7 @@ pub(crate) fn add_near_wake(
     }
     let node = |level: usize, c: usize| base + (strips - level) * width + c;
     let age = |level: f64| (t - sheet.shed_time[newest]) * level / strips as f64;
-    let mut push = |a: usize, b: usize, age: f64, share: Share| {
+    let mut push = |a: usize, b: usize, age: f64, share: NearWakeShare| {
         let length = (near_wake.nodes.get(b) - near_wake.nodes.get(a)).length();
         let core = settings.wake_core.core(length, age);
         near_wake.push_edge(a, b, 0.0, core);
@@ -286,8 +286,8 @@ pub(crate) fn add_near_wake(
 }
 
 /// The edge between the columns `c - 1` and `c` in strip `k`.
-fn across(row: &Row, c: usize, k: usize) -> Share {
-    let mut share = Share::default();
+fn across(row: &NearWakeRow, c: usize, k: usize) -> NearWakeShare {
+    let mut share = NearWakeShare::default();
     if row.lattice.settings().plane_wakes {
         return share; // an end, which moves no air
     }
@@ -302,10 +302,10 @@ fn across(row: &Row, c: usize, k: usize) -> Share {
 
 /// The edge of column `c` between strip `k` and the next older one; at the free row the wake itself
 /// has counted the circulation of the past already.
-fn along(row: &Row, c: usize, k: usize, strips: usize) -> Share {
-    let mut share = Share {
+fn along(row: &NearWakeRow, c: usize, k: usize, strips: usize) -> NearWakeShare {
+    let mut share = NearWakeShare {
         feeding: row.shape.feeding[c],
-        ..Share::default()
+        ..NearWakeShare::default()
     };
     share.add(0, 1.0, &strip(row, c, k));
     if k + 1 < strips {
@@ -318,7 +318,7 @@ fn along(row: &Row, c: usize, k: usize, strips: usize) -> Share {
 
 /// What the row's strip at the shedding edge takes from the circulation of a panel there: the fixed
 /// part, and the part of the panel's own; what leaves a leading edge within the step comes on top.
-pub(crate) fn at_edge(row: &Row, column: usize) -> [f64; 2] {
+pub(crate) fn at_edge(row: &NearWakeRow, column: usize) -> [f64; 2] {
     if row.shape.lengths.is_empty() {
         return [0.0; 2];
     }
@@ -336,20 +336,20 @@ mod tests {
     #[test]
     fn invariant_joints_of_the_newest_row_under_roundings_of_circulation() {
         let old = 0.1 + 0.2;
-        let share = |part: f64| Share {
+        let share = |part: f64| NearWakeShare {
             fixed: -part * old,
             part: [part, 0.0],
             feeding: 0.5,
-            ..Share::default()
+            ..NearWakeShare::default()
         };
         for gamma in [old, 0.3] {
             let net = share(0.25).net([&[gamma], &[]]);
             assert!(net.abs() < 1e-16 && share(0.25).joint(net) == 0.5);
         }
-        let of_one_strip = Share {
+        let of_one_strip = NearWakeShare {
             part: [0.25, -0.25],
             feeding: 0.5,
-            ..Share::default()
+            ..NearWakeShare::default()
         };
         assert_eq!(of_one_strip.joint(1e-17), 0.0);
     }

@@ -1,7 +1,7 @@
 //! Strokes that are steered: amplitude, mean angle and plane go over from one command to the next, on top of a
 //! steady beat whose angles are known beforehand at the half steps of the integration.
 //!
-//! As adjustments go over linearly ([`Transition`](wingbeat_flight::Transition)), the stroke angle is `mean + (1 +
+//! As adjustments go over linearly ([`MotionBlend`](wingbeat_flight::MotionBlend)), the stroke angle is `mean + (1 +
 //! a(t)) (phi - mean) + s o(t)` with the commanded relative amplitude a and offset o, s = 1 on the right and -1
 //! on the left.
 

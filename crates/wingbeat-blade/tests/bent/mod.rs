@@ -11,7 +11,7 @@ const COLS: usize = 7;
 struct Bent {
     nodes: Vec<DVec3>,
     wing: BladeWing,
-    sections: Vec<Section>,
+    sections: Vec<MeshSection>,
 }
 
 fn bent(added_mass: AddedMassModel, side: f64) -> Bent {
@@ -38,7 +38,7 @@ fn turned(added_mass: AddedMassModel, side: f64, turn: DMat3) -> Bent {
         }
     };
     let column = |j: usize| -> Vec<usize> { (0..=ROWS).map(|i| i * (COLS + 1) + j).collect() };
-    let sections = (0..COLS).map(|j| Section::new(&nodes, &column(j), &column(j + 1)));
+    let sections = (0..COLS).map(|j| MeshSection::new(&nodes, &column(j), &column(j + 1)));
     let settings = BladeSettings {
         added_mass,
         ..BladeSettings::insect(RHO)

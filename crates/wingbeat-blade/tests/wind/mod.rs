@@ -275,8 +275,8 @@ fn agrees_nodes_of_a_bent_wing_in_a_changing_wind_with_the_flat_wing() {
     };
     let nodes: Vec<DVec3> = (0..(rows + 1) * (cols + 1)).map(node).collect();
     let column = |j: usize| [j, cols + 1 + j];
-    let sections: Vec<Section> = (0..cols)
-        .map(|j| Section::new(&nodes, &column(j), &column(j + 1)))
+    let sections: Vec<MeshSection> = (0..cols)
+        .map(|j| MeshSection::new(&nodes, &column(j), &column(j + 1)))
         .collect();
     for law in LAWS {
         let w = wing(massive(law), cols, 1.0);
@@ -290,7 +290,7 @@ fn agrees_nodes_of_a_bent_wing_in_a_changing_wind_with_the_flat_wing() {
             velocity: &velocity,
             acceleration: &acceleration,
         };
-        let state = |s: &Section| s.state(&w, &moving, &wind, m.r);
+        let state = |s: &MeshSection| s.state(&w, &moving, &wind, m.r);
         let states: Vec<SectionState> = sections.iter().map(state).collect();
         let mut forces = vec![DVec3::ZERO; nodes.len()];
         w.bent_forces(&sections, &states, None, &mut forces);

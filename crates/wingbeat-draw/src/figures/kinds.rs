@@ -5,7 +5,7 @@ use wingbeat_math::DVec3;
 
 use super::bending::bending;
 use super::measure::{Kept, Line, Measure, Measured, Unit};
-use super::part::Part;
+use super::part::TimeWindow;
 use super::units::{POWER_FLOOR, force_times_speed, length_floor, scaled};
 use super::wing_angles::wing_angles;
 use wingbeat_results::History;
@@ -16,7 +16,7 @@ use wingbeat_results::summary::{air_force, down, driving_power, driving_power_na
 const CHANGE_FLOOR: f64 = 1e-7;
 
 /// The figures over time that make sense for a run, row by row in SI units.
-pub(super) fn measured(setup: &FlightSetup, history: &History, part: &Part) -> Vec<Measured> {
+pub(super) fn measured(setup: &FlightSetup, history: &History, part: &TimeWindow) -> Vec<Measured> {
     let mut list = vec![];
     if setup.air.is_some() {
         list.push(forces(setup, history));
@@ -72,7 +72,7 @@ fn forces(setup: &FlightSetup, history: &History) -> Measured {
 }
 
 /// Path and attitude; beside them the reference if the flight follows one.
-fn trajectory(setup: &FlightSetup, history: &History, part: &Part) -> Measured {
+fn trajectory(setup: &FlightSetup, history: &History, part: &TimeWindow) -> Measured {
     let follows = (setup.feedback.as_ref()).is_some_and(|f| f.controller.follows());
     let column = |name: &str| history.column(name).to_vec();
     let mut place = vec![

@@ -8,7 +8,7 @@ use wingbeat_model::Wing;
 use super::drawing::{Anchor, COLOURS, Drawing, INK, Stroke};
 use super::font;
 use super::grid::one_scale;
-use super::part::Part;
+use super::part::TimeWindow;
 use super::plot::{self, Area, Axes, Plot};
 use super::strokes::{goes_down, reference_number, reference_wing, stroke};
 use super::style::Look;
@@ -38,7 +38,7 @@ struct Chord {
 pub(super) fn lollipop(
     setup: &FlightSetup,
     history: &History,
-    part: &Part,
+    part: &TimeWindow,
     look: &Look,
 ) -> Option<Drawing> {
     let poses = Poses::new(&setup.animal, history.names())?;
@@ -83,7 +83,7 @@ fn chord(setup: &FlightSetup, history: &History, poses: &Poses, k: usize) -> Cho
     let wing = &setup.animal.wings[number - 1];
     let stroke = poses.pose(&row, 0).1 * DMat3::from_rotation_y(wing.motion.stroke_plane_pitch);
     let turned_to = stroke.transpose() * poses.pose(&row, number).1;
-    let section = Section::of(wing, &poses.shape(&row, number - 1), turned_to);
+    let section = ChordOnPlane::of(wing, &poses.shape(&row, number - 1), turned_to);
     let name = &column_stems(&setup.animal)[number];
     let force = |c: usize| history.column(&format!("air_{name}_force_n{c}_newton"));
     let force = [1, 2, 3].map(|c| force(c).get(k).copied().unwrap_or(0.0));
@@ -99,7 +99,7 @@ fn chord(setup: &FlightSetup, history: &History, poses: &Poses, k: usize) -> Cho
 
 /// The chord in the stroke plane, forward and upward of it, unrolled \[m\].
 #[derive(Clone, Copy, Debug)]
-struct Section {
+struct ChordOnPlane {
     leading: [f64; 2],
     trailing: [f64; 2],
     /// Directions in the axes of the stroke plane (normal, right, forward).
@@ -107,7 +107,7 @@ struct Section {
     upward: DVec3,
 }
 
-impl Section {
+impl ChordOnPlane {
     /// For the rotation of the wing, whose nodes are at `shape`, to the axes of the stroke plane.
     fn of(wing: &Wing, shape: &[DVec3], relative: DMat3) -> Self {
         let side = wing.side.sign();
@@ -364,7 +364,7 @@ mod tests {
             let [phi, theta, psi] = wing.motion.angles(t).map(|a| a[0]);
             let eta = DMat3::from_rotation_y(wing.motion.stroke_plane_pitch);
             let relative = eta.transpose() * wing.motion.at(t).c;
-            let section = Section::of(wing, &wing.mesh.nodes, relative);
+            let section = ChordOnPlane::of(wing, &wing.mesh.nodes, relative);
             let chord = [0, 1].map(|c| section.leading[c] - section.trailing[c]);
             let length = chord[0].hypot(chord[1]);
             assert!((chord[0] + length * psi.sin()).abs() < 1e-12);

@@ -44,7 +44,7 @@ use std::path::{Path, PathBuf};
 pub use chart::{Chart, Panel, Series};
 use drawing::Drawing;
 pub use order::{Format, Kind, Order};
-pub(crate) use part::Part;
+pub(crate) use part::TimeWindow;
 pub(crate) use strokes::stroke_columns;
 pub use style::Style;
 pub(crate) use window::charts;

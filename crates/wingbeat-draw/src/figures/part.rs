@@ -7,7 +7,7 @@ use wingbeat_results::summary::ordinal;
 
 /// What stands in a figure: the whole flight or some of it, every step or every so many.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Part {
+pub(crate) struct TimeWindow {
     /// Where it begins and ends, if it is not the whole flight, on the time axis: wingbeats where there are any, else
     /// seconds.
     range: Option<[f64; 2]>,
@@ -21,7 +21,7 @@ pub(crate) struct Part {
     length: f64,
 }
 
-impl Part {
+impl TimeWindow {
     /// Rows of a history with these times \[s\], which holds every so many steps.
     pub fn of(setup: &FlightSetup, every: usize, times: &[f64], rows: &Range<usize>) -> Self {
         let at = |k: usize| {
@@ -148,7 +148,7 @@ mod tests {
         let setup = LoadedCase::find("fruit-fly-vacuum", &[]).unwrap().setup;
         let period = setup.time.period.unwrap();
         let times: Vec<f64> = (0..=24).map(|k| f64::from(k) * period / 2.0).collect();
-        let part = |rows| Part::of(&setup, 2, &times, &rows);
+        let part = |rows| TimeWindow::of(&setup, 2, &times, &rows);
         let all = part(0..25);
         assert_eq!(
             (&all.note()[..], &all.start()[..]),

@@ -3,7 +3,7 @@
 use wingbeat_flight::FlightSetup;
 
 use super::drawing::{Anchor, COLOURS, Drawing, INK};
-use super::part::Part;
+use super::part::TimeWindow;
 use super::plot::{self, Area, Plot};
 use super::style::Look;
 use super::units::prefix;
@@ -100,7 +100,7 @@ const MAX_DOTS: usize = 60;
 /// The figure; none where the body stays.
 pub(super) fn path(
     setup: &FlightSetup,
-    (path, part): (&Path, &Part),
+    (path, part): (&Path, &TimeWindow),
     look: &Look,
 ) -> Option<Drawing> {
     let frame = Frame::of(path, setup, look)?;
@@ -273,7 +273,7 @@ mod tests {
         }
         let drawing = path(
             &case.setup,
-            (&helix, &Part::whole(&case.setup)),
+            (&helix, &TimeWindow::whole(&case.setup)),
             &Style::Paper.look(),
         )
         .unwrap();

@@ -6,7 +6,7 @@ use std::path::Path;
 use super::chart::Chart;
 use super::drawing::Drawing;
 use super::order::Kind;
-use super::part::Part;
+use super::part::TimeWindow;
 use super::style::Style;
 use super::window::{Window, charts};
 use super::{beats, lollipop, path, phase, wake};
@@ -29,7 +29,7 @@ pub(super) struct Source<'a> {
     rows: Range<usize>,
     /// Steps of these rows.
     pub steps: Vec<usize>,
-    part: Part,
+    part: TimeWindow,
     /// The last of these rows, at most [`MAX_ROWS`].
     history: History,
     charts: Vec<(&'static str, Chart)>,
@@ -49,7 +49,7 @@ impl<'a> Source<'a> {
         let path = dir.join("history.csv");
         let times = Rows::times(&path)?;
         let rows = window.rows(&case.setup, &path, &times)?;
-        let part = Part::of(&case.setup, case.output.history_every, &times, &rows);
+        let part = TimeWindow::of(&case.setup, case.output.history_every, &times, &rows);
         let last = rows.end.saturating_sub(MAX_ROWS).max(rows.start)..rows.end;
         let history = History::of_rows(&path, last)?;
         let drawn = (part.clone(), MAX_POINTS);

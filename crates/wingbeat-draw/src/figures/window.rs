@@ -9,7 +9,7 @@ use wingbeat_flight::FlightSetup;
 use super::chart::Chart;
 use super::kinds::{measured, time_axis};
 use super::measure::Measured;
-use super::part::Part;
+use super::part::TimeWindow;
 use super::shades::Shades;
 use super::strokes::strokes;
 use wingbeat_case::IoError;
@@ -120,7 +120,7 @@ pub(crate) fn charts(
     setup: &FlightSetup,
     path: &Path,
     rows: Range<usize>,
-    (part, most): (Part, usize),
+    (part, most): (TimeWindow, usize),
 ) -> Result<(NamedCharts, usize), IoError> {
     let group = match rows.len() <= most {
         true => 1,
@@ -143,14 +143,14 @@ pub(crate) fn charts(
 
 /// The figures over time of a history in memory, every row of it: name and chart.
 pub fn charts_of(setup: &FlightSetup, history: &History) -> NamedCharts {
-    let mut drawn = Drawn::of(Part::whole(setup));
+    let mut drawn = Drawn::of(TimeWindow::whole(setup));
     drawn.add(setup, history, false);
     drawn.charts(setup, 1)
 }
 
 /// What has been read of a history for its charts.
 struct Drawn {
-    part: Part,
+    part: TimeWindow,
     label: String,
     /// Abscissas of the charts.
     x: Vec<f64>,
@@ -161,7 +161,7 @@ struct Drawn {
 }
 
 impl Drawn {
-    fn of(part: Part) -> Self {
+    fn of(part: TimeWindow) -> Self {
         Self {
             part,
             label: String::new(),
@@ -223,7 +223,7 @@ mod tests {
         std::fs::write(&path, text).unwrap();
         let times = Rows::times(&path).unwrap();
         let drawn = |rows: Range<usize>| {
-            let part = Part::of(&case.setup, 1, &times, &rows);
+            let part = TimeWindow::of(&case.setup, 1, &times, &rows);
             charts(&case.setup, &path, rows, (part, 1500)).unwrap()
         };
         let (all, group) = drawn(0..60_001);

@@ -3,7 +3,7 @@
 use serde_json::{Value, json};
 
 use super::scene::Scene;
-use crate::figures::{self, Chart, Part};
+use crate::figures::{self, Chart, TimeWindow};
 use wingbeat_case::IoError;
 use wingbeat_results::rows::Rows;
 use wingbeat_results::summary::ordinal;
@@ -26,7 +26,7 @@ pub(super) fn gather(
     let every = case.output.history_every;
     let times = Rows::times(&path)?;
     let rows = 0..times.len();
-    let part = Part::of(&case.setup, every, &times, &rows);
+    let part = TimeWindow::of(&case.setup, every, &times, &rows);
     let (charts, group) = figures::charts(&case.setup, &path, rows, (part, MAX_POINTS))?;
     let summary = Summary::read(&case, &path, outcome)?;
     let mut head = json!({

@@ -1,19 +1,19 @@
 //! Blade elements on wings that loads bend: nodes of the wing's mesh move the sections, whose forces go back to them.
 
-use wingbeat_blade::{BladeWing, Lag, LocalWind, NodesInMotion, Section};
+use wingbeat_blade::{BladeWing, Lag, LocalWind, MeshSection, NodesInMotion};
 use wingbeat_dynamics::{BodyAcceleration, BodyMotion, Wrench};
 use wingbeat_math::{DMat3, DVec3};
 use wingbeat_model::{Animal, Wing};
 
 use crate::error::FlightError;
-use crate::interface::{BentScratch, Instant, Shape, WingResponse};
+use crate::interface::{BentScratch, BentShape, Instant, WingResponse};
 
 /// Sections of an elastic wing.
 #[derive(Clone, Debug)]
 pub struct BentStrips {
     /// Number of the wing.
     wing: usize,
-    sections: Vec<Section>,
+    sections: Vec<MeshSection>,
 }
 
 impl BentStrips {
@@ -23,7 +23,7 @@ impl BentStrips {
         let mesh = &wing.mesh;
         let column =
             |j: usize| -> Vec<usize> { (0..=mesh.rows).map(|i| mesh.node(i, j)).collect() };
-        let section = |j: usize| Section::new(&mesh.nodes, &column(j), &column(j + 1));
+        let section = |j: usize| MeshSection::new(&mesh.nodes, &column(j), &column(j + 1));
         Some(Self {
             wing: index,
             sections: (0..mesh.cols).map(section).collect(),
@@ -31,7 +31,7 @@ impl BentStrips {
     }
 
     /// The shape of the wing, if it has one now.
-    fn shape<'a>(&self, at: &Instant<'a>) -> Option<&'a Shape> {
+    fn shape<'a>(&self, at: &Instant<'a>) -> Option<&'a BentShape> {
         at.shapes.get(self.wing).and_then(Option::as_ref)
     }
 
@@ -146,7 +146,7 @@ impl BentScratch {
         &mut self,
         m: &BodyMotion,
         acc: Option<&BodyAcceleration>,
-        shape: &Shape,
+        shape: &BentShape,
         stream: DVec3,
     ) {
         let back = m.r.transpose();

@@ -18,12 +18,12 @@ pub struct DynamicPressure {
     stream: DVec3,
     wind: Wind,
     /// Strips of all wings; none where the density of the air is not known.
-    strips: Vec<Strip>,
+    strips: Vec<PressureStrip>,
 }
 
 /// A strip of a wing.
 #[derive(Clone, Copy, Debug)]
-struct Strip {
+struct PressureStrip {
     /// Number of its body.
     body: usize,
     /// Its point on the feathering axis \[m\], wing frame.
@@ -42,7 +42,7 @@ impl DynamicPressure {
         };
         let wings = setup.animal.wings.iter().enumerate();
         let of_wing = wings.flat_map(|(i, wing)| {
-            strips(wing).into_iter().map(move |s| Strip {
+            strips(wing).into_iter().map(move |s| PressureStrip {
                 body: i + 1,
                 axis: s.axis,
                 area: s.strip.chord * s.strip.width,
@@ -59,7 +59,7 @@ impl DynamicPressure {
     /// Force \[N\] that wings whose bodies move like `motions` would feel at a coefficient of one at time `t` \[s\]:
     /// `1/2 rho int U^2 dA` over all wings.
     pub fn force(&self, t: f64, motions: &[BodyMotion]) -> f64 {
-        let of_strip = |s: &Strip| {
+        let of_strip = |s: &PressureStrip| {
             let m = &motions[s.body];
             let air = self.stream + self.wind.at(m.point(s.axis), t);
             s.area * (m.point_velocity(s.axis) - air).length_squared()

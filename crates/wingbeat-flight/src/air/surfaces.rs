@@ -1,9 +1,7 @@
 //! From bodies to lattice surfaces and back: node positions and velocities for the air, panel
 //! forces gathered into wrenches for the dynamics (seed eq. 9).
 
-use wingbeat_air::{
-    AirError, AirLoads, EdgeKind, JoinedEdge, NodeMotion, SheddingSegment, Surface,
-};
+use wingbeat_air::{AirError, AirLoads, EdgeKind, JoinedEdge, NodeMotion, Surface};
 use wingbeat_dynamics::{BodyMotion, Wrench};
 use wingbeat_math::{DVec3, RotationLaw};
 use wingbeat_model::{
@@ -396,71 +394,14 @@ fn spin(nodes: &NodeMotion, corners: [usize; 4]) -> DVec3 {
 
 /// A closed part as a lattice surface.
 fn part_surface(part: &BodyPart) -> Surface {
-    Surface {
-        name: part.name.clone(),
-        node_count: part.mesh.nodes.len(),
-        panels: part.mesh.quads.clone(),
-        shedding: vec![],
-        closed: true,
-        carry_through: false,
-        rest: None,
-        cosine_columns: false,
-    }
+    Surface::closed(&part.name, part.mesh.nodes.len(), part.mesh.quads.clone())
 }
 
-/// A wing as a lattice surface: its edges shed in one chain that runs from the root along the
-/// leading edge, over the tip, along the trailing edge back to the root, and along the root.
+/// A wing as a lattice surface: normals along +axis 3 on both sides.
 fn wing_surface(name: &str, mesh: &GridMesh, side: Side) -> Surface {
-    let (rows, cols) = (mesh.rows, mesh.cols);
-    let node = |i: usize, j: usize| i * (cols + 1) + j;
-    let panel = |i: usize, j: usize| i * cols + j;
-    let segment = |from, to, panel, kind| SheddingSegment {
-        from,
-        to,
-        panel,
-        kind,
-    };
-    let mut chain = Vec::with_capacity(2 * (cols + rows));
-    for j in 0..cols {
-        chain.push(segment(
-            node(0, j),
-            node(0, j + 1),
-            panel(0, j),
-            EdgeKind::Leading,
-        ));
-    }
-    for i in 0..rows {
-        chain.push(segment(
-            node(i, cols),
-            node(i + 1, cols),
-            panel(i, cols - 1),
-            EdgeKind::Tip,
-        ));
-    }
-    for j in (0..cols).rev() {
-        chain.push(segment(
-            node(rows, j + 1),
-            node(rows, j),
-            panel(rows - 1, j),
-            EdgeKind::Trailing,
-        ));
-    }
-    for i in (0..rows).rev() {
-        chain.push(segment(
-            node(i + 1, 0),
-            node(i, 0),
-            panel(i, 0),
-            EdgeKind::Root,
-        ));
-    }
     Surface {
-        name: name.to_string(),
-        node_count: mesh.nodes.len(),
         panels: mesh.panels(side),
-        shedding: vec![chain],
-        closed: false,
-        carry_through: false,
-        rest: None,
         cosine_columns: mesh.columns == Spacing::Cosine,
+        ..Surface::grid(name, mesh.rows, mesh.cols)
     }
 }

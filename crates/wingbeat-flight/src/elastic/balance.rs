@@ -25,7 +25,7 @@ impl ElasticWings {
             let now = w.structure.mass_properties(&ws.trial.configuration);
             let (mut momentum, mut angular_momentum) = (DVec3::ZERO, DVec3::ZERO);
             for (mass, motion) in w.bodies(&BodyMotion::REST, ws.nodes()) {
-                let of = Parts::of(&mass, &motion);
+                let of = NodeBudget::of(&mass, &motion);
                 momentum += of.momentum;
                 angular_momentum += of.angular;
             }
@@ -165,7 +165,7 @@ impl ElasticWings {
             let rigid = std::iter::once((w.rigid, *m)).map(|x| (-1.0, x));
             let elastic = w.bodies(m, ws.nodes()).map(|x| (1.0, x));
             for (sign, (properties, motion)) in rigid.chain(elastic) {
-                let of = Parts::of(&properties, &motion);
+                let of = NodeBudget::of(&properties, &motion);
                 b.kinetic += sign * of.kinetic;
                 b.momentum += sign * of.momentum;
                 angular += sign * of.angular;
@@ -191,7 +191,7 @@ fn air_power(ws: &WingScratch) -> f64 {
 }
 
 /// Energy and momenta of one small body, N components, about the origin of N.
-struct Parts {
+struct NodeBudget {
     kinetic: f64,
     momentum: DVec3,
     angular: DVec3,
@@ -199,7 +199,7 @@ struct Parts {
     first: DVec3,
 }
 
-impl Parts {
+impl NodeBudget {
     fn of(mass: &MassProperties, m: &BodyMotion) -> Self {
         Self {
             kinetic: kinetic_energy(mass, m),

@@ -9,7 +9,7 @@ use super::wing::{ElasticState, ElasticWing};
 use super::wings::{ElasticWings, frame_motion};
 use crate::error::FlightError;
 use crate::interface::memory::AirMemory;
-use crate::interface::{Air, AirScratch, Instant, Shape};
+use crate::interface::{Air, AirScratch, BentShape, Instant};
 
 /// Most passes.
 pub const MAX_PASSES: usize = 40;
@@ -22,7 +22,7 @@ const RENEWAL: usize = 8;
 pub struct ElasticScratch {
     pub(super) wings: Vec<WingScratch>,
     /// Shapes of all wings of the animal.
-    shapes: Vec<Option<Shape>>,
+    shapes: Vec<Option<BentShape>>,
     secants: Secants,
     change: Vec<f64>,
     /// Whether the next instant is the first of another step.
@@ -49,7 +49,7 @@ impl ElasticScratch {
     }
 
     /// Shapes of all wings of the animal; none of the rigid ones.
-    pub fn shapes(&self) -> &[Option<Shape>] {
+    pub fn shapes(&self) -> &[Option<BentShape>] {
         &self.shapes
     }
 

@@ -32,7 +32,7 @@ impl Station {
     /// The section in the configuration `at`, against `rest`.
     pub fn record(&self, followers: &[Follower], [at, rest]: [&Configuration; 2]) -> SectionRecord {
         let [a, b] = [0, 1].map(|k| {
-            let shape = |c: &Configuration| Section::new(&self.columns[k], followers, c);
+            let shape = |c: &Configuration| SectionShape::new(&self.columns[k], followers, c);
             let (now, before) = (shape(at), shape(rest));
             [
                 now.middle - before.middle,
@@ -50,7 +50,7 @@ impl Station {
 }
 
 /// The shape of one column of nodes.
-struct Section {
+struct SectionShape {
     /// Place of the middle between the edges along axis 3 \[m\].
     middle: f64,
     pitch: f64,
@@ -58,7 +58,7 @@ struct Section {
     camber: f64,
 }
 
-impl Section {
+impl SectionShape {
     fn new(nodes: &[usize], followers: &[Follower], at: &Configuration) -> Self {
         let place = |n: &usize| followers[*n].position(at);
         let ends = [nodes.first(), nodes.last()].map(|n| n.map_or(DVec3::ZERO, place));
@@ -95,7 +95,7 @@ mod tests {
             };
             let follower = |n: usize| Follower::new(at.position[n], &[(n, 1.0)], &at);
             let followers = [0, 1, 2].map(follower);
-            let camber = Section::new(&[0, 1, 2], &followers, &at).camber;
+            let camber = SectionShape::new(&[0, 1, 2], &followers, &at).camber;
             assert!((camber - 0.05).abs() < 1e-15, "{pitch}: {camber}");
         }
     }

@@ -12,7 +12,7 @@ use super::span::Station;
 use super::tangent::added_mass;
 use crate::carried::light::{is_positive, rigid_mass};
 use crate::error::FlightError;
-use crate::interface::{Shape, WingResponse};
+use crate::interface::{BentShape, WingResponse};
 
 /// A wing that loads bend.
 #[derive(Debug)]
@@ -123,7 +123,7 @@ impl ElasticWing {
     }
 
     /// The nodes of the mesh.
-    pub(super) fn shape(&self, nodes: Nodes<'_>, out: &mut Shape) {
+    pub(super) fn shape(&self, nodes: Nodes<'_>, out: &mut BentShape) {
         let Nodes {
             at,
             velocity,

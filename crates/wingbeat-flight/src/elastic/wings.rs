@@ -8,7 +8,7 @@ use super::image::Image;
 use super::step::{FINE_TOLERANCE, TOLERANCE};
 use super::wing::{ElasticState, ElasticWing};
 use crate::error::FlightError;
-use crate::interface::Shape;
+use crate::interface::BentShape;
 
 /// All wings of an animal that loads bend.
 #[derive(Debug, Default)]
@@ -134,10 +134,10 @@ impl ElasticWings {
     }
 
     /// Room for the shapes of all wings.
-    pub(super) fn shapes(&self) -> Vec<Option<Shape>> {
+    pub(super) fn shapes(&self) -> Vec<Option<BentShape>> {
         let mut shapes = vec![None; self.count];
         for w in &self.wings {
-            shapes[w.wing] = Some(Shape::default());
+            shapes[w.wing] = Some(BentShape::default());
         }
         shapes
     }

@@ -73,10 +73,7 @@ impl PointSpring {
     /// forces. Nothing where its ends meet, to the rounding of their places, for it has no direction there.
     pub fn wrenches(&self, motions: [&BodyMotion; 2]) -> [Wrench; 2] {
         let arms = [0, 1].map(|k| motions[k].r * self.points[k]);
-        let velocity = |k: usize| {
-            let m = motions[k];
-            m.v + m.r * m.w.cross(self.points[k])
-        };
+        let velocity = |k: usize| motions[k].point_velocity(self.points[k]);
         let apart = motions[1].p + arms[1] - (motions[0].p + arms[0]);
         let length = apart.length();
         let reach = arms.iter().map(|a| a.length()).fold(self.rest, f64::max);

@@ -9,7 +9,7 @@ use crate::error::FlightError;
 use crate::interface::memory::AirMemory;
 
 /// The coupled right-hand side over the starting steps: the wake is replayed with them.
-pub(super) struct Start<'a> {
+pub(super) struct StartingSteps<'a> {
     pub equations: &'a Equations,
     pub scratch: Scratch,
     pub first: usize,
@@ -21,13 +21,13 @@ pub(super) struct Start<'a> {
     pub carried: Vec<CarriedState>,
 }
 
-impl Start<'_> {
+impl StartingSteps<'_> {
     pub fn time(&self, k: usize) -> f64 {
         (self.first + k) as f64 * self.equations.step
     }
 }
 
-impl Replay for Start<'_> {
+impl Replay for StartingSteps<'_> {
     type Error = FlightError;
 
     fn enter(&mut self, k: usize) -> Result<(), FlightError> {

@@ -36,7 +36,7 @@ impl SpanLaw {
     pub fn at(&self, r: f64, root: f64) -> f64 {
         match self {
             &Self::Linear { root: a, tip: b } => a + (b - a) * ((r - root) / (1.0 - root)),
-            Self::Table(rows) => crate::integrate::interpolate(rows, r),
+            Self::Table(rows) => wingbeat_math::interpolate_pairs(rows, r),
         }
     }
 
@@ -134,7 +134,7 @@ pub(super) fn over_time(series: &Fourier, [x, x1, x2]: [f64; 3]) -> [f64; 3] {
 
 /// Deformation of one section, each with its first two time derivatives.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Section {
+pub struct SectionDeformation {
     /// Twist tau \[rad\].
     pub twist: [f64; 3],
     /// Height of the mean line over the chord \[1\].

@@ -28,7 +28,7 @@ mod prescribed;
 mod shape;
 mod surface;
 
-pub use law::{Section, SpanLaw, Term};
+pub use law::{SectionDeformation, SpanLaw, Term};
 pub(crate) use lines::{behind, chord_line, column, is_flat, span, strip_axes};
 pub use prescribed::Deformation;
 pub use shape::{DeformingMesh, Stations};

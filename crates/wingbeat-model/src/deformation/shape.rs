@@ -1,6 +1,6 @@
 //! From the laws to places, velocities and accelerations of points in the wing frame.
 
-use crate::deformation::law::{Section, Term, over_time};
+use crate::deformation::law::{SectionDeformation, Term, over_time};
 use crate::deformation::lines::{column, span};
 use crate::deformation::prescribed::Deformation;
 use crate::deformation::surface::Course;
@@ -35,7 +35,7 @@ impl Stations {
     }
 
     /// Section number `station` at the phase `[x, x', x'']` of the beat [wingbeats, s].
-    pub fn at(&self, station: usize, phase: [f64; 3]) -> Section {
+    pub fn at(&self, station: usize, phase: [f64; 3]) -> SectionDeformation {
         let sum = |k: usize| {
             let terms = &self.terms[k];
             let weights = &self.weights[k][station * terms.len()..];
@@ -46,7 +46,7 @@ impl Stations {
             }
             q
         };
-        Section {
+        SectionDeformation {
             twist: sum(0),
             camber: sum(1),
             bending: sum(2),
@@ -154,7 +154,7 @@ impl DeformingMesh {
     }
 }
 
-impl Section {
+impl SectionDeformation {
     /// Displacement from rest \[m\], velocity and acceleration of the point that lies at rest
     /// `ahead` \[m\] of the twist axis at the `height` \[m\] along axis 3, where the mean line of
     /// height 1 is `line` \[m\]; wing components.

@@ -1,7 +1,7 @@
 //! Leading and trailing edge over the span.
 
-use crate::integrate::interpolate;
 use crate::planform::beta::BetaChord;
+use wingbeat_math::interpolate_pairs;
 
 /// Leading and trailing edge of a planform as functions of r.
 #[derive(Clone, Debug, PartialEq)]
@@ -30,7 +30,10 @@ impl Edges {
                 [ahead * c, (ahead - 1.0) * c]
             }
             Curve::Points(leading, trailing, least) => {
-                let [a, b] = [interpolate(leading, r), interpolate(trailing, r)];
+                let [a, b] = [
+                    interpolate_pairs(leading, r),
+                    interpolate_pairs(trailing, r),
+                ];
                 widened([a, b], *least)
             }
         }

@@ -3,10 +3,10 @@
 use crate::error::{
     ModelError, finite, fraction, in_row, not_negative, positive, require, require_count,
 };
-use crate::integrate::interpolate;
 use crate::planform::beta::Beta;
 use crate::planform::contour;
 use crate::planform::edges::{Curve, Edges};
+use wingbeat_math::interpolate_pairs;
 
 /// The outline of a wing.
 #[derive(Clone, Debug, PartialEq)]
@@ -123,7 +123,7 @@ fn outline_edges(
             trailing[trailing.len() - 1].0
         )));
     }
-    let chord = |r: f64| interpolate(leading, r) - interpolate(trailing, r);
+    let chord = |r: f64| interpolate_pairs(leading, r) - interpolate_pairs(trailing, r);
     let knots = || leading.iter().chain(trailing).map(|p| p.0);
     if let Some(r) = knots().find(|&r| chord(r) < 0.0) {
         return Err(ModelError::Planform(format!(

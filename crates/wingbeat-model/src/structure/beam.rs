@@ -8,7 +8,8 @@ pub use mass::BeamMass;
 
 use wingbeat_math::{DMat3, DQuat, DVec3, MassProperties, outer, trace};
 use wingbeat_structure::{
-    Beam, Configuration, Damping, Follower, Section, Stiffness, StructureBuilder, StructureError,
+    Beam, BeamSection, Configuration, Damping, Follower, Stiffness, StructureBuilder,
+    StructureError,
 };
 
 use super::body::{Blank, ElasticBody, check_not_negative, check_positive};
@@ -235,7 +236,7 @@ impl WingBeam {
     }
 
     /// Section of a piece.
-    fn section(&self, wing: &Blank<'_>, piece: &Piece, whole: &Whole) -> Section {
+    fn section(&self, wing: &Blank<'_>, piece: &Piece, whole: &Whole) -> BeamSection {
         let [root, tip] = span(wing.mesh);
         let (r, along) = (piece.r, piece.along);
         let value = |law: &SpanLaw| law.at(r / tip, root / tip);
@@ -249,7 +250,7 @@ impl WingBeam {
         let slender = [lag, flap].map(|bending| SLENDER * bending / whole.length.powi(2));
         let is_plate = self.lag.is_none() && self.axial.is_none();
         let shear = if is_plate { [axial / 3.0; 2] } else { slender };
-        let mut section = Section::new(&Stiffness {
+        let mut section = BeamSection::new(&Stiffness {
             axial,
             shear: self.shear.as_ref().map_or(shear, |law| [value(law); 2]),
             torsion,

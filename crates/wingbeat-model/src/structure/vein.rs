@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use wingbeat_math::DVec3;
-use wingbeat_structure::{Beam, Configuration, Section, ShellMesh, Stiffness, StructureError};
+use wingbeat_structure::{Beam, BeamSection, Configuration, ShellMesh, Stiffness, StructureError};
 
 use crate::deformation::{behind, column, span};
 use crate::error::{MemberError, ModelError, require};
@@ -61,7 +61,7 @@ fn between([a, b]: [f64; 2], s: f64) -> f64 {
 
 impl Vein {
     /// Its section at the part `s` of its length.
-    fn section(&self, s: f64) -> Section {
+    fn section(&self, s: f64) -> BeamSection {
         let r = between(self.radius, s);
         let second = 0.25 * PI * r.powi(4);
         let [bending, torsion] = match self.stiffness {
@@ -81,7 +81,7 @@ impl Vein {
             bending: [bending; 2],
         };
         let mass = self.density.unwrap_or(0.0) * PI * r * r;
-        Section::new(&stiffness).with_mass(mass, [0.0; 2], [0.25 * mass * r * r; 2])
+        BeamSection::new(&stiffness).with_mass(mass, [0.0; 2], [0.25 * mass * r * r; 2])
     }
 
     /// Points of the mesh it runs through, each a node of the structure once.
@@ -199,7 +199,7 @@ fn distance(rest: &Configuration, [a, b]: [usize; 2]) -> f64 {
 fn beam(
     rest: &Configuration,
     nodes: [usize; 2],
-    section: &Section,
+    section: &BeamSection,
 ) -> Result<Beam, StructureError> {
     let along = rest.position[nodes[1]] - rest.position[nodes[0]];
     Beam::straight(rest, nodes, DVec3::Z.cross(along), section)

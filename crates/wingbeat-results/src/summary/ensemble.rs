@@ -141,7 +141,7 @@ fn mean_of(members: &[Vec<BeatMeans>], beat: usize) -> BeatMeans {
 }
 
 fn mean(values: &[f64]) -> f64 {
-    values.iter().sum::<f64>() / values.len() as f64
+    moments(values).0
 }
 
 /// Index of the first beat behind the one, after those left out, in which the forces of members scatter as

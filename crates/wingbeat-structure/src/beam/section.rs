@@ -8,7 +8,7 @@ use crate::error::StructureError;
 /// Section of a beam, in its own axes: axis 1 along the beam, axes 2 and 3 across, about a reference line that may lie
 /// anywhere.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Section {
+pub struct BeamSection {
     /// Stiffness \[N, N m, N m2\]: forces and moments by stretch, two shears, twist and two curvatures; symmetric.
     pub stiffness: SixBySix,
     /// Mass per length \[kg/m\], its first moment \[kg\] and inertia \[kg m\] about the reference line.
@@ -28,7 +28,7 @@ pub struct Stiffness {
     pub bending: [f64; 2],
 }
 
-impl Section {
+impl BeamSection {
     /// Section with its reference line through the tension centre and shear centre, without mass.
     pub fn new(s: &Stiffness) -> Self {
         Self::with_offsets(s, [0.0; 2], [0.0; 2])
@@ -132,7 +132,7 @@ fn saint_venant(a: f64, b: f64) -> f64 {
 /// # Errors
 /// [`StructureError::Stiffness`].
 pub(super) fn element_stiffness(
-    section: &Section,
+    section: &BeamSection,
     axis: DVec3,
     length: f64,
 ) -> Result<SixBySix, StructureError> {

@@ -8,7 +8,7 @@
 
 use wingbeat_math::{DMat3, DVec2, DVec3};
 
-use super::Section;
+use super::ShellSection;
 use super::geometry::{CORNER, GAUSS, Quad, contravariant, jacobian};
 use super::strain::{BENDING, CURVATURE, EDGES, SHEAR, Stiffness};
 
@@ -25,7 +25,7 @@ struct Edge {
 }
 
 /// Adds the stiffness of curvature, its hourglass and shear, all of which are coupled.
-pub(super) fn bending(quad: &Quad, section: &Section, c: &mut Stiffness) {
+pub(super) fn bending(quad: &Quad, section: &ShellSection, c: &mut Stiffness) {
     if section.bending == DMat3::ZERO {
         return;
     }
@@ -46,7 +46,7 @@ pub(super) fn bending(quad: &Quad, section: &Section, c: &mut Stiffness) {
 }
 
 /// Bulge and shear of the edge `r` \[m\].
-fn edge(r: DVec2, section: &Section) -> Edge {
+fn edge(r: DVec2, section: &ShellSection) -> Edge {
     let square = r.length_squared();
     if square == 0.0 {
         return Edge {
@@ -62,7 +62,7 @@ fn edge(r: DVec2, section: &Section) -> Edge {
 }
 
 /// Bending stiffness of a strip in direction `r` \[N m\].
-fn strip(section: &Section, r: DVec2) -> f64 {
+fn strip(section: &ShellSection, r: DVec2) -> f64 {
     let [c, s] = r.normalize().to_array();
     let v = DVec3::new(c * c, s * s, 2.0 * c * s);
     v.dot(section.bending * v)
@@ -90,7 +90,7 @@ fn interpolation(edges: &[Edge; 4], basis: [DVec2; 2], [xi, eta]: [f64; 2]) -> I
 }
 
 /// Transverse shear, covariant, linear between opposite edges [Dvorkin & Bathe 1984].
-fn shear(quad: &Quad, section: &Section, edges: &[Edge; 4], c: &mut Stiffness) {
+fn shear(quad: &Quad, section: &ShellSection, edges: &[Edge; 4], c: &mut Stiffness) {
     let [a, b] = quad.basis;
     let (aa, bb, ab) = (a.length_squared(), b.length_squared(), a.dot(b));
     let scale = quad.area * section.shear / (aa * bb - ab * ab);

@@ -6,7 +6,7 @@ use super::energy::{Gradient, Tangent};
 use super::geometry::{Lumps, Quad, lumps};
 use super::stiffness::stiffness;
 use super::strain::{BENDING, CURVATURE, STRAINS, Stiffness, Term, Vectors, terms};
-use super::{Section, ShellError};
+use super::{ShellError, ShellSection};
 use crate::block::pair;
 use crate::configuration::{Configuration, NODE};
 use crate::element::{Element, ElementForces, MassBetween};
@@ -43,7 +43,7 @@ impl Shell {
     pub fn new(
         rest: &Configuration,
         corners: [usize; 4],
-        section: &Section,
+        section: &ShellSection,
     ) -> Result<Self, ShellError> {
         section.check()?;
         if let Some(&node) = corners.iter().find(|&&n| n >= rest.len()) {

@@ -2,7 +2,7 @@
 
 use wingbeat_math::{DMat3, DVec2, DVec3, MassProperties, outer};
 
-use super::{Section, ShellError};
+use super::{ShellError, ShellSection};
 
 /// Natural coordinates of the corners.
 pub(super) const CORNER: [[f64; 2]; 4] = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
@@ -143,7 +143,7 @@ pub(super) struct Lumps {
 /// their frequencies. So of long sides mass does not turn with their ends: it has the velocity that is linear from one
 /// to the other, by Simpson's rule, two thirds at the middle. Mass that is not alike at both ends goes to the
 /// middle as the smaller one does.
-pub(super) fn lumps(corners: [DVec3; 4], axes: DMat3, section: &Section) -> Lumps {
+pub(super) fn lumps(corners: [DVec3; 4], axes: DMat3, section: &ShellSection) -> Lumps {
     let [a, b] = spans(corners).map(DVec3::length_squared);
     let long = [a > LONG * b, b > LONG * a];
     let whole = quarters(corners, axes, section, [false; 2]);
@@ -182,7 +182,7 @@ pub(super) fn lumps(corners: [DVec3; 4], axes: DMat3, section: &Section) -> Lump
 fn quarters(
     corners: [DVec3; 4],
     axes: DMat3,
-    section: &Section,
+    section: &ShellSection,
     long: [bool; 2],
 ) -> [MassProperties; 4] {
     let n = axes.z_axis;

@@ -2,7 +2,7 @@
 
 use wingbeat_math::{DQuat, DVec3};
 
-use super::{Section, Shell, ShellError};
+use super::{Shell, ShellError, ShellSection};
 use crate::configuration::Configuration;
 
 /// Nodes of a structure on the points of a lattice, points that coincide being one node, and the quadrilaterals between
@@ -64,7 +64,7 @@ impl ShellMesh {
     /// As [`Shell::new`].
     pub fn shells(
         &self,
-        mut section: impl FnMut(usize) -> Option<Section>,
+        mut section: impl FnMut(usize) -> Option<ShellSection>,
     ) -> Result<Vec<Shell>, ShellError> {
         let mut all = vec![];
         for (k, panel) in self.panels.iter().enumerate() {

@@ -31,4 +31,4 @@ mod strain;
 pub use element::Shell;
 pub use error::ShellError;
 pub use mesh::ShellMesh;
-pub use section::{Lamina, Section};
+pub use section::{Lamina, ShellSection};

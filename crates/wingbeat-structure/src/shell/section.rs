@@ -68,10 +68,10 @@ impl Lamina {
     ///
     /// # Errors
     /// [`ShellError::Material`] names the first number that no material has.
-    pub fn section(&self) -> Result<Section, ShellError> {
+    pub fn section(&self) -> Result<ShellSection, ShellError> {
         self.check()?;
         let (q, h) = (self.plane_stress(), self.thickness);
-        Ok(Section {
+        Ok(ShellSection {
             membrane: q * h,
             bending: q * (h.powi(3) / 12.0),
             shear: SHEAR_CORRECTION * self.shear * h,
@@ -109,7 +109,7 @@ impl Lamina {
 /// Stiffness and mass per area of a shell: of a [`Lamina`], or of a corrugated or layered sheet by its own numbers.
 /// Matrices have rows and columns 11, 22, 12 in fibre axes and work on (e_11, e_22, 2 e_12).
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
-pub struct Section {
+pub struct ShellSection {
     /// Membrane stiffness A: tensions of strains \[N/m\], positive definite.
     pub membrane: DMat3,
     /// Bending stiffness D: moments of curvatures \[N m\], positive definite, or zero for a membrane, without stiffness
@@ -128,7 +128,7 @@ pub struct Section {
     pub axis: DVec3,
 }
 
-impl Section {
+impl ShellSection {
     /// Refuses a stiffness that is not symmetric and positive definite (bending may vanish) and negative masses.
     pub(super) fn check(&self) -> Result<(), ShellError> {
         let definite = |m: DMat3| {

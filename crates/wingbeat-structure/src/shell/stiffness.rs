@@ -1,6 +1,6 @@
 //! Stiffness of the strains of a quadrilateral.
 
-use super::Section;
+use super::ShellSection;
 use super::bending::bending;
 use super::geometry::Quad;
 use super::strain::{DRILL, IN_PLANE_BENDING, MEMBRANE, STRAINS, Stiffness};
@@ -9,7 +9,7 @@ use super::strain::{DRILL, IN_PLANE_BENDING, MEMBRANE, STRAINS, Stiffness};
 const DRILL_STIFFNESS: f64 = 0.1;
 
 /// Second derivatives of the strain energy by the strains, and first ones at rest, by tension.
-pub(super) fn stiffness(quad: &Quad, section: &Section) -> (Box<Stiffness>, [f64; STRAINS]) {
+pub(super) fn stiffness(quad: &Quad, section: &ShellSection) -> (Box<Stiffness>, [f64; STRAINS]) {
     let mut c = Box::new([[0.0; STRAINS]; STRAINS]);
     membrane(quad, section, &mut c);
     bending(quad, section, &mut c);
@@ -23,7 +23,7 @@ pub(super) fn stiffness(quad: &Quad, section: &Section) -> (Box<Stiffness>, [f64
 }
 
 /// Area times A; in-plane bending resists with the uniaxial moduli, lateral contraction free.
-fn membrane(quad: &Quad, section: &Section, c: &mut Stiffness) {
+fn membrane(quad: &Quad, section: &ShellSection, c: &mut Stiffness) {
     let compliance = section.membrane.inverse();
     for i in 0..3 {
         for j in 0..3 {

@@ -25,7 +25,7 @@ pub fn line(elements: usize, length: f64) -> Configuration {
 }
 
 /// A straight beam along axis 1 with its section's axis 2 along axis 2, clamped at node 0 if asked for.
-pub fn straight(elements: usize, length: f64, section: &Section) -> StructureBuilder {
+pub fn straight(elements: usize, length: f64, section: &BeamSection) -> StructureBuilder {
     let rest = line(elements, length);
     let mut builder = StructureBuilder::new(rest.clone());
     for i in 0..elements {
@@ -36,8 +36,8 @@ pub fn straight(elements: usize, length: f64, section: &Section) -> StructureBui
 }
 
 /// A section without shear and stretch to speak of: bending stiffness one, mass one.
-pub fn slender() -> Section {
-    Section::new(&Stiffness {
+pub fn slender() -> BeamSection {
+    BeamSection::new(&Stiffness {
         axial: 1e8,
         shear: [1e8; 2],
         torsion: 1.0,
@@ -47,14 +47,14 @@ pub fn slender() -> Section {
 }
 
 /// A fully coupled section with offsets of all centres.
-pub fn coupled() -> Section {
+pub fn coupled() -> BeamSection {
     let stiffness = Stiffness {
         axial: 900.0,
         shear: [300.0, 250.0],
         torsion: 2.0,
         bending: [3.0, 5.0],
     };
-    Section::with_offsets(&stiffness, [0.03, -0.05], [-0.07, 0.02])
+    BeamSection::with_offsets(&stiffness, [0.03, -0.05], [-0.07, 0.02])
         .with_mass(0.7, [0.04, -0.03], [0.01, 0.02])
         .turned(0.4)
 }

@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use wingbeat_math::{DVec3, MassProperties};
-use wingbeat_structure::shell::Section as Sheet;
+use wingbeat_structure::shell::ShellSection;
 use wingbeat_structure::*;
 
 /// Length and width of the strip, its thickness, the radius of its veins.
@@ -25,8 +25,8 @@ fn lattice([rows, cols]: [usize; 2], [a, b]: [f64; 2]) -> ShellMesh {
 /// Shells on all panels, and beams of `vein` along the rows given.
 fn stiffened(
     mesh: &ShellMesh,
-    sheet: Sheet,
-    vein: &Section,
+    sheet: ShellSection,
+    vein: &BeamSection,
     rows: &[usize],
     cols: usize,
 ) -> StructureBuilder {
@@ -45,14 +45,14 @@ fn stiffened(
 }
 
 /// A strip of E = 1 without lateral contraction.
-fn strip() -> Sheet {
+fn strip() -> ShellSection {
     Lamina::isotropic(1.0, 0.0, THICKNESS, 1.0)
         .section()
         .unwrap()
 }
 
 /// A round vein: EI, GJ, mass per length.
-fn vein() -> (Section, [f64; 3]) {
+fn vein() -> (BeamSection, [f64; 3]) {
     let (young, density) = (20.0, 3.0);
     let second = 0.25 * PI * RADIUS.powi(4);
     let area = PI * RADIUS * RADIUS;
@@ -65,7 +65,7 @@ fn vein() -> (Section, [f64; 3]) {
     };
     let mass = density * area;
     let section =
-        Section::new(&stiffness).with_mass(mass, [0.0; 2], [0.25 * mass * RADIUS * RADIUS; 2]);
+        BeamSection::new(&stiffness).with_mass(mass, [0.0; 2], [0.25 * mass * RADIUS * RADIUS; 2]);
     (section, [bending, torsion, mass])
 }
 

@@ -4,7 +4,7 @@
 
 use faer::{Mat, Side};
 use wingbeat_math::{DVec3, MassProperties, tilde};
-use wingbeat_structure::shell::Section;
+use wingbeat_structure::shell::ShellSection;
 use wingbeat_structure::{Configuration, Element, ElementForces, Lamina, Shell, ShellMesh};
 
 /// Six numbers of a node held or not.
@@ -52,7 +52,7 @@ pub fn rectangle(rows: usize, cols: usize, a: f64, b: f64) -> ShellMesh {
 
 impl Plate {
     /// With one section; `held` says of each place what is held.
-    pub fn new(mesh: &ShellMesh, section: Section, held: impl Fn(DVec3) -> [bool; 6]) -> Self {
+    pub fn new(mesh: &ShellMesh, section: ShellSection, held: impl Fn(DVec3) -> [bool; 6]) -> Self {
         let shells = mesh.shells(|_| Some(section)).expect("shells");
         Self::of(mesh.rest.clone(), shells, held)
     }

@@ -1,5 +1,7 @@
 //! Bad streams, and bad places for what is written.
 
+use wingbeat::math::SplitMix64;
+
 use crate::field::{Field, Wanted};
 use crate::support::QUICK;
 
@@ -48,12 +50,11 @@ const BYTES: &[u8] = b" =[]{}\"\n#.-+e019xn\xff\0";
 #[test]
 fn behaves_cases_with_a_changed_byte_are_checked_or_refused() {
     let mut field = Field::new("attack-bytes");
-    let mut seed = 0x9e37_79b9_7f4a_7c15_u64;
+    let mut chance = SplitMix64::new(1);
     for _ in 0..100 {
-        seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
         let mut text = QUICK.as_bytes().to_vec();
-        let place = (seed >> 33) as usize % text.len();
-        text[place] = BYTES[(seed >> 20) as usize % BYTES.len()];
+        let [place, byte] = [text.len(), BYTES.len()].map(|n| chance.bits() as usize % n);
+        text[place] = BYTES[byte];
         field.fed(Wanted::Survived, &text, &["check", "-"]);
     }
     field.end(100);

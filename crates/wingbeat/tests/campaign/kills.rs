@@ -8,6 +8,8 @@ use std::path::Path;
 use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 
+use wingbeat::math::SplitMix64;
+
 use crate::support::{Scratch, flown, wingbeat};
 use crate::{blade, merged, numbers, write};
 
@@ -42,21 +44,17 @@ fn kill(process: u32) {
 }
 
 /// Numbers that look random, the same ones in every run.
-struct Chance(u64);
+struct Chance(SplitMix64);
 
 impl Chance {
     fn below(&mut self, n: u64) -> u64 {
-        self.0 = self
-            .0
-            .wrapping_mul(6_364_136_223_846_793_005)
-            .wrapping_add(1);
-        (self.0 >> 33) % n
+        self.0.bits() % n
     }
 }
 
 /// Two masters on the same points, killed so many times, they or their workers; ends when all points are done.
 fn disturbed(dir: &Path, kills: usize, pause: u64) {
-    let mut chance = Chance(11);
+    let mut chance = Chance(SplitMix64::new(11));
     let mut masters = [start(dir, "b", &[]), start(dir, "b", &[])];
     let begun = Instant::now();
     let mut killed = 0;

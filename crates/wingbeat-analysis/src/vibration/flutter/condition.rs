@@ -34,7 +34,7 @@ pub struct Condition {
     pub response: Realisation,
     /// Difference to twice the response to half the disturbance, over the response \[1\].
     pub nonlinearity: f64,
-    /// ModalVelocities of this response, as [`FlutterSettings::disturbance`] or smaller \[1\].
+    /// Disturbance of this response, [`FlutterSettings::disturbance`] or smaller \[1\].
     pub disturbance: f64,
     /// Length of this response \[s\].
     pub length: f64,

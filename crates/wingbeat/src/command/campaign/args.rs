@@ -61,7 +61,7 @@ impl Place {
 
 /// Some of the points.
 #[derive(Args, Clone)]
-pub(super) struct Part {
+pub(super) struct PointSelection {
     /// Only the k-th of N equal parts, e.g. 2/8.
     #[arg(long, value_name = "K/N", value_parser = shard, conflicts_with = "points",
           allow_hyphen_values = true)]
@@ -71,7 +71,7 @@ pub(super) struct Part {
     pub(super) points: Option<Range<usize>>,
 }
 
-impl Part {
+impl PointSelection {
     /// The points, of so many there are.
     pub(super) fn range(&self, points: usize) -> Result<Range<usize>, Failure> {
         match (&self.shard, &self.points) {

@@ -9,7 +9,7 @@ use wingbeat::campaign::{Campaign, Status, Store};
 use wingbeat::case::IoError;
 use wingbeat::results::file::{Existing, NewFile};
 
-use super::args::{Part, Place};
+use super::args::{Place, PointSelection};
 use crate::command::failure::{FAILED, Failure};
 use crate::command::terminal::{output, say, tell};
 
@@ -25,7 +25,7 @@ pub(super) struct PlanArgs {
     #[arg(long, requires = "out")]
     overwrite: bool,
     #[command(flatten)]
-    part: Part,
+    part: PointSelection,
 }
 
 /// Arguments of `wingbeat campaign numbers`.

@@ -3,7 +3,7 @@
 use clap::Args;
 use wingbeat::campaign::{Campaign, Status, Store, inspect, left, plan_name};
 
-use super::args::{Part, Place};
+use super::args::{Place, PointSelection};
 use super::master::{Master, processors};
 use crate::command::failure::{Failure, INTERRUPTED};
 use crate::command::options;
@@ -17,7 +17,7 @@ pub(super) struct RunArgs {
     #[command(flatten)]
     place: Place,
     #[command(flatten)]
-    part: Part,
+    part: PointSelection,
     /// Processes [default: as many as the machine has processors].
     #[arg(long, value_name = "N", value_parser = options::count::<1, { options::MAX_THREADS }>)]
     jobs: Option<usize>,

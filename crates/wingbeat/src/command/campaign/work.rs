@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 use clap::Args;
 use wingbeat::campaign::{Ended, Store, Worker, plan_name};
 
-use super::args::{Part, Place};
+use super::args::{Place, PointSelection};
 use crate::command::failure::{FAILED, Failure, INTERRUPTED, in_words};
 use crate::command::signals::stop_flag;
 use crate::command::terminal::tell;
@@ -22,7 +22,7 @@ pub(super) struct WorkArgs {
     #[command(flatten)]
     place: Place,
     #[command(flatten)]
-    part: Part,
+    part: PointSelection,
     /// The plan that is to be flown, as whoever started us read it.
     #[arg(long)]
     plan: Option<String>,
