@@ -1,5 +1,6 @@
-//! What `check` says before a flight: of gusts between the steps, of wings that a tether alone moves through a viscous
-//! fluid, of gusts that blow while the lift is estimated, and how fast it says it of flights of very many steps.
+//! What `check` says before a flight: of gusts between the steps, of wings that a tether alone moves through a
+//! viscous fluid, of gusts that blow while the lift is estimated, and how fast it says it of flights of very
+//! many steps.
 
 use std::path::Path;
 use std::time::Instant;
@@ -8,8 +9,8 @@ use wingbeat_analysis::{doubtful_reynolds_numbers, estimate};
 use wingbeat_case::LoadedCase;
 use wingbeat_flight::{DoubtKind, Simulation};
 
-/// Two wings of chord 0.16 m that revolve at 72 deg/s, their tips at 0.65 m/s; of this viscosity [m2/s] and step
-/// \[s\], for so many steps.
+/// Two wings of chord 0.16 m that revolve at 72 deg/s, their tips at 0.65 m/s; of this viscosity [m2/s] and
+/// step \[s\], for so many steps.
 fn rotor(viscosity: f64, (step, steps): (f64, u64), more: &str) -> LoadedCase {
     let text = format!(
         "format = 1\n{more}\n[time]\nstep_s = {step}\nsteps = {steps}\n[flight]\nmode = \"tethered\"\ntether.yaw.rate_deg_s = -72\n\
@@ -40,7 +41,8 @@ fn behaves_low_reynolds_numbers_of_wings_that_a_tether_moves_are_named() {
     assert!(said(9e-4).is_empty(), "{:?}", said(9e-4));
 }
 
-/// A look at a rotor takes no longer where it is to fly for 1e9 steps, and says the same of attached flow at 40 deg.
+/// A look at a rotor takes no longer where it is to fly for 1e9 steps, and says the same of attached flow at 40
+/// deg.
 #[test]
 fn behaves_looks_at_long_flights_are_short() {
     let stall = |steps| {
@@ -60,8 +62,8 @@ fn behaves_looks_at_long_flights_are_short() {
     assert!((speed - known).abs() < 1e-9, "{speed} {known}");
 }
 
-/// Gusts of three steps have their impulse to 4 %, of two or less they have not; a front is as long as it takes to pass the
-/// flyer, half as long at the speed of the front against it.
+/// Gusts of three steps have their impulse to 4 %, of two or less they have not; a front is as long as it takes
+/// to pass the flyer, half as long at the speed of the front against it.
 #[test]
 fn behaves_gusts_that_the_steps_do_not_resolve_are_named() {
     let named = |gust: &str, more: &[&str]| {

@@ -136,8 +136,8 @@ impl Frame {
         Mesh::read(path)?.with(path, [PRESSURE, "sheet"][part])
     }
 
-    /// Names of the numbers that the cells of surfaces (0) or wakes (1) have, in order: those of the last of the frames
-    /// at `steps`, none without frames.
+    /// Names of the numbers that the cells of surfaces (0) or wakes (1) have, in order: those of the last of
+    /// the frames at `steps`, none without frames.
     ///
     /// # Errors
     /// Those of [`Self::part`].

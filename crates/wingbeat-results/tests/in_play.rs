@@ -148,8 +148,8 @@ fn invariant_verdicts_do_not_depend_on_the_mass_of_a_held_body_nor_on_a_fall() {
     assert!((a / b - 1.0).abs() < 1e-4, "{a:e} {b:e}");
 }
 
-/// A body with two still wings that a tether speeds up to 72 deg/s in four steps of 7.5 deg; its moments of inertia
-/// [kg m2], and the density of what is around it [kg/m3].
+/// A body with two still wings that a tether speeds up to 72 deg/s in four steps of 7.5 deg; its moments of
+/// inertia [kg m2], and the density of what is around it [kg/m3].
 fn rotor(inertia: f64, density: f64) -> LoadedCase {
     let text = format!(
         "format = 1\nname = \"rotor\"\n[time]\nstep_s = 0.10416666666666667\nsteps = 12\n[flight]\nmode = \"tethered\"\n\
@@ -172,8 +172,8 @@ fn records(case: &LoadedCase) -> Vec<Record> {
     all
 }
 
-/// At every step the tether has done `I w^2 / 2` on the body, and what the air took: whatever the body's inertia I and the
-/// steps of the ramp, to rounding. By quadrature the first was 7 % off at four steps.
+/// At every step the tether has done `I w^2 / 2` on the body, and what the air took: whatever the body's
+/// inertia I and the steps of the ramp, to rounding. By quadrature the first was 7 % off at four steps.
 #[test]
 fn exact_work_of_a_tether_that_speeds_a_body_up_in_four_steps() {
     for (inertia, density) in [(1.0, 1.2), (1.0, 1000.0), (1e-9, 1.2), (1e-9, 1000.0)] {
@@ -196,8 +196,8 @@ fn exact_work_of_a_tether_that_speeds_a_body_up_in_four_steps() {
     }
 }
 
-/// Air that takes a tenth more than the tether gives, or the other way round, is a fault all the same, and so is a body that
-/// has a hundredth of what the air takes from nowhere.
+/// Air that takes a tenth more than the tether gives, or the other way round, is a fault all the same, and so
+/// is a body that has a hundredth of what the air takes from nowhere.
 #[test]
 fn behaves_a_tether_does_not_hide_what_is_missing_in_the_energy() {
     let case = rotor(1e-9, 1.2);

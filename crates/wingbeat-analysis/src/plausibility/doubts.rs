@@ -294,10 +294,11 @@ fn free_flight(setup: &FlightSetup, e: &Estimate, list: &mut Doubts) {
     list.see(&GYRATION, gyration, radius, "");
 }
 
-/// Reynolds number of wings, beating or moved by a tether, below which lift falls and drag rises. From 1800 down to about 100 the
-/// coefficients of a model of a fruit fly's wing change little, below they do (Navier-Stokes: Wu & Sun 2004, J. Exp.
-/// Biol. 207:1137, with the speed at the radius of gyration, 0.5 to 0.6 of that of the tip); in plane flow the wake
-/// changes between 64 and 32 (Miller & Peskin 2004, J. Exp. Biol. 207:3073).
+/// Reynolds number of wings, beating or moved by a tether, below which lift falls and drag rises. From 1800
+/// down to about 100 the coefficients of a model of a fruit fly's wing change little, below they do
+/// (Navier-Stokes: Wu & Sun 2004, J. Exp. Biol. 207:1137, with the speed at the radius of gyration, 0.5 to 0.6
+/// of that of the tip); in plane flow the wake changes between 64 and 32 (Miller & Peskin 2004, J. Exp. Biol.
+/// 207:3073).
 const VISCOUS: f64 = 100.0;
 
 /// Reynolds numbers that the air was not made for; none of what does not move, or has no friction.

@@ -43,8 +43,9 @@ fn steps(setup: &FlightSetup) -> Result<usize, AnalysisError> {
     }
 }
 
-/// Mean lift over weight of the second wingbeat of a tethered flight in blade elements, all wings rigid, without gusts
-/// that pass and turbulence: what they do in those instants says nothing of the strokes. None where these cannot follow a measured surface.
+/// Mean lift over weight of the second wingbeat of a tethered flight in blade elements, all wings rigid,
+/// without gusts that pass and turbulence: what they do in those instants says nothing of the strokes. None
+/// where these cannot follow a measured surface.
 pub(crate) fn lift_over_weight(setup: &FlightSetup) -> Result<Option<f64>, AnalysisError> {
     let weight = setup.animal.mass() * setup.gravity.length();
     let (Some(period), Some(density)) = (setup.time.period, setup.air.density()) else {

@@ -1,10 +1,11 @@
-//! Gusts that the steps do not resolve: shorter than some of them, or, as turbulence, with a time scale below one.
+//! Gusts that the steps do not resolve: shorter than some of them, or, as turbulence, with a time scale below
+//! one.
 //!
-//! A one-minus-cosine gust of N steps gives a fruit fly in blade elements an impulse that is wrong, by where it begins
-//! between the steps, by up to 4 % at N = 3, 10 % at 2.5, 26 % at 2 and 60 % at 1.5; of less than 1.2 steps it may have the
-//! wrong sign, or nothing is felt of it. Turbulence of the time scale T and the autocorrelation exp(-t / T) that is looked at
-//! every h has `h / (2 T) coth(h / (2 T))` times its spectral density at low frequencies: 1 % too much at T = 3 h, 8 % at h,
-//! 31 % at h / 2, and ever more.
+//! A one-minus-cosine gust of N steps gives a fruit fly in blade elements an impulse that is wrong, by where it
+//! begins between the steps, by up to 4 % at N = 3, 10 % at 2.5, 26 % at 2 and 60 % at 1.5; of less than 1.2
+//! steps it may have the wrong sign, or nothing is felt of it. Turbulence of the time scale T and the
+//! autocorrelation exp(-t / T) that is looked at every h has `h / (2 T) coth(h / (2 T))` times its spectral
+//! density at low frequencies: 1 % too much at T = 3 h, 8 % at h, 31 % at h / 2, and ever more.
 
 use wingbeat_air::{Gust, GustShape};
 use wingbeat_math::DVec3;
@@ -31,7 +32,8 @@ struct Short {
 }
 
 impl FlightSetup {
-    /// Says which gusts of the wind the steps do not resolve, as the flyer meets them with the velocity of the start.
+    /// Says which gusts of the wind the steps do not resolve, as the flyer meets them with the velocity of the
+    /// start.
     pub fn gusts_between_steps(&self) -> Vec<String> {
         let Some(wind) = self.air.wind() else {
             return vec![];
@@ -88,7 +90,8 @@ fn short(shape: &GustShape, flown: [f64; 2]) -> Option<Short> {
     }
 }
 
-/// When the narrowest peak or trough that counts begins, and how long it is, foot to foot \[s\], of those `flown`.
+/// When the narrowest peak or trough that counts begins, and how long it is, foot to foot \[s\], of those
+/// `flown`.
 fn narrowest_peak(rows: &[(f64, f64)], flown: [f64; 2]) -> Option<(f64, f64)> {
     let levels = turns(rows);
     let values = || levels.iter().map(|(_, value)| *value);
@@ -102,7 +105,8 @@ fn narrowest_peak(rows: &[(f64, f64)], flown: [f64; 2]) -> Option<(f64, f64)> {
     peaks.min_by(|a, b| a.1.total_cmp(&b.1))
 }
 
-/// Where a table turns: from when to when it stays \[s\], and its value; what was before the first row is nothing.
+/// Where a table turns: from when to when it stays \[s\], and its value; what was before the first row is
+/// nothing.
 fn turns(rows: &[(f64, f64)]) -> Vec<([f64; 2], f64)> {
     let Some(first) = rows.first() else {
         return vec![];

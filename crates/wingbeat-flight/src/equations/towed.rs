@@ -1,6 +1,7 @@
-//! The root that a tether moves, by itself: its energy and momenta are known in closed form at every instant. What the
-//! tether spends on them is left out of the quadratures of work and impulse, which have only the rest to integrate: a
-//! body sped up in a few steps would else open the balances by its own inertia, and that may be a placeholder.
+//! The root that a tether moves, by itself: its energy and momenta are known in closed form at every instant.
+//! What the tether spends on them is left out of the quadratures of work and impulse, which have only the rest
+//! to integrate: a body sped up in a few steps would else open the balances by its own inertia, and that may be
+//! a placeholder.
 
 use wingbeat_dynamics::{
     BodyMotion, System, Wrench, angular_momentum, inertia_wrench, kinetic_energy, linear_momentum,

@@ -100,8 +100,8 @@ impl TimeGrid {
         (steps > 0).then_some(steps)
     }
 
-    /// Instants at which one looks at a prescribed motion \[s\]: the first `most` steps, and where there are more, as
-    /// many again over the rest of the flight.
+    /// Instants at which one looks at a prescribed motion \[s\]: the first `most` steps, and where there are
+    /// more, as many again over the rest of the flight.
     ///
     /// ```
     /// let grid = |steps| wingbeat_flight::TimeGrid { step: 0.5, steps, period: None };
@@ -117,9 +117,9 @@ impl TimeGrid {
             .map(move |k| k as f64 * step)
     }
 
-    /// How many looks at equal distances, and their distance \[s\], show a prescribed motion: each step of a flight that
-    /// has no more than `most`; of longer ones with wingbeats about a hundred of each beat, as many beats as fit, of
-    /// others the whole flight.
+    /// How many looks at equal distances, and their distance \[s\], show a prescribed motion: each step of a
+    /// flight that has no more than `most`; of longer ones with wingbeats about a hundred of each beat, as many
+    /// beats as fit, of others the whole flight.
     pub fn looks(&self, most: usize) -> (usize, f64) {
         let whole = self.steps.div_ceil(most.max(1)).max(1);
         let of_beat = self.steps_per_beat().map(|n| (n / LOOKS_OF_BEAT).max(1));
@@ -131,7 +131,8 @@ impl TimeGrid {
 /// Looks at a wingbeat in long flights, at least.
 const LOOKS_OF_BEAT: usize = 100;
 
-/// Looks at a prescribed motion in a flight, at most: what only looks takes no longer where a flight has more steps.
+/// Looks at a prescribed motion in a flight, at most: what only looks takes no longer where a flight has more
+/// steps.
 pub const LOOKS: usize = 2000;
 
 /// When the corrector of one step has converged.

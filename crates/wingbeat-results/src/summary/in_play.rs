@@ -8,11 +8,12 @@
 //! E_C = E - u . P + M u^2 / 2,   W_C = W - u . J,   R_C = R - u . R_P,   R_P = P - P_0 - J
 //! ```
 //!
-//! are kinetic energy, work and residual of the energy there. So a flyer that is towed through still air has the
-//! verdict of one that is held in a stream. While a support has the body, the residual counts in the body's own frame:
-//! less the power of what is missing in force and moment of the support, `v . dR_P + w . dR_L` with the residual R_L of
-//! the angular momentum. The body moves as it is made to whatever its mass: only what moves beside it counts.
-//! Works of tether and air count each by itself: where a tether drives wings through the air, their sum is nothing.
+//! are kinetic energy, work and residual of the energy there. So a flyer that is towed through still air has
+//! the verdict of one that is held in a stream. While a support has the body, the residual counts in the body's
+//! own frame: less the power of what is missing in force and moment of the support, `v . dR_P + w . dR_L` with
+//! the residual R_L of the angular momentum. The body moves as it is made to whatever its mass: only what moves
+//! beside it counts. Works of tether and air count each by itself: where a tether drives wings through the air,
+//! their sum is nothing.
 
 use serde::{Deserialize, Serialize};
 use wingbeat_dynamics::{inertia_wrench, kinetic_energy};
@@ -41,8 +42,8 @@ struct Carrier {
     angular_momentum: DVec3,
 }
 
-/// What a tether has done in C beside speeding the body up: time \[s\], power \[W\] and work \[J\] up to the last step,
-/// and the kinetic energy of the body at the start \[J\].
+/// What a tether has done in C beside speeding the body up: time \[s\], power \[W\] and work \[J\] up to the
+/// last step, and the kinetic energy of the body at the start \[J\].
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 struct Tether {
     time: f64,
@@ -98,9 +99,9 @@ impl InPlay {
             .take(larger(r.kinetic_energy, r.potential_energy.abs()));
     }
 
-    /// A tether that drives wings through the air does as much work as the air takes, and both together none: each
-    /// counts, and both together, without what the body takes up by itself. `external`: work of both and of loads in
-    /// C \[J\].
+    /// A tether that drives wings through the air does as much work as the air takes, and both together none:
+    /// each counts, and both together, without what the body takes up by itself. `external`: work of both and
+    /// of loads in C \[J\].
     fn take_tether(&mut self, r: &Record, setup: &FlightSetup, external: f64) {
         let u = self.start.map_or(DVec3::ZERO, |start| start.velocity);
         let (body, mut motion) = (&setup.animal.body, body_motion(r));

@@ -81,9 +81,9 @@ impl Statistics {
         self.rows += 1;
     }
 
-    /// Limited events over what could be limited \[1\], 1 at most: ways of wake nodes, of which there are about as many as
-    /// rings, or, where nothing but leading edges without a solution can be, chordwise strips in all steps. Events are
-    /// counted on the half that is computed, rings and strips on both.
+    /// Limited events over what could be limited \[1\], 1 at most: ways of wake nodes, of which there are about
+    /// as many as rings, or, where nothing but leading edges without a solution can be, chordwise strips in all
+    /// steps. Events are counted on the half that is computed, rings and strips on both.
     pub fn limited_part(&self, setup: &FlightSetup) -> f64 {
         let half = if setup.air.is_mirrored() { 0.5 } else { 1.0 };
         let each = match limits_edges_alone(setup) {
