@@ -18,6 +18,7 @@ mod joined_wings;
 mod joints;
 mod joints_refused;
 mod keys;
+mod looked_at;
 mod loops_on_wings;
 mod measured;
 mod meshes;

@@ -86,7 +86,7 @@ pub fn relative_energy(
             angular: a.angular - r.transpose() * w_dot + relative.w.cross(seen),
         };
         sum[0] += kinetic_energy(&body.mass, &relative);
-        sum[1] += inertia_wrench(body, &relative, &rate).power(&relative);
+        sum[1] += inertia_wrench(&body.mass, &relative, &rate).power(&relative);
     }
     sum
 }

@@ -81,7 +81,8 @@ pub use mechanism::form::{AbsoluteForm, AbsoluteScratch, Stabilization};
 pub use solution::{Budget, HingeReaction, Solution, Violation};
 pub use system::System;
 pub use system::body::{
-    Body, NaturalUnits, angular_momentum, kinetic_energy, linear_momentum, weight_wrench,
+    Body, NaturalUnits, angular_momentum, inertia_wrench, kinetic_energy, linear_momentum,
+    weight_wrench,
 };
 pub use system::joint::Joint;
 pub use system::joint_model::{Element, ElementLaw, JointModel, JointType, TravelLaw};

@@ -9,6 +9,7 @@ pub(crate) mod quadratures;
 pub(crate) mod solver;
 pub(crate) mod stages;
 pub(crate) mod tethered;
+pub(crate) mod towed;
 
 use std::sync::Arc;
 
@@ -23,6 +24,7 @@ use crate::carried::{CarriedAir, CarriedScratch, CarriedState};
 use crate::elastic::{ElasticScratch, ElasticState, ElasticWings};
 use crate::equations::mirrored::Mirrored;
 use crate::equations::quadratures::{QUADRATURES, Quadratures, WORKS};
+use crate::equations::towed::Towed;
 use crate::error::FlightError;
 use crate::interface::memory::AirMemory;
 use crate::setup::applied::{AppliedLoad, PointSpring};
@@ -64,6 +66,8 @@ pub struct Equations {
     pub step: f64,
     /// Pass of a step from which those before speed the next ones up; none for plain passes.
     pub accelerated_from: Option<usize>,
+    /// Whether a tether moves the root from the first to the last step.
+    pub is_tethered: bool,
 }
 
 /// Intermediate results of one evaluation, kept between calls. After
@@ -91,6 +95,8 @@ pub struct Scratch {
     pub solution: Solution,
     /// Kinetic energy relative to the root [J] and its rate [W].
     pub relative: [f64; 2],
+    /// The root by itself, where a tether moves it.
+    pub towed: Towed,
     /// Power of what deforms each body against the air [W]; empty where nothing is deformed.
     pub deformation: Vec<f64>,
     /// Coordinates along the free directions of all joints, with their rates [rad or m].
@@ -128,6 +134,7 @@ impl Scratch {
             carried_air: CarriedScratch::default(),
             solution: Solution::new(system),
             relative: [0.0; 2],
+            towed: Towed::default(),
             deformation: vec![0.0; if equations.air.deforms() { bodies } else { 0 }],
             joints: vec![],
             dissipation: 0.0,
@@ -211,6 +218,9 @@ impl Equations {
             true => [0.0; 2],
             false => relative_energy(self.core.system(), &s.motions, &s.solution.bodies),
         };
+        if self.is_tethered {
+            s.towed = Towed::at(self.core.system(), &s.motions, &s.solution.bodies);
+        }
         self.deformation_power(t, s);
         self.dissipation(t, s);
         self.quadrature_rates(s).write(dy);

@@ -16,8 +16,8 @@ use wingbeat_model::Animal;
 
 pub use self::air::{AirModel, AirOptions, BladeOptions};
 pub use self::integration::{
-    BaumgarteChoice, CorrectorSettings, FormulationChoice, IntegratorChoice, StabilizationChoice,
-    TimeGrid,
+    BaumgarteChoice, CorrectorSettings, FormulationChoice, IntegratorChoice, LOOKS,
+    StabilizationChoice, TimeGrid,
 };
 pub use self::start::{MotionMode, StartState};
 use crate::error::FlightError;
@@ -93,6 +93,19 @@ impl FlightSetup {
         matches!(self.mode, MotionMode::Free(_))
             || self.joints.iter().any(|j| j.model.kind.directions() > 0)
             || self.animal.is_elastic()
+    }
+
+    /// Panels of the lattice, all surfaces on both sides together \[1\]; 0 where the air is no lattice.
+    pub fn panels(&self) -> usize {
+        let Some(air) = self.air.lattice() else {
+            return 0;
+        };
+        let animal = &self.animal;
+        let wings = animal.wings.iter().map(|w| w.panels().len());
+        let own = animal.parts.iter();
+        let others = animal.segments.iter().flat_map(|s| &s.parts);
+        let body = own.chain(others).map(|p| p.mesh.quads.len());
+        wings.sum::<usize>() + if air.body_surfaces { body.sum() } else { 0 }
     }
 
     /// Motion of the root at time zero.

@@ -135,6 +135,18 @@ impl Frame {
         let path = &Self::paths(dir, step)[part];
         Mesh::read(path)?.with(path, [PRESSURE, "sheet"][part])
     }
+
+    /// Names of the numbers that the cells of surfaces (0) or wakes (1) have, in order: those of the last of
+    /// the frames at `steps`, none without frames.
+    ///
+    /// # Errors
+    /// Those of [`Self::part`].
+    pub fn numbers(dir: &Path, steps: &[usize], part: usize) -> Result<Vec<String>, IoError> {
+        let Some(&last) = steps.last() else {
+            return Ok(vec![]);
+        };
+        Ok(Self::part(dir, last, part)?.cells.into_keys().collect())
+    }
 }
 
 impl Mesh {

@@ -65,7 +65,7 @@ pub struct Manifest {
     pub steps_planned: usize,
     /// Frames written.
     pub frames: usize,
-    /// Panels of all surfaces in the last frame.
+    /// Panels of all surfaces of the lattice, in frames or not.
     pub panels: usize,
     /// Wake rings at the end.
     pub wake_rings: usize,

@@ -130,7 +130,7 @@ impl Summary {
             corrector_passes_mean: each.passes_sum as f64 / each.steps.max(1) as f64,
             regularised: s.regularised,
             limited: s.limited,
-            limited_part: s.limited_part(setup.air.is_mirrored()),
+            limited_part: s.limited_part(setup),
             leading_rings: is_lattice.then_some(s.leading_rings),
             alternating_steps: each.alternation.longest,
             wake_rings: s.last.wake_rings,

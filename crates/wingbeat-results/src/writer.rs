@@ -60,7 +60,7 @@ impl RunWriter {
             steps: 0,
             steps_planned: case.setup.time.steps,
             frames: 0,
-            panels: 0,
+            panels: case.setup.panels(),
             wake_rings: 0,
             wall_time_s: 0.0,
             writing_time_s: 0.0,
@@ -250,7 +250,6 @@ impl RunWriter {
         if snapshot.surfaces.is_empty() {
             return Ok(());
         }
-        self.manifest.panels = snapshot.surfaces.iter().map(|s| s.quads.len()).sum();
         self.frames.push((snapshot.time, snapshot.step));
         let (folder, parts) = (self.dir.join("frames"), parts(&self.case));
         let framer = self

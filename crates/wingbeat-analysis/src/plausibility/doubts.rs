@@ -294,20 +294,29 @@ fn free_flight(setup: &FlightSetup, e: &Estimate, list: &mut Doubts) {
     list.see(&GYRATION, gyration, radius, "");
 }
 
-/// Reynolds number of wings that beat below which lift falls and drag rises. From 1800 down to about 100 the
-/// coefficients of a model of a fruit fly's wing change little, below they do (Navier-Stokes: Wu & Sun 2004, J. Exp.
-/// Biol. 207:1137, with the speed at the radius of gyration, 0.5 to 0.6 of that of the tip); in plane flow the wake
-/// changes between 64 and 32 (Miller & Peskin 2004, J. Exp. Biol. 207:3073).
+/// Reynolds number of wings, beating or moved by a tether, below which lift falls and drag rises. From 1800
+/// down to about 100 the coefficients of a model of a fruit fly's wing change little, below they do
+/// (Navier-Stokes: Wu & Sun 2004, J. Exp. Biol. 207:1137, with the speed at the radius of gyration, 0.5 to 0.6
+/// of that of the tip); in plane flow the wake changes between 64 and 32 (Miller & Peskin 2004, J. Exp. Biol.
+/// 207:3073).
 const VISCOUS: f64 = 100.0;
 
 /// Reynolds numbers that the air was not made for; none of what does not move, or has no friction.
 fn see_reynolds(air: &AirModel, w: &WingEstimate, list: &mut Doubts) {
     let known = |re: &f64| w.speed > 0.0 && re.is_finite();
     let reynolds = w.reynolds.filter(known);
-    let is_viscous = |re: &f64| w.tip_speed > 0.0 && (REYNOLDS.low..VISCOUS).contains(re);
+    let is_viscous = |re: &f64| (REYNOLDS.low..VISCOUS).contains(re);
+    let [wings, evidence, outcome] = match w.tip_speed > 0.0 {
+        true => ["beating wings", "", "power to carry the weight too small"],
+        false => [
+            "wings",
+            "of beating wings: ",
+            "drag and the power to move them too small",
+        ],
+    };
     match reynolds.filter(is_viscous).zip(without_viscosity(air)) {
         Some((re, air)) => list.0.push(format!(
-            "Reynolds number {} is below {VISCOUS}: there the lift of beating wings falls and their drag rises (Wu & Sun 2004, J. Exp. Biol. 207:1137), which {air}: lift comes out too large, power to carry the weight too small",
+            "Reynolds number {} is below {VISCOUS}: there the lift of {wings} falls and their drag rises ({evidence}Wu & Sun 2004, J. Exp. Biol. 207:1137), which {air}: lift comes out too large, {outcome}",
             rounded(re)
         )),
         None => list.see(&REYNOLDS, "Reynolds number", reynolds, ""),

@@ -1,6 +1,6 @@
 //! The lift that blade elements expect of a flight.
 
-use wingbeat_air::Wind;
+use wingbeat_air::{Gust, GustShape, Wind};
 use wingbeat_blade::BladeSettings;
 use wingbeat_flight::{
     AirModel, BladeOptions, FlightSetup, MotionMode, PrescribedMotion, Simulation, TimeGrid,
@@ -19,6 +19,14 @@ const STEPS: usize = 60;
 /// Most steps per wingbeat that are worth it.
 const MAX_STEPS: usize = 10_000;
 
+/// Whether a gust is wind that stays once it has come.
+fn stays(gust: &Gust) -> bool {
+    match &gust.shape {
+        GustShape::OneMinusCosine { .. } | GustShape::Turbulence(_) => false,
+        GustShape::Table(rows) => rows.last().is_some_and(|row| row.1 != 0.0),
+    }
+}
+
 /// Steps of a wingbeat on trial: with free joints, which may be stiff, no longer than those of the flight.
 fn steps(setup: &FlightSetup) -> Result<usize, AnalysisError> {
     let has_free_joints = system_of(setup).is_ok_and(|s| s.speeds() > 0);
@@ -35,7 +43,8 @@ fn steps(setup: &FlightSetup) -> Result<usize, AnalysisError> {
     }
 }
 
-/// Mean lift over weight of the second wingbeat of a tethered flight in blade elements, all wings rigid; none
+/// Mean lift over weight of the second wingbeat of a tethered flight in blade elements, all wings rigid,
+/// without gusts that pass and turbulence: what they do in those instants says nothing of the strokes. None
 /// where these cannot follow a measured surface.
 pub(crate) fn lift_over_weight(setup: &FlightSetup) -> Result<Option<f64>, AnalysisError> {
     let weight = setup.animal.mass() * setup.gravity.length();
@@ -64,6 +73,9 @@ pub(crate) fn lift_over_weight(setup: &FlightSetup) -> Result<Option<f64>, Analy
     }
     if !matches!(setup.air, AirModel::BladeElement(_)) {
         tethered.air = AirModel::BladeElement(blades);
+    }
+    if let Some(wind) = tethered.air.wind_mut() {
+        wind.gusts.retain(stays);
     }
     tethered.feedback = None;
     tethered.mode = MotionMode::Tethered(held(setup));

@@ -1,6 +1,6 @@
 //! Sizes and speeds that an estimate begins with.
 
-use wingbeat_flight::{FlightSetup, MotionMode};
+use wingbeat_flight::{FlightSetup, LOOKS, MotionMode};
 use wingbeat_math::{DVec3, RotationLaw};
 use wingbeat_model::Wing;
 
@@ -43,11 +43,11 @@ fn carried(setup: &FlightSetup, wing: &Wing) -> f64 {
     let tip = wing.mesh.nodes.iter().copied();
     let tip = tip.max_by(|a, b| a.length().total_cmp(&b.length()));
     let tip = wing.hinge_b + tip.map_or(DVec3::ZERO, |x| wing.motion.at(0.0).c * x);
-    let past = |k: usize| {
-        let root = motion.at(k as f64 * time.step).motion;
+    let past = |t: f64| {
+        let root = motion.at(t).motion;
         (root.v + root.r * root.w.cross(tip) - air).length()
     };
-    (0..=time.steps).map(past).fold(0.0, f64::max)
+    time.instants(LOOKS).map(past).fold(0.0, f64::max)
 }
 
 /// Velocity of the body at the start, N components [m/s].

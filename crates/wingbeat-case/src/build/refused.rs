@@ -64,6 +64,13 @@ pub(crate) fn refused(case: &Case, setup: &FlightSetup, error: &FlightError) -> 
             "control.controller".to_owned(),
             "change what the message names, or fly without: control.controller = \"none\"",
         ),
+        FlightError::Setup {
+            key: key @ "air.mirror",
+            ..
+        } => (
+            (*key).to_owned(),
+            "set it to false: both sides are computed",
+        ),
         FlightError::Setup { key, .. } => (of_setup(key).to_owned(), "change this key"),
         _ => (String::new(), ""),
     };

@@ -48,7 +48,7 @@ pub(crate) fn bias_force(
 ) {
     for (i, body) in system.bodies().iter().enumerate() {
         let m = &motions[i];
-        let inertia = inertia_wrench(body, m, &accelerations[i]);
+        let inertia = inertia_wrench(&body.mass, m, &accelerations[i]);
         out[i] = inertia - loads[i] - weight_wrench(body, m, system.gravity());
     }
 }

@@ -25,12 +25,12 @@ pub struct NaturalUnits {
 /// Rate of change of the momentum of a body: force \[N\] in N components and moment about its
 /// frame origin [N m] in N components,
 /// `f = m a + R (w' x s + w x (w x s))`, `n = R (J w' + w x J w + s x R^T a)`.
-pub(crate) fn inertia_wrench(body: &Body, m: &BodyMotion, acc: &BodyAcceleration) -> Wrench {
-    let (s, j, w) = (body.mass.first_moment, body.mass.inertia, m.w);
+pub fn inertia_wrench(mass: &MassProperties, m: &BodyMotion, acc: &BodyAcceleration) -> Wrench {
+    let (s, j, w) = (mass.first_moment, mass.inertia, m.w);
     let turning = acc.angular.cross(s) + w.cross(w.cross(s));
     let spin = j * acc.angular + w.cross(j * w) + s.cross(m.r.transpose() * acc.linear);
     Wrench {
-        force: body.mass.mass * acc.linear + m.r * turning,
+        force: mass.mass * acc.linear + m.r * turning,
         moment: m.r * spin,
     }
 }

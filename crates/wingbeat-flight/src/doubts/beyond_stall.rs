@@ -8,7 +8,7 @@
 //! not meant.
 
 use super::said::names;
-use crate::setup::{FlightSetup, MotionMode};
+use crate::setup::{FlightSetup, LOOKS, MotionMode};
 use wingbeat_air::{AirSettings, LeadingEdge, LoadMethod};
 use wingbeat_math::DVec3;
 use wingbeat_model::{DeformingMesh, Wing};
@@ -78,7 +78,7 @@ impl FlightSetup {
         let motion = wing.motion.impulsive();
         let (count, step) = match (&self.mode, motion.frequency > 0.0) {
             (MotionMode::Free(_), true) => (INSTANTS, 1.0 / (motion.frequency * INSTANTS as f64)),
-            _ => (self.time.steps, self.time.step),
+            _ => self.time.looks(LOOKS),
         };
         let shape = wing.deformation.as_ref();
         let shape = shape.map(|d| DeformingMesh::new(&wing.mesh, d));

@@ -8,6 +8,8 @@ use crate::setup::FlightSetup;
 pub enum DoubtKind {
     /// Gusts that the flight never meets.
     LateGusts,
+    /// Gusts that the steps do not resolve.
+    ShortGusts,
     /// A tether that starts otherwise than the wings.
     StartsApart,
     /// Blade elements whose force of feathering jumps.
@@ -79,6 +81,7 @@ impl FlightSetup {
         add(RevolvesBackwards, one(self.revolves_backwards()));
         add(StartsApart, one(self.starts_apart()));
         add(LateGusts, self.gusts_that_never_arrive());
+        add(ShortGusts, self.gusts_between_steps());
         add(JumpingRotation, one(self.jumping_rotation()));
         add(InsideParts, self.wings_inside_parts());
         add(RootsOnBodies, self.roots_on_bodies());

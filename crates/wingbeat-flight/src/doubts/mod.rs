@@ -15,6 +15,7 @@
 //! | cores of wings that are wide beside the panels | `bound_core` |
 //! | liquids with the viscosity of air | `fluid` |
 //! | gusts that a flight never meets | `late_gusts` |
+//! | gusts that its steps do not resolve | `short_gusts` |
 //! | forces of blade elements that jump | `jumps` |
 //!
 //! `air_past`: the undisturbed air past a wing in its prescribed motion, by which the motion is judged. `said`: names
@@ -36,6 +37,7 @@ mod revolving;
 mod said;
 mod scattered;
 mod shed_by_motion;
+mod short_gusts;
 mod starts_apart;
 pub(crate) mod turned_over;
 mod unjoined;

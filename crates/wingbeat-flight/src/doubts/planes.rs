@@ -7,10 +7,7 @@ use wingbeat_math::RotationLaw;
 
 use crate::air::{EdgeOnPlane, ON_PLANE, SurfaceMap};
 use crate::interface::Instant;
-use crate::setup::{AirOptions, FlightSetup, MotionMode};
-
-/// Instants of a flight that are looked at, at most.
-const INSTANTS: usize = 2000;
+use crate::setup::{AirOptions, FlightSetup, LOOKS, MotionMode};
 
 /// How far off a plane an edge lies that is near it, over its length \[1\].
 const NEAR: f64 = 0.1;
@@ -64,9 +61,7 @@ impl FlightSetup {
         }
         let most = match (&self.mode, first <= ON_PLANE) {
             (MotionMode::Tethered(_), true) => {
-                let stride = self.time.steps.div_ceil(INSTANTS).max(1);
-                let steps = (0..=self.time.steps).step_by(stride);
-                let all = steps.map(|k| self.nodes_at(map, k as f64 * self.time.step));
+                let all = (self.time.instants(LOOKS)).map(|t| self.nodes_at(map, t));
                 all.map(|nodes| nodes.map_or(f64::INFINITY, |n| off(&n)))
                     .fold(0.0, f64::max)
             }

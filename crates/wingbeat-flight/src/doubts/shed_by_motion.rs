@@ -21,7 +21,7 @@ use std::f64::consts::PI;
 
 use super::air_past::strips;
 use super::said::names;
-use crate::setup::{FlightSetup, MotionMode};
+use crate::setup::{FlightSetup, LOOKS, MotionMode};
 use wingbeat_air::{AirSettings, LeadingEdge};
 use wingbeat_math::DVec3;
 use wingbeat_model::Wing;
@@ -195,11 +195,10 @@ impl FlightSetup {
     /// Whether the wing meets air, and no strip of it ever with more suction than `held`.
     fn holds(&self, wing: &Wing, held: f64) -> bool {
         let motion = wing.motion.impulsive();
-        let steps = self.time.steps;
         // A root that moves may take longer than a beat.
         let (count, step) = match (&self.mode, motion.frequency > 0.0) {
             (MotionMode::Free(_), true) => (INSTANTS, 1.0 / (motion.frequency * INSTANTS as f64)),
-            _ => (steps, self.time.step),
+            _ => self.time.looks(LOOKS),
         };
         let sections = (0..count).flat_map(|k| {
             let past = self.air_past(wing, &motion, k as f64 * step);

@@ -112,6 +112,7 @@ impl FreeFlight {
             step,
             mirror: None,
             accelerated_from: None,
+            is_tethered: false,
         };
         Self {
             equations: Arc::new(equations),

@@ -208,7 +208,10 @@ impl Equations {
         let power = |loads: &[Wrench]| -> f64 {
             loads.iter().zip(&s.motions).map(|(l, m)| l.power(m)).sum()
         };
-        let tether = s.solution.tether;
+        // What it spends on the motion of the root alone is known without a quadrature.
+        let mut tether = s.solution.tether;
+        tether.force -= s.towed.inertia.force;
+        tether.moment -= s.towed.inertia.moment;
         let [impulse, angular_impulse] = self.external(s, s.solution.budget.centre, &tether);
         let deformation: f64 = s.deformation.iter().sum();
         Quadratures {

@@ -17,7 +17,8 @@ pub struct Quadratures {
     pub hinge_work: f64,
     /// Work of the air on the bodies [J], on their deformation too.
     pub air_work: f64,
-    /// Work of applied loads and tether [J].
+    /// Work of applied loads and tether [J], without what a tether spends on the energy of the root alone: that
+    /// is known in closed form ([`crate::equations::towed`]). So are the impulses without its momenta.
     pub applied_work: f64,
     /// Impulse of all external forces, weight included, N components [N s].
     pub impulse: DVec3,

@@ -79,6 +79,7 @@ pub fn stages(setup: &FlightSetup, law: &WingLaw<'_>) -> Result<Vec<Stage>, Flig
                 mirror,
                 step: setup.time.step,
                 accelerated_from,
+                is_tethered: matches!(setup.mode, MotionMode::Tethered(_)),
             },
         }
     };

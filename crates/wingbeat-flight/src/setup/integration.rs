@@ -99,7 +99,41 @@ impl TimeGrid {
         let steps = (self.period? / self.step).round() as usize;
         (steps > 0).then_some(steps)
     }
+
+    /// Instants at which one looks at a prescribed motion \[s\]: the first `most` steps, and where there are
+    /// more, as many again over the rest of the flight.
+    ///
+    /// ```
+    /// let grid = |steps| wingbeat_flight::TimeGrid { step: 0.5, steps, period: None };
+    /// assert_eq!(grid(3).instants(10).collect::<Vec<_>>(), [0.0, 0.5, 1.0, 1.5]);
+    /// assert!(grid(1_000_000_000).instants(10).count() <= 21);
+    /// ```
+    pub fn instants(&self, most: usize) -> impl Iterator<Item = f64> + use<> {
+        let (steps, step, most) = (self.steps, self.step, most.max(1));
+        let stride = steps.saturating_sub(most).div_ceil(most).max(1);
+        let later = (most..=steps).skip(1).step_by(stride);
+        (0..=steps.min(most))
+            .chain(later)
+            .map(move |k| k as f64 * step)
+    }
+
+    /// How many looks at equal distances, and their distance \[s\], show a prescribed motion: each step of a
+    /// flight that has no more than `most`; of longer ones with wingbeats about a hundred of each beat, as many
+    /// beats as fit, of others the whole flight.
+    pub fn looks(&self, most: usize) -> (usize, f64) {
+        let whole = self.steps.div_ceil(most.max(1)).max(1);
+        let of_beat = self.steps_per_beat().map(|n| (n / LOOKS_OF_BEAT).max(1));
+        let stride = of_beat.map_or(whole, |n| n.min(whole));
+        ((self.steps / stride).min(most), stride as f64 * self.step)
+    }
 }
+
+/// Looks at a wingbeat in long flights, at least.
+const LOOKS_OF_BEAT: usize = 100;
+
+/// Looks at a prescribed motion in a flight, at most: what only looks takes no longer where a flight has more
+/// steps.
+pub const LOOKS: usize = 2000;
 
 /// When the corrector of one step has converged.
 #[derive(Clone, Copy, Debug, PartialEq)]

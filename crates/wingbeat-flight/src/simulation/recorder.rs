@@ -9,6 +9,7 @@ use wingbeat_math::{DQuat, DVec3, larger};
 
 use crate::elastic::ElasticState;
 use crate::equations::quadratures::Quadratures;
+use crate::equations::towed::Towed;
 use crate::equations::{Equations, Scratch};
 use crate::error::FlightError;
 use crate::interface::memory::{AirMemory, wakes_of};
@@ -31,6 +32,8 @@ pub struct Ledger {
     pub momentum: DVec3,
     /// Angular momentum about the inertial origin at the start [kg m2/s], N components.
     pub angular_momentum: DVec3,
+    /// The root alone at the start, where a tether moves it.
+    pub towed: Towed,
     /// Coordinates last recorded (seed eq. 2) [m, rad].
     pub coordinates: Vec<f64>,
     /// Their rates [m/s, rad/s].
@@ -64,6 +67,7 @@ impl Ledger {
             relative_energy: s.relative[0],
             momentum: budget.momentum,
             angular_momentum: about_origin(budget),
+            towed: s.towed,
             vortex_impulse: s.air_scratch.loads.impulse,
             ..Self::default()
         }
@@ -172,16 +176,18 @@ impl Sources<'_> {
         r.hinge_work = work.hinge_work + s.relative[0] - ledger.relative_energy;
         r.air_work = work.air_work;
         r.deformation_work = work.deformation_work;
-        r.applied_work = work.applied_work;
+        let (towed_energy, towed_momentum, towed_spin) = s.towed.gained(&ledger.towed);
+        r.applied_work = work.applied_work + towed_energy;
         r.dissipated = self.equations.elastic.dissipated(self.wings, &s.elastic);
-        let done = r.hinge_work + work.air_work + work.deformation_work + work.applied_work;
+        let done = r.hinge_work + work.air_work + work.deformation_work + r.applied_work;
         r.energy_residual = solution.energy() - ledger.energy - done + r.dissipated;
         r.momentum = budget.momentum;
         r.angular_momentum = about_origin(budget);
-        r.momentum_residual = budget.momentum - ledger.momentum - work.impulse;
-        r.momentum_residual_of_works = budget.momentum - ledger.momentum - work.impulse_of_works;
-        r.angular_momentum_residual =
-            r.angular_momentum - ledger.angular_momentum - work.angular_impulse;
+        let gained = budget.momentum - ledger.momentum - towed_momentum;
+        r.momentum_residual = gained - work.impulse;
+        r.momentum_residual_of_works = gained - work.impulse_of_works;
+        let spin = r.angular_momentum - ledger.angular_momentum - towed_spin;
+        r.angular_momentum_residual = spin - work.angular_impulse;
     }
 
     /// Impulses of the air and the state of its wakes.

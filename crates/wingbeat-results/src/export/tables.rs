@@ -179,10 +179,12 @@ impl FrameArrays {
         let surface = vec!["circulation_m2_per_s", "pressure_jump_pascal", "surface"];
         let mut wake = vec!["circulation_m2_per_s", "age_rows", "sheet"];
         // Of flights with particles alone.
-        let last = Frame::part(source.dir.path(), steps[n - 1], 1)?;
-        if last.cells.contains_key(SHARED) {
-            wake.push(SHARED);
-        }
+        let known = Frame::numbers(source.dir.path(), steps, 1)?;
+        wake.extend(
+            [SHARED]
+                .iter()
+                .filter(|&&name| known.iter().any(|k| k == name)),
+        );
         Ok(Some(Self {
             steps: at,
             times,

@@ -72,11 +72,11 @@ impl Part {
     }
 
     /// Names of the numbers and how many there are of each per cell.
-    fn names(self, source: &Source, step: usize) -> Result<Vec<(String, usize)>, IoError> {
+    fn names(self, source: &Source, steps: &[usize]) -> Result<Vec<(String, usize)>, IoError> {
         Ok(match self {
             Self::Panels(part) => {
-                let cells = Frame::part(source.dir.path(), step, part)?.cells;
-                cells.into_keys().map(|name| (name, 1)).collect()
+                let names = Frame::numbers(source.dir.path(), steps, part)?;
+                names.into_iter().map(|name| (name, 1)).collect()
             }
             Self::Particles => NUMBERS.map(|(name, n)| (name.to_owned(), n)).into(),
         })
@@ -125,7 +125,7 @@ pub(super) fn write(source: &Source, name: &str, path: &Path) -> Result<(), IoEr
         });
     }
     let counts = part.counts(source, &steps)?;
-    let names = part.names(source, steps[0])?;
+    let names = part.names(source, &steps)?;
     let mut layout = Layout::default();
     let places = Places::new(part.cells(), &counts, &names, &mut layout);
     let mut file = layout.create(path).map_err(IoError::write(path))?;

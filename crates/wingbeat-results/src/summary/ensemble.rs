@@ -125,7 +125,7 @@ impl Ensemble {
                 means.as_ref().map_or(0, |m| m.beat)
             ),
             (Members::OneFlight, _) => format!(
-                "the flights have not parted: they count as one, and {errors}; fly longer (time.beats); flights without separation or turbulence may never part"
+                "the flights have not parted: they count as one, and {errors}; fly longer (time.beats); flights without separation may never part, and turbulence is the same in all of them: flights that differ by it are a campaign over air.gust[0].turbulence.seed"
             ),
             (Members::Deterministic, _) => "the flights do not part: the case is deterministic, there is no scatter over flights and no error of the mean".to_owned(),
         }

@@ -8,12 +8,15 @@
 //! E_C = E - u . P + M u^2 / 2,   W_C = W - u . J,   R_C = R - u . R_P,   R_P = P - P_0 - J
 //! ```
 //!
-//! are kinetic energy, work and residual of the energy there. So a flyer that is towed through still air has the
-//! verdict of one that is held in a stream. While a support has the body, the residual counts in the body's own frame:
-//! less the power of what is missing in force and moment of the support, `v . dR_P + w . dR_L` with the residual R_L of
-//! the angular momentum. The body moves as it is made to whatever its mass: only what moves beside it counts.
+//! are kinetic energy, work and residual of the energy there. So a flyer that is towed through still air has
+//! the verdict of one that is held in a stream. While a support has the body, the residual counts in the body's
+//! own frame: less the power of what is missing in force and moment of the support, `v . dR_P + w . dR_L` with
+//! the residual R_L of the angular momentum. The body moves as it is made to whatever its mass: only what moves
+//! beside it counts. Works of tether and air count each by itself: where a tether drives wings through the air,
+//! their sum is nothing.
 
 use serde::{Deserialize, Serialize};
+use wingbeat_dynamics::{inertia_wrench, kinetic_energy};
 use wingbeat_flight::{FlightSetup, MotionMode, Record};
 use wingbeat_math::{DVec3, larger};
 
@@ -39,6 +42,16 @@ struct Carrier {
     angular_momentum: DVec3,
 }
 
+/// What a tether has done in C beside speeding the body up: time \[s\], power \[W\] and work \[J\] up to the
+/// last step, and the kinetic energy of the body at the start \[J\].
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
+struct Tether {
+    time: f64,
+    power: f64,
+    work: f64,
+    kinetic: f64,
+}
+
 /// Gathered step by step; energies and works \[J\] in C.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub(super) struct InPlay {
@@ -48,6 +61,7 @@ pub(super) struct InPlay {
     /// Kinetic energy beside that of the mass centre, and strain energy of elastic wings.
     inner: Extent,
     works: Extent,
+    tether: Option<Tether>,
     residual: Extent,
     /// Kinetic and potential energy in N.
     carried: Extent,
@@ -73,13 +87,50 @@ impl InPlay {
         // Of air, loads and tether together: what they do to a frame is known of their sum.
         let external = r.momentum - start.momentum - r.momentum_residual_of_works - weight;
         let external = r.air_work + r.applied_work - u.dot(external);
-        for work in [r.hinge_work, r.deformation_work, external] {
-            self.works.take(work);
+        self.works.take(r.hinge_work);
+        self.works.take(r.deformation_work);
+        match setup.mode {
+            MotionMode::Tethered(_) => self.take_tether(r, setup, external),
+            MotionMode::Free(_) => self.works.take(external),
         }
         self.carry(carrier(r, setup, u));
         self.residual.take(r.energy_residual - self.due);
         self.carried
             .take(larger(r.kinetic_energy, r.potential_energy.abs()));
+    }
+
+    /// A tether that drives wings through the air does as much work as the air takes, and both together none:
+    /// each counts, and both together, without what the body takes up by itself. `external`: work of both and
+    /// of loads in C \[J\].
+    fn take_tether(&mut self, r: &Record, setup: &FlightSetup, external: f64) {
+        let u = self.start.map_or(DVec3::ZERO, |start| start.velocity);
+        let (body, mut motion) = (&setup.animal.body, body_motion(r));
+        motion.v -= u;
+        let mut tether = r.tether;
+        if let Some(rates) = r.accelerations.first() {
+            let inertia = inertia_wrench(body, &motion, rates);
+            tether.force -= inertia.force;
+            tether.moment -= inertia.moment;
+        }
+        let power = tether.power(&motion);
+        let before = self.tether.unwrap_or(Tether {
+            time: r.time,
+            power,
+            work: 0.0,
+            kinetic: kinetic_energy(body, &motion),
+        });
+        let work = before.work + 0.5 * (before.power + power) * (r.time - before.time);
+        let gained = kinetic_energy(body, &motion) - before.kinetic;
+        self.tether = Some(Tether {
+            time: r.time,
+            power,
+            work,
+            ..before
+        });
+        let beside = external - gained;
+        for work in [work, beside - work, beside] {
+            self.works.take(work);
+        }
     }
 
     /// Counts what the motion of the frame has to do with the residual in N from the last step to this one.

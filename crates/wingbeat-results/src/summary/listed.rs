@@ -212,8 +212,8 @@ impl Summary {
         Quantity {
             name: "limited_part",
             unit: "1",
-            label: Some("limited events over ways of wake nodes"),
-            about: "limited events over all ways of wake nodes",
+            label: Some("limited part"),
+            about: "limited events over all ways of wake nodes; where nothing but leading edges without a solution can be limited, over all strips in all steps",
             of: |s| Some(s.limited_part),
         },
         Quantity {

@@ -71,7 +71,8 @@ pub struct Summary {
     /// edges that shed what they had too much.
     #[serde(default)]
     pub limited: usize,
-    /// Those over all ways of wake nodes \[1\].
+    /// Those over all ways of wake nodes; where nothing but leading edges without a solution can be limited,
+    /// over all chordwise strips in all steps \[1\].
     #[serde(default)]
     pub limited_part: f64,
     /// Wake rings with circulation that left leading edges, all steps, with `air.mirror` on the half computed \[1\]; none

@@ -81,13 +81,22 @@ impl Statistics {
         self.rows += 1;
     }
 
-    /// Limited events over the ways of wake nodes, of which there are about as many as rings \[1\], 1 at most; events
-    /// are counted on the half that is computed, rings on both.
-    pub fn limited_part(&self, is_mirrored: bool) -> f64 {
-        let half = if is_mirrored { 0.5 } else { 1.0 };
-        let rings = self.wake_rings as f64 / self.rows.max(1) as f64;
-        let moves = half * rings * self.last.step as f64;
-        (self.limited as f64 / moves.max(1.0)).min(1.0)
+    /// Limited events over what could be limited \[1\], 1 at most: ways of wake nodes, of which there are about
+    /// as many as rings, or, where nothing but leading edges without a solution can be, chordwise strips in all
+    /// steps. Events are counted on the half that is computed, rings and strips on both.
+    pub fn limited_part(&self, setup: &FlightSetup) -> f64 {
+        let half = if setup.air.is_mirrored() { 0.5 } else { 1.0 };
+        let each = match limits_edges_alone(setup) {
+            true => setup
+                .animal
+                .wings
+                .iter()
+                .map(|w| w.mesh.cols)
+                .sum::<usize>() as f64,
+            false => self.wake_rings as f64 / self.rows.max(1) as f64,
+        };
+        let all = half * each * self.last.step as f64;
+        (self.limited as f64 / all.max(1.0)).min(1.0)
     }
 
     /// From start to end: coordinate `k` of the body.
@@ -95,4 +104,13 @@ impl Statistics {
         let of = |r: &Record| r.coordinates.get(k).copied().unwrap_or(0.0);
         of(&self.last) - of(&self.first)
     }
+}
+
+/// Whether limited events of this flight are leading edges without a solution, and no others.
+pub(super) fn limits_edges_alone(setup: &FlightSetup) -> bool {
+    let Some(air) = setup.air.lattice() else {
+        return false;
+    };
+    let air = &air.lattice;
+    air.solves_suction() && air.max_displacement.is_none() && air.particles.is_none()
 }

@@ -56,7 +56,7 @@ fn look(args: &CheckArgs, report: &mut Report) -> Result<(), IoError> {
     report.value("case", case.name.as_str());
     describe(report, &case.setup);
     feedback(report, &case.setup);
-    let panels = expectation::panels(&case.setup);
+    let panels = case.setup.panels();
     entry!(report, "lattice", "{panels} panels");
     report.value("panels", panels);
     programs(report, &case);

@@ -18,24 +18,11 @@ pub(crate) const MAX_UNKNOWNS: usize = 4000;
 /// Time for steps on trial.
 const TRIAL: Duration = Duration::from_millis(1500);
 
-/// Panels of the lattice, all surfaces together; 0 where the air is no lattice.
-pub(crate) fn panels(setup: &FlightSetup) -> usize {
-    let AirModel::VortexLattice(air) = &setup.air else {
-        return 0;
-    };
-    let animal = &setup.animal;
-    let wings = animal.wings.iter().map(|w| w.panels().len());
-    let own = animal.parts.iter();
-    let others = animal.segments.iter().flat_map(|s| &s.parts);
-    let body = own.chain(others).map(|p| p.mesh.quads.len());
-    wings.sum::<usize>() + if air.body_surfaces { body.sum() } else { 0 }
-}
-
 /// Circulations that are solved for at every step.
 pub(crate) fn unknowns(setup: &FlightSetup) -> usize {
     match &setup.air {
-        AirModel::VortexLattice(air) if air.mirror => panels(setup).div_ceil(2),
-        _ => panels(setup),
+        AirModel::VortexLattice(air) if air.mirror => setup.panels().div_ceil(2),
+        _ => setup.panels(),
     }
 }
 

@@ -51,7 +51,7 @@ pub(super) fn momentum_rate(
 ) -> Wrench {
     let mut sum = Wrench::default();
     for ((b, m), a) in system.bodies().iter().zip(motions).zip(acc) {
-        let w = inertia_wrench(b, m, a);
+        let w = inertia_wrench(&b.mass, m, a);
         sum += Wrench {
             force: w.force,
             moment: w.moment + (m.p - x_c).cross(w.force),

@@ -285,11 +285,18 @@ fn share(strength: f64, strongest: f64) -> f64 {
     }
 }
 
+/// A channel of sRGB from 0 to 255 as linear light from 0 to 1 [IEC 61966-2-1].
+fn linear(channel: f64) -> f64 {
+    match channel / 255.0 {
+        c if c <= 0.04045 => c / 12.92,
+        c => ((c + 0.055) / 1.055).powf(2.4),
+    }
+}
+
 /// A colour of the ramp, linear as glTF has it, and an opacity.
 fn colour(age: f64, opacity: f64) -> [u8; 4] {
     let at = age.clamp(0.0, 1.0) * (RAMP.len() - 1) as f64;
     let k = (at as usize).min(RAMP.len() - 2);
-    let linear = |c: f64| (c / 255.0).powf(2.2);
     let mix = |c: usize| {
         let x = RAMP[k][c] + (RAMP[k + 1][c] - RAMP[k][c]) * (at - k as f64);
         (255.0 * linear(x)).round() as u8
@@ -301,6 +308,25 @@ fn colour(age: f64, opacity: f64) -> [u8; 4] {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// Dark, on both sides of the bend of the curve, and half way.
+    #[test]
+    fn exact_colours_go_from_srgb_to_linear_light() {
+        for (srgb, light) in [
+            (0.0, 0.0),
+            (10.0, 0.003035),
+            (11.0, 0.003347),
+            (188.0, 0.502886),
+            (255.0, 1.0),
+        ] {
+            assert!(
+                (linear(srgb) - light).abs() < 1e-6,
+                "{srgb}: {}",
+                linear(srgb)
+            );
+        }
+        assert_eq!(colour(0.0, 1.0), [255, 222, 123, 255]);
+    }
 
     /// Two sheets of two rings, side by side, rows alike: without joint edges each root is as strong as its ring, as
     /// one line it has what parts the two.

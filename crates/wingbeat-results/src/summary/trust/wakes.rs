@@ -5,6 +5,7 @@ use wingbeat_analysis::{KeptWake, kept_wake};
 use wingbeat_flight::FlightSetup;
 
 use crate::summary::numbers::Summary;
+use crate::summary::statistics::limits_edges_alone;
 use crate::summary::verdict::Warnings;
 
 /// Part of the ways of wake nodes from which on their limits are felt. Of a fruit fly in hover 31, 7, 2 and 0.7 % were
@@ -26,7 +27,7 @@ pub(super) fn warnings(
         ));
     }
     cut(setup, summary, list);
-    limited(lattice, summary, list);
+    limited(setup, lattice, summary, list);
     let held = held_off(summary);
     if held > 0 {
         list.note(format!(
@@ -78,7 +79,7 @@ fn cut(setup: &FlightSetup, summary: &Summary, list: &mut Warnings) {
 }
 
 /// Ways and strengths that were limited, and leading edges that found no solution.
-fn limited(lattice: &AirSettings, summary: &Summary, list: &mut Warnings) {
+fn limited(setup: &FlightSetup, lattice: &AirSettings, summary: &Summary, list: &mut Warnings) {
     let (count, part) = (summary.limited, summary.limited_part);
     if count == 0 {
         return;
@@ -93,12 +94,30 @@ fn limited(lattice: &AirSettings, summary: &Summary, list: &mut Warnings) {
             .to_owned()
     });
     let what: Vec<String> = [nodes, particles, edges].into_iter().flatten().collect();
-    let text = format!("{count} times {}.", what.join(", or "));
+    let of_strips = match limits_edges_alone(setup) {
+        true => format!(
+            " ({} % of all strips and steps; a finer mesh or smaller steps have fewer: a plunging foil with 60 % had 1.4 % less mean thrust than on a finer mesh with none)",
+            part_in_percent(part)
+        ),
+        false => String::new(),
+    };
+    let text = format!("{count} times {}{of_strips}.", what.join(", or "));
     match lattice.max_displacement.is_some() && part > LIMITED {
         false => list.note(text),
         true => list.limit(format!(
             "Wakes do not go with the air: {:.0} % of the ways of their nodes were limited. {text} Raise it, or take smaller steps.",
             100.0 * part
         )),
+    }
+}
+
+/// A part in per cent, of small ones the first digit.
+fn part_in_percent(part: f64) -> String {
+    let percent = 100.0 * part;
+    match percent < 0.95 {
+        true => format!("{percent:.1e}")
+            .parse::<f64>()
+            .map_or(String::new(), |p| p.to_string()),
+        false => format!("{percent:.0}"),
     }
 }
