@@ -358,3 +358,18 @@ fn derivatives(
         dimensionless: None,
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn behaves_angular_velocities_of_rounding_are_written_as_none() {
+        let root = BodyMotion {
+            w: DVec3::new(0.0, 4e-14, 0.3),
+            ..BodyMotion::REST
+        };
+        let [p, q, r] = released_into(&root, 0.07).angular_velocity_deg_s;
+        assert!([p, q] == [0.0; 2] && r == 0.3_f64.to_degrees());
+    }
+}
