@@ -72,11 +72,53 @@ pub enum AnalysisError {
 }
 
 impl AnalysisError {
+    /// Whether it is of the flight that was tried, so that a search has not found it and may go on from elsewhere; what
+    /// other programs fail in, and what cannot be built, is wrong everywhere.
+    pub(crate) fn is_of_one_flight(&self) -> bool {
+        match self {
+            Self::Flight(error) => is_flown(error),
+            Self::Dynamics(_)
+            | Self::NotCovered { .. }
+            | Self::NotPeriodic { .. }
+            | Self::Asymmetric { .. }
+            | Self::NotSteady { .. }
+            | Self::NoSteadyState { .. }
+            | Self::Numbers(_) => true,
+        }
+    }
+
     pub(crate) fn not_covered(what: impl Into<String>, remedy: &'static str) -> Self {
         Self::NotCovered {
             what: what.into(),
             remedy,
         }
+    }
+}
+
+/// Whether a flight ended by its own motion or strokes.
+fn is_flown(error: &FlightError) -> bool {
+    match error {
+        FlightError::JointGrows { ended, .. } => is_flown(ended),
+        // Of a search that set out, what is adjusted is what the setup contradicts.
+        FlightError::Setup { .. }
+        | FlightError::Dynamics(_)
+        | FlightError::Structure(_)
+        | FlightError::ElasticNotConverged { .. }
+        | FlightError::Air(_)
+        | FlightError::RootsApart { .. }
+        | FlightError::OffPlane { .. }
+        | FlightError::Folded { .. }
+        | FlightError::StepTooSmall { .. }
+        | FlightError::SingularPosition { .. }
+        | FlightError::Asymmetric { .. }
+        | FlightError::Diverged { .. }
+        | FlightError::TurnedPast { .. }
+        | FlightError::TooManySteps { .. }
+        | FlightError::NotConverged { .. } => true,
+        FlightError::WingStructure(_)
+        | FlightError::Blade(_)
+        | FlightError::Control { .. }
+        | FlightError::External(_) => false,
     }
 }
 
@@ -89,5 +131,22 @@ fn towards_rest(is_sudden: bool) -> &'static str {
         false => {
             "The wing may be beyond static divergence there: try lower speeds, or no incidence"
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn behaves_air_of_another_program_that_fails_is_no_flight_that_a_search_has_not_found() {
+        let failed = FlightError::External("the program has ended".into());
+        assert!(!AnalysisError::from(failed).is_of_one_flight());
+        let singular = FlightError::SingularPosition {
+            time: 0.0,
+            joints: "a and b".into(),
+        };
+        assert!(AnalysisError::from(singular).is_of_one_flight());
+        assert!(AnalysisError::Numbers("not finite".into()).is_of_one_flight());
     }
 }

@@ -3,11 +3,12 @@
 use crate::common;
 
 use wingbeat_analysis::control::{
-    CONTROLS, Controls, Departure, Held, Law, Limits, Orbit, Reference, Regulator, STATES,
-    SteeredBeats, Steering, Timing, Weights, adjustments, disturbed, states,
+    CONTROLS, Channels, Controls, Departure, Held, Law, Limits, Orbit, Reference, Regulator,
+    STATES, Sensors, SteeredBeats, Steering, Timing, Weights, adjustments, disturbed, states,
 };
 use wingbeat_analysis::{Beat, Level, Perturbation, Trim, eigen};
-use wingbeat_flight::Controller;
+use wingbeat_dynamics::BodyMotion;
+use wingbeat_flight::{Controller, Sensed};
 use wingbeat_math::DVec3;
 
 fn sizes(trim: &Trim) -> [f64; STATES] {
@@ -186,4 +187,38 @@ fn balances_a_tilted_flight_under_looks_within_the_beat() {
         strayed
     });
     assert!(left[1] < left[0], "{left:?}");
+}
+
+/// The place that is held is that of the release, whatever noise is in the first look.
+#[test]
+fn exact_the_place_that_is_held_is_the_true_one() {
+    let trim = common::hovering(40);
+    let regulator = Regulator::new(&trim, &Weights::default(), 1).expect("gains");
+    let timing = Timing {
+        parts: 1,
+        latency: 1,
+        lag: 0.0,
+    };
+    let mut steering = steering(&trim, &regulator, &timing);
+    steering.sensors = Some(Sensors {
+        noise: Channels {
+            position: 1e-3,
+            ..Channels::default()
+        },
+        ..Sensors::default()
+    });
+    let centre = DVec3::new(0.1, -0.2, 0.3);
+    let truth = Sensed {
+        look: 0,
+        time: 0.0,
+        root: BodyMotion {
+            p: centre,
+            ..BodyMotion::REST
+        },
+        centre,
+        velocity: DVec3::ZERO,
+    };
+    steering.command(&truth).expect("a command");
+    let aim = Controller::aim(&steering, 0.0).expect("a place");
+    assert_eq!(aim.position, centre);
 }

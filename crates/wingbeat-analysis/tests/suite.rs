@@ -2,6 +2,7 @@
 
 mod common;
 mod episode;
+mod heading;
 mod lateral;
 mod looks;
 mod mechanisms;

@@ -56,7 +56,7 @@ pub fn trimmed_case(case: &LoadedCase, trim: &Trim) -> String {
             (joint.start_deg, joint.start_deg_s) = (degrees(coordinates), degrees(rates));
         }
     }
-    let flight = released_into(&trim.beat.root(&trim.state));
+    let flight = released_into(&trim.beat.root(&trim.state), trim.beat.period());
     if let Ok(velocity) = trim.mean_velocity() {
         hold(&mut raw, velocity);
     }
@@ -113,7 +113,7 @@ pub fn wake_trimmed_case(case: &LoadedCase, trim: &WakeTrim) -> String {
                 v: start.velocity,
                 w: start.angular_velocity,
             };
-            (held, released_into(&root))
+            (held, released_into(&root, time.period.unwrap_or(1.0)))
         }
     };
     // The hold and the free wingbeat that was trimmed, in its steps: of another frequency, they are no longer those
@@ -206,8 +206,16 @@ fn frequencies(joint: &mut JointCase) -> Vec<&mut f64> {
     turn.chain(travel).chain(series).collect()
 }
 
-/// A root that is free from this motion on.
-fn released_into(root: &BodyMotion) -> FlightCase {
+/// Turn in a wingbeat below which an angular velocity at the release is rounding, a thousandth of what a trim is found to
+/// \[rad\].
+const STANDSTILL: f64 = 1e-12;
+
+/// A root that is free from this motion on, in which a wingbeat takes `period` \[s\].
+fn released_into(root: &BodyMotion, period: f64) -> FlightCase {
+    let turns = |w: f64| match (w * period).abs() > STANDSTILL {
+        true => w.to_degrees(),
+        false => 0.0,
+    };
     let angles = EulerSequence::BODY_231.angles(root.r).to_array();
     let [pitch_deg, yaw_deg, roll_deg] = angles.map(f64::to_degrees);
     FlightCase {
@@ -215,7 +223,7 @@ fn released_into(root: &BodyMotion) -> FlightCase {
         yaw_deg,
         roll_deg,
         velocity_m_s: root.v.to_array(),
-        angular_velocity_deg_s: root.w.to_array().map(f64::to_degrees),
+        angular_velocity_deg_s: root.w.to_array().map(turns),
         ..FlightCase::default()
     }
 }
@@ -348,5 +356,20 @@ fn derivatives(
         added_mass_by_turning_kg_m: added(0, 3),
         added_inertia_kg_m2: added(3, 3),
         dimensionless: None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn behaves_angular_velocities_of_rounding_are_written_as_none() {
+        let root = BodyMotion {
+            w: DVec3::new(0.0, 4e-14, 0.3),
+            ..BodyMotion::REST
+        };
+        let [p, q, r] = released_into(&root, 0.07).angular_velocity_deg_s;
+        assert!([p, q] == [0.0; 2] && r == 0.3_f64.to_degrees());
     }
 }

@@ -172,9 +172,9 @@ pub trait ControlModel: fmt::Debug + Send + Sync {
         false
     }
 
-    /// Mean velocity of the straight flight that it holds from the release on, N components [m/s]; none if it
-    /// holds no place, or one that it does not tell.
-    fn velocity(&self) -> Option<DVec3> {
+    /// Mean velocity of the straight flight that it holds from the release of a flight of `setup` on, N components [m/s];
+    /// none if it holds no place, or one that it does not tell.
+    fn velocity(&self, _setup: &FlightSetup) -> Option<DVec3> {
         None
     }
 

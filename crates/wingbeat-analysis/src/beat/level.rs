@@ -5,8 +5,7 @@ use wingbeat_math::{DMat3, DQuat, DVec3, rotation_vector};
 
 use crate::beat::{Beat, State};
 
-/// Forward, right and down at a reference attitude: down along gravity, forward the horizontal
-/// part of b1.
+/// Forward, right and down at a reference attitude: down along gravity, forward the way the nose points ([`forward`]).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Level {
     /// Level frame to N.
@@ -19,16 +18,20 @@ impl Level {
     /// The level frame of the attitude `r` (root to N) under `gravity` (N components).
     pub fn new(r: DMat3, gravity: DVec3) -> Self {
         let down = gravity.try_normalize().unwrap_or(DVec3::Z);
-        let ahead = r.x_axis - r.x_axis.dot(down) * down;
-        // A body that points straight down or up: its belly shows forward.
-        let ahead = ahead
-            .try_normalize()
-            .unwrap_or_else(|| -r.z_axis.reject_from(down).normalize());
+        let ahead = forward(r, down);
         let to_n = DMat3::from_cols(ahead, down.cross(ahead), down);
         Self {
             to_n,
             to_root: r.transpose() * to_n,
         }
+    }
+
+    /// How far it is turned to the right about `down` from the level frame of a body that has the axes of N \[rad\]: its
+    /// heading, from n1 where gravity is along n3.
+    pub fn heading(&self) -> f64 {
+        let [ahead, right, down] = [self.to_n.x_axis, self.to_n.y_axis, self.to_n.z_axis];
+        let zero = forward(DMat3::IDENTITY, down);
+        (-zero.dot(right)).atan2(zero.dot(ahead))
     }
 
     /// That of the attitude in the state `y` at the start of a beat.
@@ -47,6 +50,32 @@ impl Level {
             ..*self
         }
     }
+}
+
+/// Horizontal part of the nose, beside one that is level, below which right of the body says the more where forward is,
+/// the nearer the nose is to the vertical \[1\].
+const UPRIGHT: f64 = 0.1;
+
+/// The horizontal direction in which a body of the attitude `r` (root to N) faces, N components \[1\]: the horizontal
+/// part of b1, of a body that is pitched beyond the vertical the reverse of it. So a body that pitches up through the
+/// vertical faces the same way all along, and its right is right; one on its back counts as pitched over, not as rolled
+/// over. Where b1 is nearly vertical, forward goes over to what has b2, made horizontal, to the right: the same in a
+/// flight that does not bank.
+fn forward(r: DMat3, down: DVec3) -> DVec3 {
+    /// Horizontal part of b2 below which it has no direction.
+    const NONE: f64 = 1e-9;
+    let nose = r.x_axis - r.x_axis.dot(down) * down;
+    let facing = r.y_axis.cross(down);
+    if facing.length() < NONE {
+        return nose.normalize(); // banked by a right angle
+    }
+    let facing = facing.normalize();
+    let along = nose.dot(facing);
+    let share = (along / UPRIGHT).powi(2);
+    if share >= 1.0 {
+        return along.signum() * nose.normalize();
+    }
+    (share * along.signum() * nose.normalize_or_zero() + (1.0 - share) * facing).normalize()
 }
 
 /// Names of the nine state components.
@@ -139,6 +168,69 @@ impl Perturbation {
             velocity: turned.transpose() * velocity,
             rate: level.to_root.transpose() * rate,
             tilt: rotation_vector(DQuat::from_mat3(&(level.to_n.transpose() * turned))),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use wingbeat_math::EulerSequence;
+
+    use super::*;
+
+    fn facing(pitch: f64, yaw: f64, roll: f64) -> DVec3 {
+        let angles = DVec3::new(pitch, yaw, roll).map(f64::to_radians);
+        Level::new(EulerSequence::BODY_231.rotation(angles), 9.81 * DVec3::Z)
+            .to_n
+            .x_axis
+    }
+
+    #[test]
+    fn exact_a_flyer_at_any_pitch_faces_along_n1() {
+        for pitch in [
+            -120.0, -90.0, -89.0, 0.0, 60.0, 85.0, 89.9, 90.0, 90.1, 95.0, 120.0, 170.0,
+        ] {
+            // Rounding of sine and cosine.
+            assert!(
+                (facing(pitch, 0.0, 0.0) - DVec3::X).length() < 1e-15,
+                "{pitch}"
+            );
+        }
+        // That of attitudes with a bank, too, as a trim has them.
+        for roll in [-60.0, 10.0, 80.0] {
+            assert!(
+                (facing(40.0, 0.0, roll) - DVec3::X).length() < 1e-15,
+                "{roll}"
+            );
+        }
+        assert!((facing(0.0, 0.0, 90.0) - DVec3::X).length() < 1e-15);
+    }
+
+    #[test]
+    fn behaves_forward_changes_by_as_little_as_the_attitude() {
+        // In steps of a tenth of a degree across the vertical; banked by 20 degrees forward turns by as much there.
+        for [yaw, roll] in [[0.0, 20.0], [5.0, 0.0], [-3.0, -10.0], [0.5, 0.5]] {
+            let all: Vec<DVec3> = (0..=600)
+                .map(|k| facing(60.0 + 0.1 * f64::from(k), yaw, roll))
+                .collect();
+            for pair in all.windows(2) {
+                // Blended within 6 degrees of the vertical: up to ten times the step of 0.1 degrees, 0.0175.
+                assert!((pair[1] - pair[0]).length() < 0.02, "{yaw} {roll}");
+            }
+        }
+    }
+
+    #[test]
+    fn exact_headings_are_counted_from_n1_to_the_right() {
+        for degrees in [-170.0, -60.0, 0.0, 73.0, 90.0, 180.0_f64] {
+            let turn = DMat3::from_axis_angle(DVec3::Z, degrees.to_radians());
+            let r = turn * EulerSequence::BODY_231.rotation(DVec3::new(1.7, 0.0, 0.0));
+            let heading = Level::new(r, DVec3::Z).heading();
+            assert!(
+                (heading.to_degrees() - degrees).sin().abs() < 1e-9,
+                "{degrees}"
+            );
+            assert!((heading - degrees.to_radians()).cos() > 0.999_999);
         }
     }
 }

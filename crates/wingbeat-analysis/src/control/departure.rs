@@ -112,11 +112,10 @@ impl Reference {
     /// Where the flyer is to be at `time` [s], whose mass centre was at `origin` [m] at the release, if it is brought
     /// to `aim`, which is relative to the reference flight.
     pub fn aim(&self, aim: &Aim, time: f64, origin: DVec3) -> Aim {
-        let ahead = self.level.to_n.x_axis;
         Aim {
             position: origin + time * self.velocity + aim.position,
             velocity: self.velocity + aim.velocity,
-            heading: ahead.y.atan2(ahead.x) + aim.heading,
+            heading: self.level.heading() + aim.heading,
             heading_rate: aim.heading_rate,
         }
     }

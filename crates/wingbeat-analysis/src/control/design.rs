@@ -3,15 +3,19 @@
 //!
 //! Blade elements are smooth and have no memory, so gains follow from the map of one wingbeat. What
 //! disturbs a flight (applied loads, gusts) has no part in the layout.
+//!
+//! A trimmed flight heads along n1. A flight that is held as it begins may head anywhere: it is laid out about that of
+//! axes which are turned with it about the vertical, in which the stream blows as it does seen from the flyer.
 
 use std::sync::Arc;
 
 use wingbeat_flight::{
     AirModel, BladeOptions, ControlModel, Controller, FlightError, FlightSetup, MotionMode,
 };
-use wingbeat_math::DVec3;
+use wingbeat_math::{DMat3, DVec3, EulerSequence};
 
 use crate::AnalysisError;
+use crate::beat::level::Level;
 use crate::control::departure::{Limits, Reference};
 use crate::control::part::Orbit;
 use crate::control::regulator::observer::ProcessNoise;
@@ -51,7 +55,8 @@ pub struct Design {
     pub target: Target,
     /// Blade elements in which the flight is trimmed.
     pub air: BladeOptions,
-    /// Mean velocity to fly with, N components, in the plane n1-n3 [m/s].
+    /// Mean velocity to fly with: along the heading of the flight that is held, to the right of it (none), down [m/s].
+    /// A trimmed flight heads along n1: N components.
     pub velocity: DVec3,
     /// When is looked, and when acted.
     pub timing: Timing,
@@ -75,8 +80,15 @@ impl Design {
     /// # Errors
     /// A flight that has none, or that [`trim()`] does not cover.
     pub fn trim(&self, setup: &FlightSetup) -> Result<Trim, AnalysisError> {
+        let turn = self.turn(setup);
         let body_pitch = match &setup.mode {
-            MotionMode::Free(start) => start.angles.x,
+            MotionMode::Free(start) => match turn {
+                None => start.angles.x,
+                Some(turn) => {
+                    let ahead = turn.transpose() * start.rotation();
+                    EulerSequence::BODY_231.angles(ahead).x
+                }
+            },
             MotionMode::Tethered(motion) => motion.angles[0].constant,
         };
         let problem = TrimProblem {
@@ -93,7 +105,11 @@ impl Design {
         for wing in &mut plain.animal.wings {
             wing.motion = wing.motion.risen();
         }
-        let found = trim(&plain, &problem).map_err(symmetric)?;
+        let laid_out = FlightSetup {
+            air: AirModel::BladeElement(self.air_ahead(turn)),
+            ..plain.clone()
+        };
+        let found = trim(&laid_out, &problem).map_err(symmetric)?;
         if found.solution.is_as_asked() {
             return Ok(found);
         }
@@ -111,6 +127,37 @@ impl Design {
             ),
             "see what `wingbeat trim` says with air.model = \"blade_element\"; start nearer to it (flight.pitch_deg, motion.stroke_plane_pitch_deg), or change motion.frequency_hz, control.forward_m_s or the weight",
         ))
+    }
+
+    /// Rotation about the vertical from the axes in which the layout heads along n1 to N; none where they are the same.
+    fn turn(&self, setup: &FlightSetup) -> Option<DMat3> {
+        /// Headings by rounding, of cases that were trimmed \[rad\].
+        const ROUNDING: f64 = 1e-6;
+        if self.target == Target::Trimmed {
+            return None;
+        }
+        let released = EulerSequence::BODY_231.rotation(setup.angles_at_release());
+        let level = Level::new(released, setup.gravity);
+        let heading = level.heading();
+        let down = level.to_n.z_axis;
+        (heading.abs() > ROUNDING).then(|| DMat3::from_axis_angle(down, heading))
+    }
+
+    /// The air of the layout in axes that are turned to N by `turn`.
+    fn air_ahead(&self, turn: Option<DMat3>) -> BladeOptions {
+        let mut air = self.air.clone();
+        if let Some(turn) = turn {
+            for flow in [&mut air.blade.free_stream, &mut air.induced] {
+                *flow = turn.transpose() * *flow;
+            }
+        }
+        air
+    }
+
+    /// Mean velocity of the flight that is held, N components [m/s].
+    fn velocity_in_n(&self, setup: &FlightSetup) -> DVec3 {
+        self.turn(setup)
+            .map_or(self.velocity, |turn| turn * self.velocity)
     }
 
     /// Steps that the looks divide.
@@ -146,7 +193,7 @@ impl Design {
             Target::Trimmed => Steering::new(law, Held::Known(Reference::trimmed(&trim)?), setup)
                 .adjusted(&trim.solution.adjustment),
             Target::Begun => {
-                let (gravity, velocity) = (setup.gravity, self.velocity);
+                let (gravity, velocity) = (setup.gravity, self.velocity_in_n(setup));
                 Steering::new(law, Held::Begun { gravity, velocity }, setup)
             }
         };
@@ -164,7 +211,7 @@ fn symmetric(e: AnalysisError) -> AnalysisError {
     match e {
         AnalysisError::Asymmetric { lateral, .. } => AnalysisError::Asymmetric {
             lateral,
-            remedy: "feedback is laid out for symmetric flight: make right and left wings alike (no [wing.left] of its own, no motion.difference), and let the wind blow along the plane of symmetry (air.stream_m_s without a part along n2); `control.controller = \"external\"` steers any flight",
+            remedy: "feedback is laid out for symmetric flight: make right and left wings alike (no [wing.left] of its own, no motion.difference), and let the wind blow along the plane of symmetry (air.stream_m_s without a part across the heading, which is along n1, with control.hold = \"start\" that at the release); `control.controller = \"external\"` steers any flight",
         },
         e => e,
     }
@@ -188,8 +235,8 @@ impl ControlModel for Design {
         self.target == Target::Trimmed
     }
 
-    fn velocity(&self) -> Option<DVec3> {
-        Some(self.velocity)
+    fn velocity(&self, setup: &FlightSetup) -> Option<DVec3> {
+        Some(self.velocity_in_n(setup))
     }
 
     fn redrawn(&self, by: u64) -> Option<Arc<dyn ControlModel>> {

@@ -39,8 +39,8 @@ impl ControlModel for Sensing {
         self.controller.holds_attitude()
     }
 
-    fn velocity(&self) -> Option<DVec3> {
-        self.controller.velocity()
+    fn velocity(&self, setup: &FlightSetup) -> Option<DVec3> {
+        self.controller.velocity(setup)
     }
 
     fn redrawn(&self, by: u64) -> Option<Arc<dyn ControlModel>> {

@@ -109,7 +109,7 @@ pub struct Steering {
     pub route: Route,
     /// The trimmed flight at the looks of a wingbeat, less that at its start ([`Orbit::points`]).
     pub orbit: Vec<Departure>,
-    /// Reference flight and place of its mass centre at the first look, N components [m].
+    /// Reference flight and true place of the mass centre at the first look, N components [m].
     first: Option<(Reference, DVec3)>,
     command: Controls,
 }
@@ -152,22 +152,23 @@ impl Steering {
         }
     }
 
-    /// The reference flight and the place where it began; known from the first look on.
-    fn begin(&mut self, sensed: &Sensed) -> (Reference, DVec3) {
+    /// The reference flight and the true place where it began, in a flight that is `truth` and is seen as `sensed`; known
+    /// from the first look on.
+    fn begin(&mut self, truth: &Sensed, sensed: &Sensed) -> (Reference, DVec3) {
         *self.first.get_or_insert_with(|| {
             let reference = match self.held {
                 Held::Known(reference) => reference,
                 Held::Begun { gravity, velocity } => Reference::begun(sensed, gravity, velocity),
             };
-            (reference, sensed.centre)
+            (reference, truth.centre)
         })
     }
 }
 
 impl Controller for Steering {
-    fn command(&mut self, sensed: &Sensed) -> Result<Vec<Adjustment>, String> {
-        let sensed = self.sensors.map_or(*sensed, |s| s.seen(sensed));
-        let (reference, origin) = self.begin(&sensed);
+    fn command(&mut self, truth: &Sensed) -> Result<Vec<Adjustment>, String> {
+        let sensed = self.sensors.map_or(*truth, |s| s.seen(truth));
+        let (reference, origin) = self.begin(truth, &sensed);
         let aim = self.route.at(sensed.time);
         let orbit = &self.orbit[sensed.look % self.orbit.len()];
         let seen = reference.departure_on(&aim, &sensed, origin).less(orbit);

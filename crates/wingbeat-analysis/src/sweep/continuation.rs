@@ -49,7 +49,7 @@ pub(crate) fn trim_by_continuation(
         progress::task(&what, 0, 0);
         let slower = stream + part * through;
         let mut path = Path::new(setup, problem);
-        let first = trim(setup, &path.at(slower)).ok();
+        let first = tried(trim(setup, &path.at(slower)))?;
         let Some(first) = first.filter(|t| t.solution.converged) else {
             continue;
         };
@@ -114,8 +114,8 @@ impl<'a> Path<'a> {
         let mut at = from;
         let mut residual = None;
         while let Some(&next) = ahead.last() {
-            match self.try_at(next) {
-                Ok(trim) if trim.solution.converged => {
+            match tried(self.try_at(next))? {
+                Some(trim) if trim.solution.converged => {
                     at = next;
                     ahead.pop();
                     if ahead.is_empty() {
@@ -123,7 +123,7 @@ impl<'a> Path<'a> {
                     }
                 }
                 other => {
-                    residual = other.ok().map(|t| t.solution.error()).or(residual);
+                    residual = other.map(|t| t.solution.error()).or(residual);
                     if ahead.len() > HALVINGS {
                         break;
                     }
@@ -184,6 +184,17 @@ impl<'a> Path<'a> {
             self.push(&found);
         }
         Ok(found)
+    }
+}
+
+/// A trim that was tried; none of a flight that cannot be flown.
+///
+/// # Errors
+/// What is wrong with any flight.
+fn tried(found: Result<Trim, AnalysisError>) -> Result<Option<Trim>, AnalysisError> {
+    match found {
+        Err(error) if error.is_of_one_flight() => Ok(None),
+        found => found.map(Some),
     }
 }
 

@@ -30,7 +30,7 @@ pub struct ControlCase {
     #[default(TargetCase::Trim)]
     #[schemars(extend("with" = LAID_OUT))]
     pub hold: TargetCase,
-    /// Mean velocity to fly with along n1.
+    /// Mean velocity to fly with along n1, with `hold` = `start` along the heading at the release.
     ///
     /// Change it for forward flight.
     #[schemars(extend("with" = LAID_OUT))]

@@ -80,7 +80,7 @@ impl Departures {
         self.attitude_deg.take(angle.to_degrees());
         let straight = |v: DVec3| release.centre + (r.time - release.time) * v;
         let place = aim.map(|aim| aim.position);
-        let place = place.or_else(|| feedback.controller.velocity().map(straight));
+        let place = place.or_else(|| feedback.controller.velocity(setup).map(straight));
         if let Some(place) = place {
             let away = r.mass_centre.distance(place) / setup.animal.wing_length();
             self.place_wing_lengths.get_or_insert_default().take(away);

@@ -3,7 +3,7 @@
 use wingbeat_flight::{FlightSetup, FlightState, Simulation};
 
 use super::disturbance::{ModalVelocities, Stations, images};
-use super::response::{Response, difference};
+use super::response::{LINEAR, Response};
 use super::sampling::Sampling;
 use super::settings::FlutterSettings;
 use super::steady::{ElasticRig, SteadyWing};
@@ -70,21 +70,32 @@ pub fn condition(
     let rig = ElasticRig::new(setup, speed)?;
     progress::task("steady state", 0, 0);
     let (state, steady) = rig.to_steady(settings)?;
-    progress::task("response", 0, 0);
-    let images = images(&rig, &state, &steady);
-    let disturbance = ModalVelocities::new(&rig, (&state, &images), settings)?;
+    let mut taken = Taken::from(&rig, state, steady, settings)?;
+    for _ in 0..STEADIER {
+        let of_the_base = taken.response.of_the_base();
+        let drift = taken.steady.iter().map(|s| s.drift).fold(0.0, f64::max);
+        if of_the_base <= LINEAR || drift == 0.0 {
+            break;
+        }
+        progress::task("steady state", 0, 0);
+        let next = 0.5 * drift * LINEAR / of_the_base;
+        match rig.steadier(settings, taken.state.clone(), next) {
+            Ok((state, steady)) => taken = Taken::from(&rig, state, steady, settings)?,
+            Err(AnalysisError::NotSteady { .. }) => break, // by rounding: what is not linear is left out
+            Err(e) => return Err(e),
+        }
+    }
+    let Taken {
+        steady,
+        images,
+        sampling,
+        response: found,
+        ..
+    } = taken;
     let step = rig.setup.time.step;
-    let sampling = Sampling::new(step, &steady, settings)?;
     let length = sampling.length(step);
     let slow = |wing: usize| slowest_on_springs(setup, wing).filter(|(_, t)| *t > length);
     let wings = (0..images.len()).filter(|&k| images[k].is_none());
-    let stations: Vec<Stations> = wings.clone().map(|k| Stations::of(&rig, k)).collect();
-    let flown = |part: f64| {
-        let from = disturbance.added(&state, part);
-        flown(&rig.setup, from, &stations, &sampling)
-    };
-    let still = flown(0.0)?;
-    let found = Response::linear(|part| Ok(difference(&flown(part)?, &still)))?;
     let of_wing = |(place, k): (usize, usize)| {
         let found = found.outputs(place * Stations::OUTPUTS..(place + 1) * Stations::OUTPUTS);
         let identified = Identified::of(&found, step, &sampling)?;
@@ -117,6 +128,48 @@ impl Condition {
     pub fn grows(&self, k: usize) -> Option<bool> {
         let growth = self.modes[k].growth;
         (growth.abs() > self.uncertainty[k]).then_some(growth > 0.0)
+    }
+}
+
+/// Most times that wings come further to rest because the undisturbed flight leaves where it began.
+const STEADIER: usize = 3;
+
+/// The response about a steady state.
+struct Taken {
+    state: FlightState,
+    steady: Vec<SteadyWing>,
+    /// Of each elastic wing the one that it is the mirror image of.
+    images: Vec<Option<usize>>,
+    sampling: Sampling,
+    response: Response,
+}
+
+impl Taken {
+    /// From the steady state `state`, in which the wings are `steady`.
+    fn from(
+        rig: &ElasticRig,
+        state: FlightState,
+        steady: Vec<SteadyWing>,
+        settings: &FlutterSettings,
+    ) -> Result<Self, AnalysisError> {
+        progress::task("response", 0, 0);
+        let images = images(rig, &state, &steady);
+        let disturbance = ModalVelocities::new(rig, (&state, &images), settings)?;
+        let sampling = Sampling::new(rig.setup.time.step, &steady, settings)?;
+        let wings = (0..images.len()).filter(|&k| images[k].is_none());
+        let stations: Vec<Stations> = wings.map(|k| Stations::of(rig, k)).collect();
+        let start: Vec<f64> = stations.iter().flat_map(|s| s.outputs(&state)).collect();
+        let response = Response::linear(&start, |part| {
+            let from = disturbance.added(&state, part);
+            flown(&rig.setup, from, &stations, &sampling)
+        })?;
+        Ok(Self {
+            state,
+            steady,
+            images,
+            sampling,
+            response,
+        })
     }
 }
 

@@ -13,8 +13,8 @@ use wingbeat_structure::{Configuration, NODE};
 
 use crate::AnalysisError;
 
-/// Velocity at which the wing counts as steady: of its fastest node over that of the stream \[1\].
-const STEADY: f64 = 1e-7;
+/// Velocity at which a wing counts as steady at first: of its fastest node over that of the stream \[1\].
+pub(super) const STEADY: f64 = 1e-7;
 
 /// Steps before anything is extrapolated: what calms down soon is flown.
 const PATIENCE: usize = 400;
@@ -47,6 +47,8 @@ pub(super) struct Settling {
     pub least: usize,
     /// Steps after which it may be given up, if they last [`PERIODS`].
     pub most: usize,
+    /// Velocity at which it counts as steady, as [`STEADY`] \[1\].
+    pub steady: f64,
 }
 
 impl Settling {
@@ -96,7 +98,7 @@ impl Settling {
 
     /// Whether its nodes rest; what is not a number does not.
     fn rests(&self, state: &FlightState) -> bool {
-        drift(state, self.speed) <= STEADY
+        drift(state, self.speed) <= self.steady
     }
 
     /// Where three shapes lead, from the last of them, wing by wing; none where one does not decay in a line.

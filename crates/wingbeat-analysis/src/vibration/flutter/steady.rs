@@ -8,7 +8,7 @@ use wingbeat_math::{DVec3, rotation_vector};
 use wingbeat_structure::{FrameMotion, Mode, slowest_modes};
 
 use super::settings::FlutterSettings;
-use super::settling::{Settling, drift};
+use super::settling::{STEADY, Settling, drift};
 use crate::AnalysisError;
 use crate::vibration::moving::{enough, moving};
 
@@ -102,6 +102,39 @@ impl ElasticRig {
         &self,
         settings: &FlutterSettings,
     ) -> Result<(FlightState, Vec<SteadyWing>), AnalysisError> {
+        let slowest = self.slowest(settings)?;
+        let (settling, period) = (self.settling(&slowest, settings), period(&slowest));
+        let ended = |e| self.ended(e, period);
+        // Steps that are too long for loads that act at once are none where a flight of the setup is.
+        let long = match settling(LONG, LEAST, STEADY).to_rest(None) {
+            Err(AnalysisError::Flight(e)) if is_sudden(&e, period) => None,
+            found => Some(found.map_err(ended)?),
+        };
+        let found = settling(1, 4 * LEAST, STEADY).to_rest(long);
+        self.with_shapes(found.map_err(ended)?, settings)
+    }
+
+    /// The same from `state`, which is steady, on to where the fastest node moves by `drift` of the speed of the stream.
+    ///
+    /// # Errors
+    /// As [`Self::to_steady`].
+    pub(super) fn steadier(
+        &self,
+        settings: &FlutterSettings,
+        state: FlightState,
+        drift: f64,
+    ) -> Result<(FlightState, Vec<SteadyWing>), AnalysisError> {
+        let slowest = self.slowest(settings)?;
+        let further = self.settling(&slowest, settings)(1, 0, drift);
+        let found = further.to_rest(Some(state));
+        self.with_shapes(
+            found.map_err(|e| self.ended(e, period(&slowest)))?,
+            settings,
+        )
+    }
+
+    /// Angular frequencies of the two slowest modes of each elastic wing at the start of the setup [rad/s].
+    fn slowest(&self, settings: &FlutterSettings) -> Result<Vec<[f64; 2]>, AnalysisError> {
         let built = Simulation::new(self.damped(1, &vec![[0.0; 2]; self.count()]))?;
         let slowest = |k: usize| -> Result<[f64; 2], AnalysisError> {
             let modes = leading(self, built.state(), k, settings.modes)?;
@@ -110,25 +143,37 @@ impl ElasticRig {
         let mut slowest: Vec<[f64; 2]> =
             (0..self.count()).map(slowest).collect::<Result<_, _>>()?;
         same_where_alike(&mut slowest);
+        Ok(slowest)
+    }
+
+    /// How wings come to rest that have these slowest modes: in steps so many times as long, after so many at least, where
+    /// they move no faster than so.
+    fn settling(
+        &self,
+        slowest: &[[f64; 2]],
+        settings: &FlutterSettings,
+    ) -> impl Fn(usize, usize, f64) -> Settling {
         let damping: Vec<[f64; 2]> = slowest.iter().map(|[a, b]| [1.0 / b, *a]).collect();
-        let first = slowest.iter().map(|s| s[0]).fold(f64::INFINITY, f64::min);
-        let settling = |long: usize, least: usize| Settling {
+        let period = period(slowest);
+        move |long, least, steady| Settling {
             setup: self.damped(long, &damping),
             speed: self.speed,
             sizes: (self.elastic.wings().iter())
                 .map(|w| w.structure().size())
                 .collect(),
-            period: TAU / first,
+            period,
             least,
             most: settings.settling,
-        };
-        let ended = |e| self.ended(e, TAU / first);
-        // Steps that are too long for loads that act at once are none where a flight of the setup is.
-        let long = match settling(LONG, LEAST).to_rest(None) {
-            Err(AnalysisError::Flight(e)) if is_sudden(&e, TAU / first) => None,
-            found => Some(found.map_err(ended)?),
-        };
-        let state = settling(1, 4 * LEAST).to_rest(long).map_err(ended)?;
+            steady,
+        }
+    }
+
+    /// A steady state, and how each elastic wing is deformed in it.
+    fn with_shapes(
+        &self,
+        state: FlightState,
+        settings: &FlutterSettings,
+    ) -> Result<(FlightState, Vec<SteadyWing>), AnalysisError> {
         let wings = (0..self.count()).map(|k| self.steady(&state, k, settings));
         let steady = wings.collect::<Result<_, _>>()?;
         Ok((state, steady))
@@ -186,6 +231,11 @@ impl ElasticRig {
             vacuum: modes.iter().map(Mode::frequency).collect(),
         })
     }
+}
+
+/// Period of the slowest of all modes \[s\].
+fn period(slowest: &[[f64; 2]]) -> f64 {
+    TAU / slowest.iter().map(|s| s[0]).fold(f64::INFINITY, f64::min)
 }
 
 /// Makes frequencies of wings that differ by rounding the same: mirror images stay so to the last bit.
