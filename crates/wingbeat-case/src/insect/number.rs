@@ -3,7 +3,7 @@
 /// Five digits: what a reader edits. Powers of ten by threes, as prefixes go.
 pub(super) fn number(x: f64) -> String {
     let rounded: f64 = format!("{x:.4e}").parse().expect("a number");
-    if !(0.1..1e5).contains(&rounded.abs()) {
+    if rounded != 0.0 && !(0.1..1e5).contains(&rounded.abs()) {
         let exponent = 3 * (rounded.abs().log10() / 3.0).floor() as i32;
         let mantissa: f64 = format!("{:.4e}", rounded / 10f64.powi(exponent))
             .parse()
@@ -11,4 +11,21 @@ pub(super) fn number(x: f64) -> String {
         return format!("{mantissa}e{exponent}");
     }
     format!("{rounded:?}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::number;
+
+    #[test]
+    fn behaves_numbers_have_five_digits_and_powers_by_threes() {
+        for (x, written) in [
+            (0.0, "0.0"),
+            (0.123456, "0.12346"),
+            (-1.5e-4, "-150e-6"),
+            (2.34567e7, "23.457e6"),
+        ] {
+            assert_eq!(number(x), written);
+        }
+    }
 }
