@@ -54,6 +54,25 @@ impl FlightSetup {
         Ok(())
     }
 
+    /// Whether wing `w` moves with another wing, which carries it directly or by segments: its motion is in the axes of
+    /// that wing, and what steers strokes and stroke planes of the flyer is not its own a second time.
+    pub fn rides_on_wing(&self, w: usize) -> bool {
+        let wings = 1..=self.animal.wings.len();
+        let carrier = |body: usize| {
+            let joint = self.joints.iter().find(|j| j.child == body);
+            joint.and_then(|j| j.parent).unwrap_or(0)
+        };
+        let mut body = carrier(w + 1);
+        // No chain is longer than there are joints.
+        for _ in 0..self.joints.len() {
+            if body == 0 || wings.contains(&body) {
+                break;
+            }
+            body = carrier(body);
+        }
+        wings.contains(&body)
+    }
+
     /// Whether what happens depends on the past beside the motion of rigid bodies: wakes, wings that loads bend.
     pub fn has_memory(&self) -> bool {
         self.air.has_memory() || self.animal.is_elastic()
