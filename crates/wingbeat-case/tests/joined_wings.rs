@@ -210,6 +210,10 @@ fn exact_hand_wing_goes_along_with_the_strokes_of_its_arm_wing() {
     let planes = set.animal.wings.iter().map(|w| w.motion.stroke_plane_pitch);
     let planes: Vec<f64> = planes.map(|p| p.to_degrees().round()).collect();
     assert_eq!(planes, [8.0, 5.0, 8.0, 5.0]);
+    for w in 0..4 {
+        let pitch = set.stroke_plane_pitch(w).to_degrees();
+        assert!((pitch - 8.0).abs() < 1e-13, "{w}: {pitch}"); // rounding
+    }
 }
 
 /// A still hand wing has no phase, and none to take from `[motion]`.
