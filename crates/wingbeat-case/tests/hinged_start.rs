@@ -60,7 +60,7 @@ fn stacked(set: &[&str]) -> (Vec<Record>, usize) {
 }
 
 /// What wings do to each other's added mass is there from the first instant on: accelerations and forces go over into
-/// those of the steps after it, which have it by differences. Without it they were 4 % and 30 % off.
+/// those of the steps after it, which have it by differences. Without it they were 4 % and 53 % off.
 #[test]
 fn limit_the_first_instant_of_wings_on_hinges_is_that_of_small_steps() {
     for mirror in ["air.mirror=true", "air.mirror=false"] {
@@ -70,7 +70,8 @@ fn limit_the_first_instant_of_wings_on_hinges_is_that_of_small_steps() {
         let force = |k: usize| records[k].air[right].force.length();
         let apart = [angular(0) / angular(1) - 1.0, force(0) / force(1) - 1.0];
         println!("{mirror}: {apart:?}");
-        assert!(apart[0].abs() < 3e-3 && apart[1].abs() < 0.03, "{apart:?}");
+        // What a step changes: 1.2e-3 and 1.6e-3.
+        assert!(apart[0].abs() < 3e-3 && apart[1].abs() < 4e-3, "{apart:?}");
     }
 }
 
@@ -86,6 +87,6 @@ fn agrees_the_first_instant_of_hinged_wings_with_half_of_the_air_and_with_both_h
     let angular = a.0.angular.y / b.0.angular.y - 1.0;
     let force = (a.1.force - b.1.force).length() / b.1.force.length();
     println!("angular acceleration {angular:.1e}, force {force:.1e} apart");
-    // Passes end at 1e-10 of the natural sizes in a step.
-    assert!(angular.abs() < 1e-6 && force < 1e-6, "{angular} {force}");
+    // Rounding; without passes one pair alone is 2e-4 and 2e-3 apart.
+    assert!(angular.abs() < 1e-14 && force < 1e-14, "{angular} {force}");
 }
