@@ -12,20 +12,3 @@ pub(super) fn number(x: f64) -> String {
     }
     format!("{rounded:?}")
 }
-
-#[cfg(test)]
-mod tests {
-    use super::number;
-
-    #[test]
-    fn behaves_numbers_have_five_digits_and_powers_by_threes() {
-        for (x, written) in [
-            (0.0, "0.0"),
-            (0.123456, "0.12346"),
-            (-1.5e-4, "-150e-6"),
-            (2.34567e7, "23.457e6"),
-        ] {
-            assert_eq!(number(x), written);
-        }
-    }
-}
