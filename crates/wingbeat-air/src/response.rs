@@ -8,7 +8,7 @@
 
 use crate::error::AirError;
 use crate::lattice::Lattice;
-use crate::loads::{AirLoads, rate_weights};
+use crate::loads::{AirLoads, couple_of_rate, rate_weights};
 use crate::settings::CirculationRate;
 use crate::state::AirState;
 use crate::workspace::AirWorkspace;
@@ -65,6 +65,20 @@ impl Lattice {
         let entry = |(area, q): (f64, usize)| rho * area * inverse[q];
         let rows = (0..n).flat_map(|i| (0..n).map(move |k| (areas[i], k * n + i)));
         Ok(rows.map(entry).collect())
+    }
+
+    /// Force \[N\] and couple about its control point \[N m\] of panel `p` of an open surface where its circulation
+    /// changes at this `rate` \[m2/s2\], N components, at the instant that `ws` and `loads` were last asked for.
+    pub fn loads_of_rate(
+        &self,
+        p: usize,
+        rate: f64,
+        (ws, loads): (&AirWorkspace, &AirLoads),
+    ) -> [DVec3; 2] {
+        let (area, normal) = (loads.panels.area[p], loads.panels.normal[p]);
+        let force = self.settings().density * rate * area * normal;
+        let couple = couple_of_rate(self, &ws.filaments, p, force);
+        [force, couple.unwrap_or_default()]
     }
 
     /// Weights of the circulations now, `dt` \[s\] after the last accepted step, in that step and in the one

@@ -17,7 +17,7 @@ pub(crate) mod sensors;
 pub(crate) mod stabiliser;
 pub(crate) mod steering;
 
-pub use departure::{CONTROLS, Controls, Departure, Limits, Reference, adjustments};
+pub use departure::{CONTROLS, Controls, Departure, Limits, Reference, adjustments, sides};
 pub use design::{Design, LawDesign, Target};
 pub use part::{Orbit, Part};
 pub use regulator::observer::{Kalman, Observer, ProcessNoise, kalman};

@@ -5,7 +5,7 @@ use crate::common;
 use std::sync::{Arc, Mutex};
 
 use wingbeat_analysis::control::{
-    Held, Law, Reference, Regulator, SteeredBeats, Steering, Weights, adjustments, disturbed,
+    Held, Law, Reference, Regulator, SteeredBeats, Steering, Weights, adjustments, disturbed, sides,
 };
 use wingbeat_analysis::episode::{
     CALM_BEATS, CALM_SPEED, CALM_TILT, Course, Draw, Episode, Flyer, Model, OBSERVED, SharedModel,
@@ -53,13 +53,7 @@ fn agrees_a_steered_flyer_with_the_map_of_a_beat() {
     };
     let mut flyer = Flyer::new(&trim, &model(&trim), &start).expect("a flyer");
     let mut y = flyer.state().clone();
-    let sides: Vec<f64> = trim
-        .setup
-        .animal
-        .wings
-        .iter()
-        .map(|w| w.side.sign())
-        .collect();
+    let sides = sides(&trim.setup);
     let mut from = vec![Adjustment::default(); sides.len()];
     for command in [[0.1, 0.05, -0.1, 0.08], [-0.05, 0.1, 0.15, 0.0], [0.0; 4]] {
         flyer.fly(&trim, &command, STEPS).expect("a beat");

@@ -4,7 +4,7 @@ use crate::common;
 
 use wingbeat_analysis::control::{
     CONTROLS, Channels, Controls, Departure, Held, Law, Limits, Orbit, Reference, Regulator,
-    STATES, Sensors, SteeredBeats, Steering, Timing, Weights, adjustments, disturbed, states,
+    STATES, Sensors, SteeredBeats, Steering, Timing, Weights, adjustments, disturbed, sides, states,
 };
 use wingbeat_analysis::{Beat, Level, Perturbation, Trim, eigen};
 use wingbeat_dynamics::BodyMotion;
@@ -65,13 +65,7 @@ fn flown(trim: &Trim, regulator: &Regulator, timing: &Timing, z: &[f64]) -> Vec<
     const SMALL: f64 = 1e-4;
     let level = Level::new(trim.beat.root(&trim.state).r, trim.beat.gravity());
     let own = Perturbation::of(&trim.beat, &level, &trim.state).to_array();
-    let sides: Vec<f64> = trim
-        .setup
-        .animal
-        .wings
-        .iter()
-        .map(|w| w.side.sign())
-        .collect();
+    let sides = sides(&trim.setup);
     let ends = [SMALL, -SMALL].map(|size| {
         let z: Vec<f64> = z.iter().map(|x| size * x).collect();
         let (x, commands) = z.split_at(STATES);

@@ -64,12 +64,19 @@ fn one_choice(path: &str, keys: &[&str]) -> Fault {
         [.., last] => (format!("{} at once", keys.join(" and ")), *last),
     };
     let name = path.rsplit('.').next().unwrap_or(path);
-    Fault::new(
-        path,
-        problem,
-        "one of several choices",
-        format!("give the whole table to choose another: {name} = {{ {example} = ... }}"),
-    )
+    let whole = format!("give the whole table to choose another: {name} = {{ {example} = ... }}");
+    let others = keys.split_last().map_or(&[][..], |(_, others)| others);
+    let remedy = match others {
+        [] => whole,
+        _ => {
+            let all: Vec<String> = others.iter().map(|key| format!("{path}.{key}")).collect();
+            format!(
+                "delete {} to keep `{example}`; or {whole}",
+                all.join(" and ")
+            )
+        }
+    };
+    Fault::new(path, problem, "one of several choices", remedy)
 }
 
 /// Of several choices at once in the table at `path` one that is none, with the whole table to give in its place.
@@ -152,7 +159,7 @@ fn of_choice(path: &str, problem: &str, expected: &str) -> Option<Fault> {
 fn inside(path: &str, key: &str) -> String {
     match path {
         "" => key.to_owned(),
-        _ if path.ends_with(key) => path.to_owned(),
+        _ if path.rsplit('.').next() == Some(key) => path.to_owned(),
         _ => format!("{path}.{key}"),
     }
 }
@@ -163,10 +170,15 @@ fn unknown(path: &str, got: &str, expected: &[&str], what: &str) -> Fault {
     } else {
         path.to_owned()
     };
-    let remedy = match (same_quantity(got, expected), nearest(got, expected)) {
-        (Some(near), _) => format!("`{near}`: the unit is part of the key, convert the value"),
-        (None, Some(near)) => format!("did you mean `{near}`?"),
-        (None, None) => format!("remove it or use one of the allowed {what}s"),
+    let remedy = match (
+        same_quantity(got, expected),
+        one_word_away(got, expected).or_else(|| nearest(got, expected)),
+    ) {
+        (Some(near), _) if one_word_away(got, expected).is_none() => {
+            format!("`{near}`: the unit is part of the key, convert the value")
+        }
+        (_, Some(near)) => format!("did you mean `{near}`?"),
+        (_, None) => format!("remove it or use one of the allowed {what}s"),
     };
     Fault::new(
         key,
@@ -174,6 +186,29 @@ fn unknown(path: &str, got: &str, expected: &[&str], what: &str) -> Fault {
         expected.join(", "),
         remedy,
     )
+}
+
+/// The only expected key that has one word more or less than `got`, within or before its unit:
+/// `stiffness_newton_m_per_rad` for `stiffness_newton_m_rad`.
+fn one_word_away<'a>(got: &str, expected: &[&'a str]) -> Option<&'a str> {
+    let words = |key: &'_ str| key.split('_').map(str::to_owned).collect::<Vec<_>>();
+    let own = words(got);
+    let is_near = |key: &&&str| {
+        let other = words(key);
+        let [long, short] = match own.len() > other.len() {
+            true => [&own, &other],
+            false => [&other, &own],
+        };
+        let without = |k: usize| [&long[..k], &long[k + 1..]].concat() == *short;
+        long.len() == short.len() + 1 && (0..long.len()).any(without)
+    };
+    // Another unit of the same quantity, or none, is a number to be converted.
+    let stem = without_unit(got).unwrap_or(got);
+    let is_converted = |key: &&&str| without_unit(key) == Some(stem);
+    let mut near = expected
+        .iter()
+        .filter(|key| is_near(key) && !is_converted(key));
+    near.next().filter(|_| near.next().is_none()).copied()
 }
 
 /// The expected key that differs from `got` only in its unit: `mass_mg` for `mass_kg`.

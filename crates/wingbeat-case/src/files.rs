@@ -96,13 +96,8 @@ pub(crate) fn read_in(case: &mut Case, base: &Path) -> Result<Vec<TableGaps>, Fa
             continue;
         };
         let path = format!("wing.{name}.motion");
-        let angles = [
-            ("phi", &mut motion.phi),
-            ("theta", &mut motion.theta),
-            ("psi", &mut motion.psi),
-        ];
-        for (key, angle) in angles {
-            if let Some(AngleCase::Table(table)) = angle {
+        for (key, angle) in motion.angles_mut() {
+            if let AngleCase::Table(table) = angle {
                 let key = format!("{path}.{key}.table");
                 let left_out = angles::read(&key, table, base)?;
                 let kept = table.rows_deg.as_ref().map_or(0, Vec::len);

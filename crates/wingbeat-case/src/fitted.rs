@@ -135,13 +135,8 @@ impl LoadedCase {
     }
 
     fn of_wing(&self, name: &str, motion: &WingMotionCase) -> Vec<FittedTable> {
-        let angles = [
-            ("phi", &motion.phi),
-            ("theta", &motion.theta),
-            ("psi", &motion.psi),
-        ];
-        let fitted = |(angle, case): (&str, &Option<AngleCase>)| {
-            let Some(AngleCase::Table(table)) = case else {
+        let fitted = |(angle, case): (&str, &AngleCase)| {
+            let AngleCase::Table(table) = case else {
                 return None;
             };
             let key = format!("wing.{name}.motion.{angle}.table");
@@ -149,7 +144,7 @@ impl LoadedCase {
             let rows = radians(table.rows_deg.as_ref()?);
             left_of(key, &rows, table.harmonics?, beats)
         };
-        angles.into_iter().filter_map(fitted).collect()
+        motion.angles().filter_map(fitted).collect()
     }
 }
 

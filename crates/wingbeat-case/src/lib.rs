@@ -14,6 +14,7 @@
 #![warn(missing_docs)]
 
 mod build;
+mod carrier;
 mod data;
 mod decode;
 mod differences;

@@ -69,16 +69,11 @@ impl LoadedCase {
 }
 
 fn tables(motion: &WingMotionCase) -> Vec<(&'static str, &[[f64; 2]])> {
-    let angles = [
-        ("phi", &motion.phi),
-        ("theta", &motion.theta),
-        ("psi", &motion.psi),
-    ];
-    let rows = |(angle, case)| match case {
-        &Some(AngleCase::Table(ref table)) => Some((angle, table.rows_deg.as_deref()?)),
+    let angles = motion.angles().filter_map(|(angle, case)| match case {
+        AngleCase::Table(table) => Some((angle, table.rows_deg.as_deref()?)),
         _ => None,
-    };
-    angles.into_iter().filter_map(rows).collect()
+    });
+    angles.collect()
 }
 
 /// Tables whose angles are all small, counted from what their 0 stands for, or one of stroke or feathering

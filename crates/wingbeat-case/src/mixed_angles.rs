@@ -1,7 +1,8 @@
 //! Wings whose angles come partly from the case and partly from a set of measured ones.
 
+use crate::carrier::rides_on_wing;
 use crate::loaded::LoadedCase;
-use crate::raw::WingMotionCase;
+use crate::raw::{ANGLES, WingMotionCase};
 
 /// A wing with angles of its own, and with others from a shipped set.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -23,8 +24,9 @@ impl LoadedCase {
         let shared = shared.map(|set| ["motion.data".to_owned(), set.clone()]);
         let wings = self.raw.wing.iter();
         let motions = wings.filter_map(|(name, wing)| Some((name, wing.motion.as_ref()?)));
+        let shared = |name: &str| shared.clone().filter(|_| !rides_on_wing(&self.raw, name));
         motions
-            .filter_map(|(name, motion)| mixed(name, motion, shared.clone()))
+            .filter_map(|(name, motion)| mixed(name, motion, shared(name)))
             .collect()
     }
 }
@@ -33,16 +35,9 @@ fn mixed(name: &str, motion: &WingMotionCase, shared: Option<[String; 2]>) -> Op
     let own = motion.data.as_ref();
     let own = own.map(|set| [format!("wing.{name}.motion.data"), set.clone()]);
     let set = own.or(shared)?;
-    let angles = [
-        ("phi", motion.phi.is_some()),
-        ("theta", motion.theta.is_some()),
-        ("psi", motion.psi.is_some()),
-    ];
-    let with = |is_given: bool| -> Vec<&'static str> {
-        let these = angles.iter().filter(|(_, given)| *given == is_given);
-        these.map(|(angle, _)| *angle).collect()
-    };
-    let [given, from_set] = [true, false].map(with);
+    let given: Vec<&'static str> = motion.angles().map(|(angle, _)| angle).collect();
+    let from_set = ANGLES.into_iter().filter(|angle| !given.contains(angle));
+    let from_set: Vec<&'static str> = from_set.collect();
     (!given.is_empty() && !from_set.is_empty()).then_some(MixedAngles {
         wing: name.to_owned(),
         given,

@@ -16,6 +16,7 @@ use super::raw::{
     Mode, MotionCase, StabilisationCase, StartCase, TargetCase, TimeCase,
 };
 use crate::loaded::written_to_change as written;
+use crate::own_motion::every_phase;
 use crate::written::flight::tethered;
 
 /// The case of a trimmed flight as TOML: the given case with the adjusted wing motion, hinges and
@@ -164,12 +165,9 @@ fn lead(raw: &mut Case, case: &LoadedCase, trimmed: &FlightSetup) {
     let wings = |setup: &FlightSetup| setup.animal.wings.first().map_or(0.0, |w| w.motion.phase);
     let lead = wings(trimmed) - wings(&case.setup);
     let motions = raw.wing.values_mut().filter_map(|w| w.motion.as_mut());
-    let mut own: Vec<_> = motions.map(|m| &mut m.phase).collect();
-    let all = !own.is_empty() && own.iter().all(|phase| phase.is_some());
-    own.iter_mut()
-        .filter_map(|phase| phase.as_mut())
-        .for_each(|phase| *phase += lead);
-    if !all {
+    let own = motions.filter_map(|m| m.phase.as_mut());
+    own.for_each(|phase| *phase += lead);
+    if !every_phase(raw, &case.setup.animal) {
         raw.motion.phase += lead; // refused where no wing reads it
     }
 }

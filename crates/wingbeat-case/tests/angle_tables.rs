@@ -6,6 +6,7 @@ use std::path::Path;
 use wingbeat_case::LoadedCase;
 
 use crate::common::refusal;
+use crate::idle::ANIMAL;
 
 #[test]
 fn refuses_tables_without_a_header() {
@@ -52,6 +53,73 @@ fn exact_rows_without_an_angle_are_left_out() {
         let told = (gaps.key.as_str(), gaps.left_out, gaps.kept);
         assert_eq!(told, ("wing.right.motion.phi.table", 2, 6));
     }
+}
+
+/// A wrong name of a column is said of the key that gives it, with the names that there are.
+#[test]
+fn refuses_columns_that_are_not_in_the_file_by_the_key_that_names_them() {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("slips");
+    fs::create_dir_all(&folder).unwrap();
+    let angles = folder.join("names.csv");
+    fs::write(&angles, "time,R_stroke,R_rot,L_rot\n0,1,2,3\n").unwrap();
+    let points = folder.join("axes.csv");
+    fs::write(&points, "x_mm,y_mm\n0,0\n2,0\n2,1\n").unwrap();
+    let table = "wing.right.motion.psi.table";
+    let outline = "wing.right.planform.outline";
+    for (own, key, remedy) in [
+        (
+            "angle_column = \"R_stork\"",
+            format!("{table}.angle_column"),
+            "did you mean `R_stroke`?",
+        ),
+        (
+            "angle_column = \"rot\"",
+            format!("{table}.angle_column"),
+            "`R_rot` or `L_rot`?",
+        ),
+        (
+            "phase_column = \"frame\"",
+            format!("{table}.phase_column"),
+            "name one of its columns",
+        ),
+        (
+            "x_column = \"x\"",
+            format!("{outline}.x_column"),
+            "did you mean `x_mm`?",
+        ),
+    ] {
+        let (angle, file) = match own.starts_with("x_") {
+            true => ("wing.right.planform={ outline", &points),
+            false => ("wing.right.motion.psi={ table", &angles),
+        };
+        let said = refusal(
+            "fruit-fly-hover",
+            &[&format!("{angle} = {{ file = {file:?}, {own} }} }}")],
+        );
+        assert!(said.contains(&key) && said.contains(remedy), "{said}");
+        assert!(said.contains("has no column"), "{said}");
+    }
+}
+
+/// The angle of a table is that of its key, whatever the wing is called.
+#[test]
+fn behaves_tables_of_wings_that_are_named_after_angles() {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("slips");
+    fs::create_dir_all(&folder).unwrap();
+    let file = folder.join("psi.csv");
+    fs::write(&file, "phase,psi\n0,1\n0.3,2\n0.6,-1\n1,1\n").unwrap();
+    let of = |angle: &str| {
+        let (before, after) = ANIMAL.split_once("[wing.right]").unwrap();
+        let (wing, air) = after.split_once("[air]").unwrap();
+        let wing = wing.replace("wing.right", "wing.phi");
+        let text = format!("{before}[wing.phi]\nside = \"right\"{wing}[air]{air}");
+        let table = format!("wing.phi.motion.{angle}={{ table = {{ file = {file:?} }} }}");
+        let case = LoadedCase::from_text("case", &text, Path::new(""), &[table]);
+        case.map(|_| ()).map_err(|e| e.to_string())
+    };
+    assert_eq!(of("psi"), Ok(()));
+    let said = of("theta").unwrap_err();
+    assert!(said.contains("this is the table of theta"), "{said}");
 }
 
 /// An angle without its time, and a point of an outline without one of its places, are no lost frames.

@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use wingbeat_case::{LoadedCase, case_of};
+use wingbeat_model::Side;
 
 use crate::common::refusal;
 use crate::idle::ANIMAL;
@@ -34,6 +35,35 @@ fn behaves_wings_of_one_hinge_are_pairs_by_their_names() {
     let wanted = format!("wings `upper-left` and `upper-right` {AGAINST}");
     assert_eq!(said.matches(AGAINST).count(), 1, "{said}");
     assert!(said.contains(&wanted), "{said}");
+}
+
+/// The side of a wing is a word of its name: `upright-left` is a left wing, and has its image on the right.
+#[test]
+fn behaves_sides_of_wings_are_words_of_their_names() {
+    let wings = |name: &str| {
+        let text = ANIMAL.replace("wing.right", &format!("wing.{name}"));
+        let case = LoadedCase::from_text("case", &text, Path::new(""), &[]);
+        let named = |c: LoadedCase| c.setup.animal.wings.into_iter().map(|w| (w.name, w.side));
+        case.map(|c| named(c).collect::<Vec<_>>())
+            .map_err(|e| e.to_string())
+    };
+    for (name, image) in [
+        ("upright-right", "upright-left"),
+        ("bright_right2", "bright_left2"),
+        ("rightWing", "leftWing"),
+    ] {
+        let found = wings(name).unwrap();
+        let side = |name: &str| found.iter().find(|w| w.0 == name).map(|w| w.1);
+        assert_eq!(side(name), Some(Side::Right), "{found:?}");
+        assert_eq!(side(image), Some(Side::Left), "{found:?}");
+    }
+    for name in ["left-of-right", "upright", "rightwing"] {
+        let said = wings(name).unwrap_err();
+        assert!(
+            said.contains(&format!("wing.{name}.side")) && said.contains("one word of its name"),
+            "{said}"
+        );
+    }
 }
 
 #[test]

@@ -177,6 +177,87 @@ fn exact_hand_wing_joined_to_an_arm_wing_is_one_wing() {
     assert!(said(&["wing.right-hand.joined=true"]).is_empty());
 }
 
+/// What `[motion]` says of strokes turns a hand wing with its arm wing, and not a second time: both stay one wing.
+#[test]
+fn exact_hand_wing_goes_along_with_the_strokes_of_its_arm_wing() {
+    let one = TWO.split("[joint.wrist]").next().unwrap();
+    let one = one
+        .replace("span_m = 0.07", "span_m = 0.14")
+        .replace("spanwise = 4", "spanwise = 8");
+    let strokes = [
+        "motion.stroke_plane_pitch_deg=8",
+        "motion.adjust.stroke_plane_deg=-3",
+        "motion.adjust.stroke_offset_deg=20",
+        "motion.adjust.feathering_offset_deg=2",
+    ];
+    let joined = [&strokes[..], &["wing.right-hand.joined=true"]].concat();
+    let (whole, joined) = (force(&one, &strokes), force(TWO, &joined));
+    let apart = (joined - whole).length() / whole.length();
+    println!("joined {joined:.6}, one wing {whole:.6}, apart {apart:.1e}");
+    // Roundings of another order of elimination.
+    assert!(apart < 1e-15, "{apart}");
+    // A data set is that of the wings on the body; trims and controllers of all wings steer these.
+    let data = ["motion.data=fry-hover", "motion.frequency_hz=20"];
+    let set = setup(TWO, &data).unwrap();
+    let wings = &set.animal.wings;
+    let still = wings.iter().map(|w| w.motion.angles.are_constant());
+    assert_eq!(still.collect::<Vec<_>>(), [false, true, false, true]);
+    let sides = wingbeat_analysis::control::sides(&set);
+    assert_eq!(sides, [Some(-1.0), None, Some(1.0), None]);
+    // An own plane is in the axes of the arm wing.
+    let own = "wing.right-hand.motion.stroke_plane_pitch_deg=5";
+    let set = setup(TWO, &[strokes[0], own]).unwrap();
+    let planes = set.animal.wings.iter().map(|w| w.motion.stroke_plane_pitch);
+    let planes: Vec<f64> = planes.map(|p| p.to_degrees().round()).collect();
+    assert_eq!(planes, [8.0, 5.0, 8.0, 5.0]);
+    for w in 0..4 {
+        let pitch = set.stroke_plane_pitch(w).to_degrees();
+        assert!((pitch - 8.0).abs() < 1e-13, "{w}: {pitch}"); // rounding
+    }
+}
+
+/// A still hand wing has no phase, and none to take from `[motion]`.
+#[test]
+fn refuses_a_phase_that_no_wing_beats_at() {
+    let beat = [
+        "motion.frequency_hz=20",
+        "motion.phase=0.1",
+        "wing.right.motion={ phase = 0.25, phi = { fourier = { sine_deg = [10] } } }",
+    ];
+    let error = setup(TWO, &beat).unwrap_err();
+    assert!(error.contains("motion.phase"), "{error}");
+    let hand = "wing.right-hand.motion.phi.fourier.sine_deg=[5]";
+    assert!(setup(TWO, &[&beat[..], &[hand]].concat()).is_ok());
+    // Nor has it a stroke plane of `[motion]`.
+    let planes = [
+        "motion.stroke_plane_pitch_deg=10",
+        "wing.right.motion.stroke_plane_pitch_deg=20",
+    ];
+    let error = setup(TWO, &planes).unwrap_err();
+    assert!(
+        error.contains("motion.stroke_plane_pitch_deg") && error.contains("every wing"),
+        "{error}"
+    );
+}
+
+#[test]
+fn refuses_joints_of_bodies_that_are_not_there_by_their_names() {
+    for (key, name, near) in [
+        ("child", "wing_right-hand", "right-hand"),
+        ("parent", "rihgt", "right"),
+    ] {
+        let error = setup(TWO, &[&format!("joint.wrist.{key}=\"{name}\"")]).unwrap_err();
+        for word in [
+            &format!("joint.wrist.{key}"),
+            &format!("there is no body `{name}`"),
+            &format!("did you mean `{near}`?"),
+            "body, left, left-hand, right, right-hand",
+        ] {
+            assert!(error.contains(word), "{error}");
+        }
+    }
+}
+
 #[test]
 fn refuses_to_join_a_root_to_a_tip_that_it_is_not() {
     let joined = "wing.right-hand.joined=true";

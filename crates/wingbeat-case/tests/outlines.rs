@@ -127,7 +127,7 @@ const WRONG: &[(&str, &[&str])] = &[
     ),
     (
         "file='mm.csv', x_column='z'",
-        &["outline.file", "no column `z`", "x_mm"],
+        &["outline.x_column", "no column `z`", "x_mm"],
     ),
     ("file='mixed.csv'", &["outline.file", "not in one unit"]),
     (

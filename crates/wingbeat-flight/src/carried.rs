@@ -180,6 +180,49 @@ impl CarriedAir {
         Ok(())
     }
 
+    /// What the loads of the wings lack at the first instant beside their own added masses, at these accelerations: what
+    /// other surfaces do to these masses, and what of them is not symmetric. Added to `out`, N components; false where
+    /// loads lack nothing, or the air has nothing of the kind.
+    ///
+    /// # Errors
+    /// What the air reports.
+    pub fn coupling_at_start(
+        &self,
+        at: &Instant<'_>,
+        (air, memory): (&dyn Air, Option<&AirMemory>),
+        (scratch, s): (&AirScratch, &CarriedScratch),
+        out: &mut [Wrench],
+    ) -> Result<bool, FlightError> {
+        if self.is_empty() {
+            return Ok(false);
+        }
+        let changes: Vec<_> = (at.motions.iter().zip(at.accelerations))
+            .map(|(m, a)| self.change(m, a, at.time))
+            .collect();
+        let pushed = at.motions.iter().zip(&changes).map(|(m, a)| BodyMotion {
+            v: m.v + at.step * a.linear,
+            w: m.w + at.step * a.angular,
+            ..*m
+        });
+        let pushed: Vec<_> = pushed.collect();
+        let is_lacking = air.rate_loads_at_start(&self.wings, at, &pushed, memory, scratch, out)?;
+        for (mass, _) in s.answers.iter().flatten().filter(|_| is_lacking) {
+            let k = mass.body();
+            out[k] = out[k] - mass.wrench(&at.motions[k], &changes[k]);
+        }
+        Ok(is_lacking)
+    }
+
+    /// The rate of the velocities of a body through the undisturbed air in body components, that of its origin turned to
+    /// N.
+    fn change(&self, m: &BodyMotion, a: &BodyAcceleration, time: f64) -> BodyAcceleration {
+        let through = m.v - (self.stream + self.wind.at(m.p, time));
+        BodyAcceleration {
+            linear: a.linear - (m.r * m.w).cross(through),
+            angular: a.angular,
+        }
+    }
+
     /// Accepts bodies that move like `motions`, for which `s` was asked last.
     pub fn accept(&self, motions: &[BodyMotion], s: &CarriedScratch, states: &mut [CarriedState]) {
         for ((state, w), &wind) in states.iter_mut().zip(&self.wings).zip(&s.winds) {

@@ -2,6 +2,7 @@
 //! -> rates (seed sec. 4 and 5). Quadratures of work and impulse ride along, so that balances
 //! are integrated exactly as accurately as the motion itself.
 
+mod first;
 pub(crate) mod free;
 mod loads;
 pub(crate) mod mirrored;
@@ -91,6 +92,8 @@ pub struct Scratch {
     carried: Vec<AddedMass>,
     /// Air that wings carry along.
     carried_air: CarriedScratch,
+    /// What wings on free joints feel of each other's added mass at the first instant; empty at any other.
+    coupling: Vec<Wrench>,
     /// Accelerations, reactions, energies.
     pub solution: Solution,
     /// Kinetic energy relative to the root [J] and its rate [W].
@@ -132,6 +135,7 @@ impl Scratch {
             added_at: None,
             carried: vec![],
             carried_air: CarriedScratch::default(),
+            coupling: vec![],
             solution: Solution::new(system),
             relative: [0.0; 2],
             towed: Towed::default(),

@@ -258,6 +258,24 @@ pub trait Air: fmt::Debug + Send + Sync {
         Ok(None)
     }
 
+    /// At the first instant, whose loads hold no rates of circulations: what these rates are to these rigid `wings`,
+    /// added to `out`, N components, where velocities change from those of `at` to those of `pushed` within a step and
+    /// nothing moves. False where loads hold such rates or never do.
+    ///
+    /// # Errors
+    /// What the model reports.
+    fn rate_loads_at_start(
+        &self,
+        _wings: &[usize],
+        _at: &Instant<'_>,
+        _pushed: &[BodyMotion],
+        _memory: Option<&AirMemory>,
+        _scratch: &AirScratch,
+        _out: &mut [Wrench],
+    ) -> Result<bool, FlightError> {
+        Ok(false)
+    }
+
     /// Whether loads on wings that bend follow their accelerations within a step ([`WingResponse::inertia`]).
     fn follows_accelerations(&self) -> bool {
         false

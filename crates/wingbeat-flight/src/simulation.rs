@@ -288,9 +288,9 @@ impl Simulation {
         if let Some(air) = air {
             self.state.air = Some(air.clone().restarted());
         }
-        self.enter_stage(y0)?;
+        let report = self.enter_stage(y0)?;
         self.state.ledger = Ledger::open(&self.scratch);
-        self.finish_arrival(StepReport::default(), true)
+        self.finish_arrival(report, true)
     }
 
     /// One of the three starting steps, already known: evaluates it again in its place.
@@ -332,8 +332,9 @@ impl Simulation {
             .map_err(|e| failure(e, self.state.step, t, &self.setup))
     }
 
-    /// Makes `y0` the state at the present step in the equations of the present stage.
-    fn enter_stage(&mut self, y0: Vec<f64>) -> Result<(), FlightError> {
+    /// Makes `y0` the state at the present step in the equations of the present stage, and says what passes that took
+    /// beside the evaluation.
+    fn enter_stage(&mut self, y0: Vec<f64>) -> Result<StepReport, FlightError> {
         let t = self.time(self.state.step);
         let equations = &self.stages[self.state.stage].equations;
         self.scratch.fit(equations);
@@ -341,13 +342,18 @@ impl Simulation {
         for _ in 0..equations.entries() {
             equations.evaluate(t, &y0, self.state.memory(), &mut self.scratch, &mut f0)?;
         }
+        let convergence = convergence(&self.setup.corrector, equations);
+        let memory = self.state.memory();
+        let report = equations
+            .couple_at_start((t, &y0), memory, &convergence, &mut self.scratch, &mut f0)
+            .map_err(|e| failure(e, self.state.step, t, &self.setup))?;
         self.solver = self.new_solver();
         self.state.started_at = self.state.step;
         self.state.past = Multistep::from_start(
             std::array::from_fn(|_| y0.clone()),
             std::array::from_fn(|_| f0.clone()),
         );
-        Ok(())
+        Ok(report)
     }
 
     /// Starting values of the order of the method: bodies and air replayed over three steps until

@@ -89,7 +89,7 @@ fn part_of_time(wings: [&Wing; 2], is_joined: bool) -> f64 {
 }
 
 /// Times at which two wings are compared \[s\].
-fn instants(wings: [&Wing; 2]) -> impl Iterator<Item = f64> {
+pub(crate) fn instants(wings: [&Wing; 2]) -> impl Iterator<Item = f64> {
     let [a, b] = wings.map(|w| w.motion.frequency);
     let beats = if a == b || a * b == 0.0 { 1 } else { BEATS };
     let faster = [a, b].into_iter().filter(|f| *f > 0.0).reduce(f64::max);
@@ -294,7 +294,7 @@ impl Sheet {
             .chain(across.map(move |n| [n, n + columns]))
     }
 
-    fn triangles(&self) -> impl Iterator<Item = [usize; 3]> + '_ {
+    pub fn triangles(&self) -> impl Iterator<Item = [usize; 3]> + '_ {
         let columns = self.columns;
         let corners = (0..(self.rows - 1) * columns).filter(move |n| n % columns + 1 < columns);
         corners.flat_map(move |n| {

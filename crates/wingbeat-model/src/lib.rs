@@ -27,6 +27,7 @@ pub mod animal;
 pub mod build;
 pub mod check;
 mod closed;
+mod coincident;
 mod crossing;
 pub mod deformation;
 pub mod error;
@@ -45,6 +46,7 @@ mod touching;
 pub use animal::{Animal, BodyPart, Segment, Wing};
 pub use build::{BodyMass, fit_body_length};
 pub use check::{ElasticReport, WingReport};
+pub use coincident::coincident;
 pub use crossing::depth::crossing_depth;
 pub use crossing::{
     Crossing, FlownCrossings, are_joined, crossings, nearest_nodes, pairs, root_gap,
@@ -54,7 +56,7 @@ pub use error::ModelError;
 pub use import::Imported;
 pub use inside::{Inside, Solid, inside};
 pub use integrate::MassInput;
-pub use mesh::{GridMesh, QuadMesh, Side, Spacing, mirror_name};
+pub use mesh::{GridMesh, QuadMesh, Side, Spacing, mirror_name, side_in_name};
 pub use motion::{AngleLaw, AngleLaws, Start, WingMotion};
 pub use planform::{Planform, WingShape};
 pub use revolution::{Profile, Revolution};

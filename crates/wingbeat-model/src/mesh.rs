@@ -136,12 +136,39 @@ impl GridMesh {
     }
 }
 
-/// The name of a wing with `left` and `right` exchanged: that of its mirror image.
+/// The side that a name tells: whether `left` or `right` is among its words, which end where no small letter follows.
+/// None where neither is, or both are.
+///
+/// ```
+/// use wingbeat_model::{Side, side_in_name};
+/// assert_eq!(side_in_name("fore-right"), Some(Side::Right));
+/// assert_eq!(side_in_name("upright-left"), Some(Side::Left));
+/// assert_eq!(side_in_name("left-of-right"), None);
+/// ```
+pub fn side_in_name(name: &str) -> Option<Side> {
+    let has = |side: &str| {
+        name.split(|c: char| !c.is_lowercase())
+            .any(|word| word == side)
+    };
+    match (has("left"), has("right")) {
+        (true, false) => Some(Side::Left),
+        (false, true) => Some(Side::Right),
+        _ => None,
+    }
+}
+
+/// The name of a wing with the words `left` and `right` exchanged: that of its mirror image.
 pub fn mirror_name(name: &str) -> Option<String> {
-    [("right", "left"), ("left", "right")]
-        .into_iter()
-        .find(|(this, _)| name.contains(this))
-        .map(|(this, other)| name.replace(this, other))
+    let [this, other] = match side_in_name(name)? {
+        Side::Left => ["left", "right"],
+        Side::Right => ["right", "left"],
+    };
+    let pieces = name.split_inclusive(|c: char| !c.is_lowercase());
+    let mirrored = pieces.map(|piece| match piece.strip_prefix(this) {
+        Some(rest) if !rest.starts_with(char::is_lowercase) => format!("{other}{rest}"),
+        _ => piece.to_owned(),
+    });
+    Some(mirrored.collect())
 }
 
 /// A surface of quadrilaterals. On a closed surface `(c2-c0) x (c3-c1)` points outward.

@@ -244,7 +244,7 @@ impl Skin {
 }
 
 /// Distance of a place from a triangle [m].
-fn distance(x: DVec3, t: &[DVec3; 3]) -> f64 {
+pub(crate) fn distance(x: DVec3, t: &[DVec3; 3]) -> f64 {
     let sides = [[t[0], t[1]], [t[1], t[2]], [t[2], t[0]]];
     let normal = (t[1] - t[0]).cross(t[2] - t[0]).normalize_or_zero();
     let is_over = |[a, b]: [DVec3; 2]| (b - a).cross(x - a).dot(normal) >= 0.0;

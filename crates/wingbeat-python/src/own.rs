@@ -243,6 +243,9 @@ impl ControlModel for PythonController {
             function: self.function.clone(),
             air: None,
             wings: setup.animal.wings.clone(),
+            ride: (0..setup.animal.wings.len())
+                .map(|w| setup.rides_on_wing(w))
+                .collect(),
         }))
     }
 }
@@ -253,6 +256,8 @@ struct Steered {
     /// At the look that follows.
     air: Option<AirProbe>,
     wings: Vec<Wing>,
+    /// Whether they ride on other wings.
+    ride: Vec<bool>,
 }
 
 impl Controller for Steered {
@@ -275,7 +280,7 @@ impl Controller for Steered {
         let numbers = self.function.pending.keep(answer)?;
         let command: Vec<Adjustment> = numbers.into_iter().map(Adjustment::of_numbers).collect();
         if let [one] = &command[..] {
-            return for_all(&self.wings, one);
+            return for_all(&self.wings, &self.ride, one);
         }
         check_heeded(&self.wings, &command)?;
         Ok(command)

@@ -82,6 +82,45 @@ fn agrees_the_recording_of_the_page_on_measured_angles_with_the_set_that_it_is_o
     assert!(shown.contains("1.257") && shown.contains("24.5"), "{shown}");
 }
 
+/// Tables of a left wing that has the strokes of the right one fly as its mirror image; with the sign of a right wing
+/// `check` says what is wrong, as it does of tables beside the laws of another preset.
+#[test]
+fn invariant_a_left_wing_of_the_page_on_measured_angles_is_the_image_of_the_right_one() {
+    let page = page("measured-angles.md");
+    let scratch = Scratch::new("left-angles");
+    let dir = &scratch.0;
+    fs::write(dir.join("tracked.csv"), blocks(&page, "csv")[0]).unwrap();
+    said(dir, &["new", "fruit-fly-blade", "my-fly.toml"]);
+    let file = dir.join("my-fly.toml");
+    let preset = fs::read_to_string(&file).unwrap();
+    let preset = preset.replace("data = \"fry-hover\"", "");
+    let tables = blocks(&page, "toml");
+    let check = |left: &str| {
+        fs::write(&file, format!("{preset}\n{}\n{left}", tables[0])).unwrap();
+        let out = support::wingbeat(dir, &["check", "my-fly.toml"]);
+        let [told, warned] = [out.stdout, out.stderr].map(|o| String::from_utf8(o).unwrap());
+        told + &warned
+    };
+    let lift = |said: &str| {
+        let line = said.lines().find(|l| l.starts_with("lift"));
+        line.map(str::to_owned)
+    };
+    let [alone, both] = ["", tables[1]].map(check);
+    assert!(lift(&alone).is_some_and(|l| l.contains("1.26")), "{alone}");
+    assert_eq!(lift(&alone), lift(&both));
+    assert!(!both.contains("against each other"), "{both}");
+    let wrong = check(&tables[1].replacen("factor = -1", "factor = 1", 1));
+    let says = "look at sign and phase of motion.phi, whose sign on a left wing is opposite";
+    assert!(wrong.contains(says), "{wrong}");
+    said(dir, &["new", "hawkmoth-blade", "moth.toml"]);
+    let file = dir.join("moth.toml");
+    let moth = fs::read_to_string(&file).unwrap();
+    fs::write(&file, format!("{moth}\n{}", tables[0])).unwrap();
+    let refused = support::refused(dir, 2, &["check", "moth.toml"]);
+    let says = "delete wing.right.motion.phi.fourier to keep `table`";
+    assert!(refused.contains(says), "{refused}");
+}
+
 /// Tables of stroke and feathering beside a set that is left in the case: the deviation stays that of the set, and
 /// `check` says so.
 #[test]

@@ -123,10 +123,16 @@ impl VortexStreet {
             "a velocity in m/s and an axis, both finite and not 0",
         )?;
         require(
-            is_square && self.point.is_finite(),
+            is_square,
             "vortex street axis",
             format!("{axis}, drift {drift}"),
             "an axis square to the drift",
+        )?;
+        require(
+            self.point.is_finite(),
+            "vortex street point",
+            self.point,
+            "a place in m, finite",
         )
     }
 }
@@ -200,6 +206,23 @@ mod tests {
             divergence.abs() < 1e-6 * slope(across).length(),
             "{divergence}"
         );
+    }
+
+    #[test]
+    fn refuses_streets_by_what_is_wrong_with_them() {
+        let point = VortexStreet {
+            point: DVec3::new(0.0, f64::NAN, 0.0),
+            ..street(0.7)
+        };
+        let axis = VortexStreet {
+            axis: DVec3::new(0.0, 1.0, 0.1),
+            ..street(0.7)
+        };
+        for (street, key) in [(point, "point"), (axis, "axis")] {
+            let error = street.validate().map_err(|e| e.to_string());
+            let error = error.map_or_else(|e| e, |()| "none".to_owned());
+            assert!(error.contains(&format!("vortex street {key}")), "{error}");
+        }
     }
 
     #[test]

@@ -1,8 +1,9 @@
 //! What a controller makes of what it sees: the departure from a reference flight, and what it
 //! answers, four controls of the strokes.
 
-use wingbeat_flight::{Aim, Sensed};
+use wingbeat_flight::{Aim, FlightSetup, Sensed};
 use wingbeat_math::{DMat3, DQuat, DVec3};
+use wingbeat_model::Wing;
 use wingbeat_model::motion::Adjustment;
 
 use crate::AnalysisError;
@@ -178,13 +179,21 @@ impl Limits {
     }
 }
 
-/// The controls as adjustments of wings on these sides (right +1, left -1).
-pub fn adjustments(u: &Controls, sides: &[f64]) -> Vec<Adjustment> {
-    let wing = |s: &f64| Adjustment {
+/// Side of every wing, right +1, left -1; none of a wing that another one carries, and takes along.
+pub fn sides(setup: &FlightSetup) -> Vec<Option<f64>> {
+    let wings = setup.animal.wings.iter().enumerate();
+    let side = |(w, wing): (usize, &Wing)| (!setup.rides_on_wing(w)).then(|| wing.side.sign());
+    wings.map(side).collect()
+}
+
+/// The controls as adjustments of wings on these [`sides`]; wings without one are not adjusted.
+pub fn adjustments(u: &Controls, sides: &[Option<f64>]) -> Vec<Adjustment> {
+    let on_side = |s: f64| Adjustment {
         stroke_amplitude: u[0] + 0.5 * s * u[2],
         stroke_offset: u[1],
         stroke_plane: 0.5 * s * u[3],
         ..Adjustment::default()
     };
+    let wing = |side: &Option<f64>| side.map_or(Adjustment::default(), on_side);
     sides.iter().map(wing).collect()
 }

@@ -26,7 +26,7 @@ use wingbeat_math::DVec3;
 
 use crate::AnalysisError;
 use crate::beat::level::Perturbation;
-use crate::control::departure::{CONTROLS, Controls, Departure};
+use crate::control::departure::{CONTROLS, Controls, Departure, sides};
 use crate::control::part::Orbit;
 use crate::control::sensors::Channels;
 use crate::trim::Trim;
@@ -143,8 +143,7 @@ impl Regulator {
     /// # Errors
     /// As [`Self::new`]; steps of the trim that the looks do not divide.
     pub fn timed(trim: &Trim, weights: &Weights, timing: &Timing) -> Result<Self, AnalysisError> {
-        let wings = &trim.setup.animal.wings;
-        let sides: Vec<f64> = wings.iter().map(|w| w.side.sign()).collect();
+        let sides = sides(&trim.setup);
         let orbit = Orbit::new(trim, timing.parts)?;
         let plants = Plant::parts(trim, &orbit, &sides)?;
         let sums = if weights.sum.is_some() { CONTROLS } else { 0 };

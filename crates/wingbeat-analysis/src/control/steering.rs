@@ -14,7 +14,9 @@ use wingbeat_model::motion::Adjustment;
 
 use crate::AnalysisError;
 use crate::beat::{Beat, State};
-use crate::control::departure::{CONTROLS, Controls, Departure, Limits, Reference, adjustments};
+use crate::control::departure::{
+    CONTROLS, Controls, Departure, Limits, Reference, adjustments, sides,
+};
 use crate::control::part::Part;
 use crate::control::regulator::Regulator;
 use crate::control::route::Route;
@@ -95,8 +97,8 @@ pub enum Held {
 pub struct Steering {
     law: Law,
     held: Held,
-    /// Side of every wing, right +1, left -1.
-    sides: Vec<f64>,
+    /// Of every wing ([`sides`]).
+    sides: Vec<Option<f64>>,
     /// Commands of the reference flight.
     base: Adjustment,
     /// Largest departures of commands from those of the reference flight.
@@ -117,11 +119,10 @@ pub struct Steering {
 impl Steering {
     /// `law` in the loop of the flight `setup` that holds `held`.
     pub fn new(law: Law, held: Held, setup: &FlightSetup) -> Self {
-        let wings = &setup.animal.wings;
         Self {
             law,
             held,
-            sides: wings.iter().map(|w| w.side.sign()).collect(),
+            sides: sides(setup),
             base: Adjustment::default(),
             limits: Limits::default(),
             every: 1,
@@ -179,7 +180,10 @@ impl Controller for Steering {
         let limited = self.limits.reached(&self.command);
         self.law.remember(&d, self.command, limited);
         let mut list = adjustments(&self.command, &self.sides);
-        list.iter_mut().for_each(|a| *a = self.base.then(a));
+        for (a, side) in list.iter_mut().zip(&self.sides) {
+            let base = side.map_or_else(|| self.base.on_wing(), |_| self.base);
+            *a = base.then(a);
+        }
         Ok(list)
     }
 

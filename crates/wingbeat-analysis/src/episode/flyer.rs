@@ -13,7 +13,7 @@ use super::strokes::{SteadyStroke, SteeredStroke, Transition};
 use super::task::Start;
 use crate::AnalysisError;
 use crate::beat::State;
-use crate::control::departure::{Controls, adjustments};
+use crate::control::departure::{Controls, adjustments, sides};
 use crate::stability::disturbance::disturbed;
 use crate::trim::Trim;
 
@@ -23,7 +23,7 @@ pub struct Model {
     flight: FreeFlight,
     steady: Vec<Arc<SteadyStroke>>,
     strokes: Vec<Arc<SteeredStroke>>,
-    sides: Vec<f64>,
+    sides: Vec<Option<f64>>,
     method: Rk4,
     scratch: FreeFlightScratch,
 }
@@ -73,9 +73,8 @@ impl Model {
         let stroke = |s: &Arc<_>| Arc::new(SteeredStroke::new(Arc::clone(s)));
         let strokes: Vec<_> = steady.iter().map(stroke).collect();
         let flight = flight(&|k, _| -> Arc<dyn RotationLaw> { strokes[k].clone() })?;
-        let wings = trim.setup.animal.wings.iter();
         Ok(Self {
-            sides: wings.map(|w| w.side.sign()).collect(),
+            sides: sides(&trim.setup),
             method: Rk4::new(flight.dim()),
             scratch: flight.scratch(),
             flight,

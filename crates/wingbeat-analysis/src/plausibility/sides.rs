@@ -18,7 +18,7 @@ struct Angle {
 const ANGLES: [Angle; 3] = [
     Angle {
         of: |laws| &laws.phi,
-        says: "stroke against each other, one forward while the other goes back: look at sign and phase of motion.phi",
+        says: "stroke against each other, one forward while the other goes back: look at sign and phase of motion.phi, whose sign on a left wing is opposite to that on a right one",
     },
     Angle {
         of: |laws| &laws.theta,

@@ -272,8 +272,13 @@ pub(crate) fn adjusted(
     }
     let mut setup = setup.clone();
     shift *= setup.animal.wing_length();
-    for wing in &mut setup.animal.wings {
-        wing.motion = wing.motion.adjusted(wing.side, &a.on(wing.side, &d));
+    let rides: Vec<bool> = (0..setup.animal.wings.len())
+        .map(|w| setup.rides_on_wing(w))
+        .collect();
+    for (wing, rides) in setup.animal.wings.iter_mut().zip(rides) {
+        let own = a.on(wing.side, &d);
+        let own = if rides { own.on_wing() } else { own };
+        wing.motion = wing.motion.adjusted(wing.side, &own);
         wing.hinge_b.x -= shift;
     }
     if a.frequency != 0.0 {

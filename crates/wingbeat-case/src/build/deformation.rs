@@ -6,7 +6,7 @@ use wingbeat_model::motion::Fourier;
 use wingbeat_model::{Animal, Deformation, ModelError, Wing, mirror_name};
 
 use super::fault::Built;
-use super::hinge;
+use crate::carrier::carrier;
 use crate::error::Fault;
 use crate::raw::{Case, CourseCase, DeformationCase, SurfaceCase};
 
@@ -169,7 +169,7 @@ fn course(case: &CourseCase) -> Fourier {
 /// Pairs of wings, by their numbers, that share the edge at their roots.
 pub(super) fn joined(case: &Case, animal: &Animal) -> Built<Vec<[usize; 2]>> {
     let mut pairs: Vec<[usize; 2]> = vec![];
-    let on_body = |name: &str| hinge::carrier(case, name).is_none();
+    let on_body = |name: &str| carrier(case, name).is_none();
     let joined = case.wing.iter().filter(|(_, w)| w.joined == Some(true));
     for (name, _) in joined.filter(|(name, _)| on_body(name)) {
         let number = |n: &str| animal.wings.iter().position(|w| w.name == n);
@@ -203,7 +203,7 @@ pub(super) fn joined_tips(case: &Case, animal: &Animal) -> Built<Vec<[usize; 2]>
         let own = given(wing.name.clone());
         let said = own.or_else(|| mirror_name(&wing.name).and_then(given));
         let Some((true, name)) = said else { continue };
-        let Some(carrier) = hinge::carrier(case, &wing.name) else {
+        let Some(carrier) = carrier(case, &wing.name) else {
             continue;
         };
         let by = animal.wings.iter().position(|w| w.name == carrier.wing);

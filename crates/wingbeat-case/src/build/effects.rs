@@ -3,15 +3,17 @@
 use wingbeat_flight::{FlightSetup, MotionMode};
 use wingbeat_model::motion::Adjustment;
 use wingbeat_model::planform::Spacing;
-use wingbeat_model::{Wing, mirror_name};
+use wingbeat_model::{Animal, Wing, mirror_name};
 
 use super::fault::{Built, idle};
 use super::{model_keys, spacing, wingless};
+use crate::carrier::rides_on_wing;
 use crate::data::find_data;
 use crate::error::Fault;
-use crate::own_motion::{every_wing, has_all_angles};
+use crate::own_motion::{every_phase, every_wing, has_all_angles};
 use crate::raw::{
-    AirModel, Case, Formulation, JointCase, Mode, TetherCase, TurnCase, WingCase, WingMeshCase,
+    ANGLES, AirModel, Case, Formulation, JointCase, Mode, TetherCase, TurnCase, WingCase,
+    WingMeshCase,
 };
 use crate::source::CaseSource;
 
@@ -20,7 +22,7 @@ pub(crate) fn check(case: &Case, setup: &FlightSetup, source: &CaseSource) -> Bu
     bodies(case)?;
     meshes(case, source)?;
     spacing::check(case)?;
-    motion(case, source)?;
+    motion(case, &setup.animal, source)?;
     adjustments(case, setup)?;
     still_motion(case, setup)?;
     joints(case)?;
@@ -192,15 +194,12 @@ fn motion_without_wings(case: &Case, source: &CaseSource) -> Built<()> {
 }
 
 /// Motions for all wings that every wing replaces.
-fn motion(case: &Case, source: &CaseSource) -> Built<()> {
+fn motion(case: &Case, animal: &Animal, source: &CaseSource) -> Built<()> {
     if case.wing.is_empty() {
         return motion_without_wings(case, source);
     }
     let own = |wing: &WingCase| wing.motion.clone().unwrap_or_default();
-    let all_angles = |wing: &WingCase| {
-        let motion = own(wing);
-        motion.phi.is_some() && motion.theta.is_some() && motion.psi.is_some()
-    };
+    let all_angles = |wing: &WingCase| own(wing).angles().count() == ANGLES.len();
     for (name, wing) in &case.wing {
         if own(wing).data.is_some() && all_angles(wing) {
             let key = format!("wing.{name}.motion.data");
@@ -208,8 +207,10 @@ fn motion(case: &Case, source: &CaseSource) -> Built<()> {
         }
     }
     let every = "beside that of every wing";
-    if case.motion.phase != 0.0 && every_wing(case, |own| own.phase.is_some()) {
-        return Err(idle("motion.phase", every));
+    let is_still = animal.wings.iter().all(Wing::is_still); // said by `still_motion`
+    if case.motion.phase != 0.0 && !is_still && every_phase(case, animal) {
+        let why = "beside that of every wing whose angles vary";
+        return Err(idle("motion.phase", why));
     }
     let gives = |key: &str| source.gives(&format!("motion.{key}"));
     let own_planes = every_wing(case, |own| own.stroke_plane_pitch_deg.is_some());
@@ -243,7 +244,9 @@ fn adjustments(case: &Case, setup: &FlightSetup) -> Built<()> {
     ] {
         let by = Adjustment::from(by);
         let mut parts = by.numbers().into_iter();
-        let lost_on = |wing: &Wing, part: &(&str, f64)| wing.motion.idle(&by).any(|i| i == *part);
+        let lost_on = |wing: &Wing, part: &(&str, f64)| {
+            rides_on_wing(case, &wing.name) || wing.motion.idle(&by).any(|i| i == *part)
+        };
         let lost = parts.find(|part| !wings.is_empty() && wings.iter().all(|w| lost_on(w, part)));
         if let Some((part, _)) = lost {
             let key = format!("motion.{table}.{part}");

@@ -11,7 +11,7 @@ use wingbeat_model::{Animal, mirror_name};
 use super::fault::Built;
 use super::flight::bends;
 use super::mirrored::{check_halves, mirrored};
-use super::names::{body_names, column_name};
+use super::names::{body_names, check_joints, no_body};
 use super::numbers::vector;
 use super::{element, segment, wing};
 use crate::error::Fault;
@@ -30,27 +30,8 @@ pub(super) fn build_all(case: &Case, animal: &Animal) -> Built<Vec<Joint>> {
         }
     }
     segment::check_carried(animal, &joints)?;
-    check_names(&joints)?;
+    check_joints(&joints)?;
     Ok(joints)
-}
-
-/// Each joint needs columns of its own in the history.
-fn check_names(joints: &[Joint]) -> Built<()> {
-    for (k, second) in joints.iter().enumerate() {
-        let alike = |first: &&Joint| column_name(&first.name) == column_name(&second.name);
-        if let Some(first) = joints[..k].iter().find(alike) {
-            return Err(Fault::new(
-                format!("joint.{}", second.name),
-                format!(
-                    "its columns in the history could not be told from those of `joint.{}`",
-                    first.name
-                ),
-                "names that differ in letters or digits, not only in other signs",
-                "give one of the two another name",
-            ));
-        }
-    }
-    Ok(())
 }
 
 /// What has no law of size is not scaled.
@@ -132,14 +113,8 @@ fn model(path: &str, joint: &JointCase, frequency: f64) -> Built<JointModel> {
 
 fn find(animal: &Animal, path: &str, key: &str, name: &str) -> Built<usize> {
     let names = body_names(animal);
-    names.iter().position(|n| *n == name).ok_or_else(|| {
-        Fault::new(
-            format!("{path}.{key}"),
-            format!("there is no body `{name}`"),
-            names.join(", "),
-            format!("use one of these names, or add [segment.{name}]"),
-        )
-    })
+    let found = names.iter().position(|n| *n == name);
+    found.ok_or_else(|| no_body(&format!("{path}.{key}"), name, &names))
 }
 
 /// A wing has one hinge: a joint that carries it from another body than a wing is there.

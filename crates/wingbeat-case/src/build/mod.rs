@@ -49,6 +49,7 @@ use wingbeat_model::{Animal, ModelError, Wing};
 use fault::Built;
 
 use super::raw::{Case, CorrectorCase, WingInertia};
+use crate::carrier::is_carried;
 use crate::error::Fault;
 
 /// The setup of a resolved case.
@@ -83,6 +84,7 @@ pub(crate) fn setup(case: &Case, name: &str) -> Built<FlightSetup> {
 
 fn animal(case: &Case, name: &str) -> Built<Animal> {
     let body = body::build(&case.body)?;
+    names::check_bodies(case)?;
     let wings = wing::build_all(case)?;
     let mut animal = Animal {
         name: name.to_owned(),
@@ -90,7 +92,7 @@ fn animal(case: &Case, name: &str) -> Built<Animal> {
         ..body
     };
     segment::split(case, &mut animal)?;
-    let is_carried = |wing: &Wing| hinge::is_carried(case, &wing.name);
+    let is_carried = |wing: &Wing| is_carried(case, &wing.name);
     (animal.check_with(is_carried)).map_err(|e| fault_of_animal(case, e))?;
     let scale = case.animal.scale;
     let mut animal = scaled(&animal, scale, is_carried)?;

@@ -6,6 +6,7 @@ use wingbeat_model::motion::{
 use wingbeat_model::{AngleLaw, AngleLaws, Side, Start, WingMotion};
 
 use super::fault::Built;
+use crate::carrier::rides_on_wing;
 use crate::data::find_data;
 use crate::error::Fault;
 use crate::own_motion::gives_angles;
@@ -13,7 +14,9 @@ use crate::raw::{
     AngleCase, Case, FourierCase, MotionCase, StartCase, TableCase, WingCase, WingMotionCase,
 };
 
-/// The motion of `wing`, `name` in the case; what it leaves out is that of `base`, else that of `[motion]`.
+/// The motion of `wing`, `name` in the case; what it leaves out is that of `base`, else that of `[motion]`. The axes of
+/// a wing that moves with another one are those of its carrier: stroke plane and data set of `[motion]` are not its
+/// own a second time.
 pub(super) fn law(
     case: &Case,
     name: &str,
@@ -25,8 +28,13 @@ pub(super) fn law(
     let own = wing.motion.as_ref().unwrap_or(&none);
     let path = format!("wing.{name}.motion");
     let frequency = case.motion.frequency_hz.value();
-    let laws = laws(case, &path, own, side, base.map(|b| &b.angles))?;
-    let shared = case.motion.stroke_plane_pitch_deg.value().to_radians();
+    let rides = rides_on_wing(case, name);
+    let data = case.motion.data.as_deref().filter(|_| !rides);
+    let laws = laws(data, &path, own, side, base.map(|b| &b.angles))?;
+    let shared = match rides {
+        true => 0.0,
+        false => case.motion.stroke_plane_pitch_deg.value().to_radians(),
+    };
     let pitch = own.stroke_plane_pitch_deg.map(f64::to_radians);
     if frequency == 0.0 && !laws.are_constant() {
         return Err(Fault::new(
@@ -63,13 +71,14 @@ fn start(case: &Case, frequency: f64) -> Start {
     }
 }
 
-/// Refuses strokes and feathering that stand still where only the wing on the other side has any.
+/// Refuses strokes and feathering that stand still where only the wing on the other side has any; `has_data`: what is
+/// left out comes from the data set of `[motion]`.
 pub(super) fn check_halves(
-    shared: &MotionCase,
+    has_data: bool,
     (name, own): (&str, &WingMotionCase),
     (other, counterpart): (&str, &WingMotionCase),
 ) -> Built<()> {
-    if !gives_angles(own) || own.data.is_some() || shared.data.is_some() {
+    if !gives_angles(own) || own.data.is_some() || has_data {
         return Ok(());
     }
     let angles = [
@@ -95,18 +104,15 @@ pub(super) fn check_halves(
     ))
 }
 
+/// `data`: the set of `[motion]`, for wings that have it.
 fn laws(
-    case: &Case,
+    data: Option<&str>,
     path: &str,
     own: &WingMotionCase,
     side: Side,
     base: Option<&AngleLaws>,
 ) -> Built<AngleLaws> {
-    let shared = case
-        .motion
-        .data
-        .as_deref()
-        .map(|n| ("motion.data".to_owned(), n));
+    let shared = data.map(|n| ("motion.data".to_owned(), n));
     let data = own
         .data
         .as_deref()

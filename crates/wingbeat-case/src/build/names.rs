@@ -1,9 +1,12 @@
-//! Names of wings and segments: columns of the history are called after them.
+//! Names of wings, segments and joints: columns of the history are called after them.
 
-use wingbeat_model::Animal;
+use wingbeat_dynamics::Joint;
+use wingbeat_model::{Animal, mirror_name};
 
 use super::fault::Built;
+use crate::decode::nearest;
 use crate::error::Fault;
+use crate::raw::{Case, WingCase};
 
 /// A name as it stands in names of columns: everything but letters and digits is an underscore.
 pub fn column_name(name: &str) -> String {
@@ -20,20 +23,41 @@ pub(super) fn check(animal: &Animal) -> Built<()> {
     let columns = |(kind, name): (&str, &String)| format!("{kind}_{}", column_name(name));
     // Prescribed angles stand in columns of their own, e.g. `wing_left_prescribed_phi_rad`.
     let alike = |a: &str, b: &str| a == b || format!("{a}_prescribed") == b;
+    check_apart(
+        &all,
+        "not only in other signs or in `_prescribed`",
+        |a, b| {
+            let [a, b] = [a, b].map(columns);
+            alike(&a, &b) || alike(&b, &a)
+        },
+    )
+}
+
+/// Each joint needs columns of its own.
+pub(super) fn check_joints(joints: &[Joint]) -> Built<()> {
+    let all: Vec<(&str, &String)> = joints.iter().map(|j| ("joint", &j.name)).collect();
+    check_apart(&all, "not only in other signs", |a, b| {
+        column_name(a.1) == column_name(b.1)
+    })
+}
+
+/// Refuses names whose columns are `alike`, each of a kind; `how` they have to differ beside letters and digits.
+fn check_apart(
+    all: &[(&str, &String)],
+    how: &str,
+    alike: impl Fn((&str, &String), (&str, &String)) -> bool,
+) -> Built<()> {
     for (k, second) in all.iter().enumerate() {
-        for first in &all[..k] {
-            let [a, b] = [*first, *second].map(columns);
-            if alike(&a, &b) || alike(&b, &a) {
-                return Err(Fault::new(
-                    format!("{}.{}", second.0, second.1),
-                    format!(
-                        "its columns in the history could not be told from those of `{}.{}`",
-                        first.0, first.1
-                    ),
-                    "names that differ in letters or digits, not only in other signs or in `_prescribed`",
-                    "give one of the two another name",
-                ));
-            }
+        if let Some(first) = all[..k].iter().find(|first| alike(**first, *second)) {
+            return Err(Fault::new(
+                format!("{}.{}", second.0, second.1),
+                format!(
+                    "its columns in the history could not be told from those of `{}.{}`",
+                    first.0, first.1
+                ),
+                format!("names that differ in letters or digits, {how}"),
+                "give one of the two another name",
+            ));
         }
     }
     Ok(())
@@ -47,4 +71,47 @@ pub(super) fn body_names(animal: &Animal) -> Vec<&str> {
         .chain(wings)
         .chain(segments)
         .collect()
+}
+
+/// What `key` names is no body among `names`.
+pub(super) fn no_body(key: &str, name: &str, names: &[&str]) -> Fault {
+    let add = format!("use one of these names, or add [segment.{name}]");
+    let held = |n: &&&str| **n != "body" && name.contains(**n);
+    let longest = || names.iter().filter(held).max_by_key(|n| n.len()).copied();
+    let remedy = match nearest(name, names).or_else(longest) {
+        Some(near) => format!("did you mean `{near}`? Or {add}"),
+        None => add,
+    };
+    Fault::new(
+        key,
+        format!("there is no body `{name}`"),
+        names.join(", "),
+        remedy,
+    )
+}
+
+/// Refuses joints of bodies that are not there, before wings ask who carries them.
+pub(super) fn check_bodies(case: &Case) -> Built<()> {
+    let has_image = |(name, wing): (&String, &WingCase)| {
+        let image = mirror_name(name).filter(|_| wing.mirror.unwrap_or(true));
+        image.filter(|image| !case.wing.contains_key(image))
+    };
+    let images = case.wing.iter().filter_map(has_image);
+    let mut wings: Vec<String> = case.wing.keys().cloned().chain(images).collect();
+    wings.sort();
+    let wings = wings.iter().map(String::as_str);
+    let segments = case.segment.keys().map(String::as_str);
+    let names: Vec<&str> = std::iter::once("body")
+        .chain(wings)
+        .chain(segments)
+        .collect();
+    for (joint, of) in &case.joint {
+        let parent = of.parent.as_deref().unwrap_or("body");
+        for (key, name) in [("parent", parent), ("child", &of.child[..])] {
+            if !names.contains(&name) {
+                return Err(no_body(&format!("joint.{joint}.{key}"), name, &names));
+            }
+        }
+    }
+    Ok(())
 }

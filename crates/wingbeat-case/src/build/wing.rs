@@ -2,12 +2,15 @@
 
 use wingbeat_math::DVec3;
 use wingbeat_model::planform::{Beta, ChordSize, Planform, WingShape};
-use wingbeat_model::{GridMesh, MassInput, Side, Spacing, Wing, WingMotion, mirror_name};
+use wingbeat_model::{
+    GridMesh, MassInput, Side, Spacing, Wing, WingMotion, mirror_name, side_in_name,
+};
 
 use super::fault::{Built, fault_at};
 use super::hinge::hinge;
 use super::numbers::{given_mass, symmetric, vector};
 use super::{deformation, motion, structure};
+use crate::carrier::rides_on_wing;
 use crate::decode::nearest;
 use crate::error::Fault;
 use crate::own_motion::takes;
@@ -29,7 +32,9 @@ pub(super) fn build_all(case: &Case) -> Built<Vec<Wing>> {
         }
     }
     for wing in &mut wings {
-        wing.motion = motion::adjusted(case, &wing.motion, wing.side);
+        if !rides_on_wing(case, &wing.name) {
+            wing.motion = motion::adjusted(case, &wing.motion, wing.side);
+        }
     }
     wings.sort_by(|a, b| a.name.cmp(&b.name));
     Ok(wings)
@@ -51,22 +56,24 @@ pub(super) fn source_of(case: &Case, wing: &str) -> String {
 fn side(case: &Case, name: &str, own: &WingCase) -> Built<Side> {
     match own.side {
         Some(side) => Ok(side),
-        None if name.contains("right") => Ok(Side::Right),
-        None if name.contains("left") => Ok(Side::Left),
-        None => {
-            let others = case.wing.keys().map(String::as_str).filter(|n| *n != name);
-            let remedy = match nearest(name, &others.collect::<Vec<_>>()) {
-                Some(other) => format!("did you mean wing.{other}?"),
-                None => "add `side = \"right\"` or call the wing e.g. `fore-right`".to_owned(),
-            };
-            Err(Fault::new(
-                format!("wing.{name}.side"),
-                "this key is missing and the name does not tell the side",
-                "left, right",
-                remedy,
-            ))
-        }
+        None => side_in_name(name).ok_or_else(|| no_side(case, name)),
     }
+}
+
+fn no_side(case: &Case, name: &str) -> Fault {
+    let [left, right] = ["left", "right"].map(|side| name.contains(side));
+    let others = case.wing.keys().map(String::as_str).filter(|n| *n != name);
+    let near = nearest(name, &others.collect::<Vec<_>>()).filter(|_| !left && !right);
+    let remedy = match near {
+        Some(other) => format!("did you mean wing.{other}?"),
+        None => "add `side = \"right\"`, or call the wing e.g. `fore-right`: left or right as one word of its name, and not both".to_owned(),
+    };
+    Fault::new(
+        format!("wing.{name}.side"),
+        "this key is missing and the name does not tell the side",
+        "left, right",
+        remedy,
+    )
 }
 
 /// A key's value from the wing itself or, mirrored, from its counterpart.
@@ -130,7 +137,8 @@ fn motion_of(case: &Case, source: &Source<'_>, side: Side) -> Built<WingMotion> 
     if let (Some(own), Some((other, counterpart))) = (&source.own.motion, source.counterpart)
         && let Some(counterpart) = &counterpart.motion
     {
-        motion::check_halves(&case.motion, (source.name, own), (other, counterpart))?;
+        let has_data = case.motion.data.is_some() && !rides_on_wing(case, source.name);
+        motion::check_halves(has_data, (source.name, own), (other, counterpart))?;
     }
     let taken = source.counterpart.filter(|(_, counterpart)| {
         let there = counterpart.motion.as_ref();

@@ -9,10 +9,7 @@ use wingbeat_model::motion::{Fourier, PeriodicSpline};
 use super::csv_file::{CsvFile, words_of};
 use super::read::twice;
 use crate::error::Fault;
-use crate::raw::TableCase;
-
-/// The angles of a wing.
-const ANGLES: [&str; 3] = ["phi", "theta", "psi"];
+use crate::raw::{ANGLES, TableCase};
 
 /// Puts the rows of the table at `path` into this program's convention, those of its file if it names one; how many
 /// rows of the file have no angle.
@@ -83,8 +80,8 @@ fn rows(
 ) -> Result<(Vec<[f64; 2]>, usize), Fault> {
     let choose = |header: &StringRecord| {
         let columns = [
-            csv.column(header, names[0], 0)?,
-            csv.column(header, names[1], 1)?,
+            csv.column(header, ("phase_column", names[0]), 0)?,
+            csv.column(header, ("angle_column", names[1]), 1)?,
         ];
         if names[1].is_none() {
             check_angle(csv, header)?;
@@ -250,7 +247,9 @@ fn check_phase(csv: &CsvFile, column: &str) -> Result<(), Fault> {
 /// Refuses a second column that is named after another angle than the key's.
 fn check_angle(csv: &CsvFile, header: &StringRecord) -> Result<(), Fault> {
     let name = header.get(1).unwrap_or_default();
-    let own = ANGLES.iter().find(|a| csv.key.contains(&format!(".{a}.")));
+    let table = csv.key.strip_suffix(".table.file").unwrap_or(&csv.key);
+    let angle = table.rsplit('.').next();
+    let own = ANGLES.iter().find(|a| angle == Some(**a));
     let named = ANGLES.iter().find(|a| name.starts_with(**a));
     match (own, named) {
         (Some(own), Some(named)) if own != named => {

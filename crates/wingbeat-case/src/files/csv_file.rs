@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use csv::StringRecord;
 
 use super::read::bytes_of;
+use crate::decode::nearest;
 use crate::error::Fault;
 
 /// The byte order mark of UTF-8.
@@ -82,11 +83,12 @@ impl CsvFile {
         Err(fault)
     }
 
-    /// Which column has this name; where none is asked for, the one at `default`.
+    /// Which column has the name that `key`, beside that of the file, asks for; where it asks for none, the one at
+    /// `default`.
     pub fn column(
         &self,
         header: &StringRecord,
-        name: Option<&str>,
+        (key, name): (&str, Option<&str>),
         default: usize,
     ) -> Result<usize, Fault> {
         let Some(name) = name else {
@@ -96,11 +98,29 @@ impl CsvFile {
         match (found.next(), found.next()) {
             (Some(column), None) => Ok(column),
             (Some(_), Some(_)) => Err(self.bad(&format!("two of its columns are named `{name}`"))),
-            (None, _) => {
-                let names = header.iter().collect::<Vec<_>>().join(", ");
-                Err(self.bad(&format!("there is no column `{name}` among {names}")))
-            }
+            (None, _) => Err(self.no_column(header, key, name)),
         }
+    }
+
+    fn no_column(&self, header: &StringRecord, key: &str, name: &str) -> Fault {
+        let names: Vec<&str> = header.iter().filter(|n| !n.is_empty()).collect();
+        let lower = name.to_lowercase();
+        let holds = |other: &&str| !name.is_empty() && other.to_lowercase().contains(&lower);
+        let near: Vec<&str> = match nearest(name, &names) {
+            Some(near) => vec![near],
+            None => names.iter().copied().filter(|n| holds(n)).collect(),
+        };
+        let remedy = match near[..] {
+            [] => "name one of its columns".to_owned(),
+            _ => format!("did you mean `{}`?", near.join("` or `")),
+        };
+        let (table, _) = self.key.rsplit_once('.').unwrap_or_default();
+        Fault::new(
+            format!("{table}.{key}"),
+            format!("`{}` has no column `{name}`", self.file.display()),
+            names.join(", "),
+            remedy,
+        )
     }
 
     /// The number in a cell; none in one that is empty or says that there is none.

@@ -71,8 +71,8 @@ fn points(csv: &CsvFile, outline: &OutlineCase) -> Result<(Vec<[f64; 2]>, Option
     let choose = |header: &StringRecord| {
         let [x, y] = named_axes(header).unwrap_or([0, 1]);
         Ok([
-            csv.column(header, names[0], x)?,
-            csv.column(header, names[1], y)?,
+            csv.column(header, ("x_column", names[0]), x)?,
+            csv.column(header, ("y_column", names[1]), y)?,
         ])
     };
     let found = csv.columns(choose)?;

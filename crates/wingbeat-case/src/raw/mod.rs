@@ -54,6 +54,7 @@ pub use joint::{
     TurnCase,
 };
 pub use load::{LoadCase, SpringCase};
+pub(crate) use motion::ANGLES;
 pub use motion::{
     AdjustCase, AngleCase, FourierCase, MotionCase, OvalCase, ShapedCase, SplitCycleCase,
     StartCase, TableCase, WingMotionCase,

@@ -19,12 +19,13 @@ pub struct MotionCase {
     pub frequency_hz: Open<f64>,
     /// Pitch of the stroke plane in the body: the angle about b2 that carries b1 to the normal
     /// of the stroke plane. Hover with a horizontal stroke plane: body pitch + this = 90.
-    /// Default: that of the data set, else 0.
+    /// Default: that of the data set, else 0. Wings that other wings carry go along with these, and do not have it
+    /// a second time.
     ///
     /// Change it for another posture: for hover to 90 less the pitch of the body.
     #[serde(skip_serializing_if = "Open::is_open")]
     pub stroke_plane_pitch_deg: Open<f64>,
-    /// A shipped set of measured wing angles, for wings without angles of their own; left out: none.
+    /// A shipped set of measured wing angles, for wings on the body without angles of their own; left out: none.
     ///
     /// Change it for measured angles; `wingbeat presets` lists the sets.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -46,7 +47,8 @@ pub struct MotionCase {
     ///
     /// Change it to start at another instant of the beat.
     pub phase: f64,
-    /// Adjustments of all wings on top of their angles, as trim finds them.
+    /// Adjustments of all wings on the body on top of their angles, as trim finds them; wings that other wings carry
+    /// go along.
     pub adjust: AdjustCase,
     /// By how much these adjustments are larger of right wings than of left ones: half to either side.
     pub difference: AdjustCase,
@@ -137,7 +139,7 @@ pub enum StartCase {
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct WingMotionCase {
-    /// A shipped set of measured wing angles. Left out: that of `[motion]`.
+    /// A shipped set of measured wing angles. Left out: that of `[motion]`; none of a wing that another wing carries.
     ///
     /// Change it for wings that beat differently.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -161,7 +163,8 @@ pub struct WingMotionCase {
     /// Change it for angles of your own.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub psi: Option<AngleCase>,
-    /// Pitch of this wing's stroke plane. Left out: that of `[motion]`.
+    /// Pitch of this wing's stroke plane. Left out: that of `[motion]`; 0, the axes of its carrier, of a wing that
+    /// another wing carries.
     ///
     /// Change it for wings that beat in planes of their own.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -171,6 +174,29 @@ pub struct WingMotionCase {
     /// Change it for wings that beat out of phase, as those of dragonflies.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub phase: Option<f64>,
+}
+
+/// Names of the angles of a wing, as keys.
+pub(crate) const ANGLES: [&str; 3] = ["phi", "theta", "psi"];
+
+impl WingMotionCase {
+    /// The angles that the case gives, with their names.
+    pub(crate) fn angles(&self) -> impl Iterator<Item = (&'static str, &AngleCase)> {
+        let all = [&self.phi, &self.theta, &self.psi].map(Option::as_ref);
+        ANGLES
+            .into_iter()
+            .zip(all)
+            .filter_map(|(name, angle)| Some((name, angle?)))
+    }
+
+    /// The same to be changed.
+    pub(crate) fn angles_mut(&mut self) -> impl Iterator<Item = (&'static str, &mut AngleCase)> {
+        let all = [&mut self.phi, &mut self.theta, &mut self.psi].map(Option::as_mut);
+        ANGLES
+            .into_iter()
+            .zip(all)
+            .filter_map(|(name, angle)| Some((name, angle?)))
+    }
 }
 
 /// One angle over the wingbeat.

@@ -14,7 +14,7 @@ use super::{DeformationCase, StructureCase, WingMotionCase};
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct WingCase {
-    /// Side of the body. Left out: by the name.
+    /// Side of the body. Left out: by the word `left` or `right` in the name.
     ///
     /// Change it for wings whose name does not tell the side.
     #[serde(skip_serializing_if = "Option::is_none")]

@@ -2,6 +2,7 @@
 
 use wingbeat_flight::FlightSetup;
 use wingbeat_math::DVec3;
+use wingbeat_model::{Side, Wing};
 
 use super::bending::bending;
 use super::measure::{Kept, Line, Measure, Measured, Unit};
@@ -137,9 +138,14 @@ fn angles(setup: &FlightSetup, history: &History) -> Measured {
         (true, false) => "wing angles, with those of passive joints",
         (_, true) => "prescribed wing angles, and those of joints",
     };
+    let is_left = |wing: &Wing| wing.side == Side::Left;
+    let signs = match setup.animal.wings.iter().any(is_left) {
+        true => " (φ and θ of left wings have the opposite sign)",
+        false => "",
+    };
     Measured {
         name: "angles",
-        title: title.to_owned(),
+        title: format!("{title}{signs}"),
         shaded: true,
         panels,
     }

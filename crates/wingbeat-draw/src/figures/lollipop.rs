@@ -81,7 +81,8 @@ fn chord(setup: &FlightSetup, history: &History, poses: &Poses, k: usize) -> Cho
     let row: Vec<f64> = names.map(|name| history.column(name)[k]).collect();
     let number = reference_number(setup).map_or(0, |w| w + 1);
     let wing = &setup.animal.wings[number - 1];
-    let stroke = poses.pose(&row, 0).1 * DMat3::from_rotation_y(wing.motion.stroke_plane_pitch);
+    let stroke =
+        poses.pose(&row, 0).1 * DMat3::from_rotation_y(setup.stroke_plane_pitch(number - 1));
     let turned_to = stroke.transpose() * poses.pose(&row, number).1;
     let section = ChordOnPlane::of(wing, &poses.shape(&row, number - 1), turned_to);
     let name = &column_stems(&setup.animal)[number];

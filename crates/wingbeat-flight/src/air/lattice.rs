@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use wingbeat_air::{AirLoads, AirSettings, AirState, Lattice, Points, SheddingKinds};
+use wingbeat_air::{AirLoads, AirSettings, AirState, Lattice, NodeMotion, Points, SheddingKinds};
 use wingbeat_dynamics::{BodyAcceleration, BodyMotion, Wrench};
 use wingbeat_math::{DVec3, Six, SixBySix, six};
 
@@ -294,6 +294,39 @@ impl Air for LatticeAir {
         let panels = self.lattice.panels_of(wing);
         let mass = rigid_added_mass(&answer, &s.loads, panels, &at.motions[wing + 1]);
         Ok(Some(WingInertia { mass, rate_weights }))
+    }
+
+    fn rate_loads_at_start(
+        &self,
+        wings: &[usize],
+        at: &Instant<'_>,
+        pushed: &[BodyMotion],
+        memory: Option<&AirMemory>,
+        s: &AirScratch,
+        out: &mut [Wrench],
+    ) -> Result<bool, FlightError> {
+        let state = wakes_of(memory).ok_or_else(|| misfit("a lattice needs its wakes"))?;
+        if self.lattice.circulation_rate_weights(state, at.step) != Some([0.0; 3]) {
+            return Ok(false);
+        }
+        let (mut ws, mut loads) = (self.lattice.workspace(), AirLoads::default());
+        let mut nodes = NodeMotion::default();
+        let then = Instant::rigid(at.time, at.step, pushed);
+        self.map.node_motion(&then, &mut nodes)?;
+        (self.lattice)
+            .loads(state, at.time, at.step, &nodes, &mut ws, &mut loads)
+            .map_err(|e| self.map.error_of(e, at))?;
+        for &wing in wings {
+            let origin = at.motions[wing + 1].p;
+            for p in self.lattice.panels_of(wing) {
+                let rate = (loads.gamma[p] - s.loads.gamma[p]) / at.step;
+                let now = (&s.workspace, &s.loads);
+                let [force, couple] = self.lattice.loads_of_rate(p, rate, now);
+                let moment = couple + (s.loads.panels.point[p] - origin).cross(force);
+                out[wing + 1] += Wrench { force, moment };
+            }
+        }
+        Ok(true)
     }
 
     fn deforms(&self) -> bool {

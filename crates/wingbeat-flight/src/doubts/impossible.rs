@@ -1,7 +1,7 @@
 //! Prescribed motions that no animal has, and of which no vortex lattice says what the air does.
 
 use wingbeat_model::{
-    BodyPart, Crossing, FlownCrossings, are_joined, crossing_depth, crossings, inside,
+    BodyPart, Crossing, FlownCrossings, are_joined, coincident, crossing_depth, crossings, inside,
 };
 
 use super::said::names;
@@ -40,6 +40,20 @@ impl FlightSetup {
             }
         };
         self.prescribed_crossings().into_iter().map(say).collect()
+    }
+
+    /// Says which wings lie in each other over most of their area and of the beat in their prescribed motion
+    /// ([`coincident`]); wings with joints of their own are left out.
+    pub fn coincident_wings(&self) -> Vec<String> {
+        let say = |([a, b], part): ([usize; 2], f64)| {
+            let [a, b] = [a, b].map(|w| &self.animal.wings[w].name);
+            format!(
+                "wings `{a}` and `{b}` lie in each other in {:.0} % of the beat, less than 2 % of a mean chord apart over most of their area: blade elements count the air's force twice, and the lattice's equations are singular or nearly so; remove one of them, or move their hinges apart (hinge_m)",
+                100.0 * part
+            )
+        };
+        let found = coincident(&self.animal, &self.prescribed_wings());
+        found.into_iter().map(say).collect()
     }
 
     /// What to do about wings that pass through each other.

@@ -24,7 +24,7 @@ pub enum DoubtKind {
     ScatteredAngles,
     /// Parts of the beat without samples of wing angles.
     GapsInAngles,
-    /// Wings that pass through each other.
+    /// Wings that pass through each other, or lie in each other.
     Crossing,
     /// Wings that pass through each other by little.
     Graze,
@@ -75,6 +75,7 @@ impl FlightSetup {
             let kind = if crossing.is_graze { Graze } else { Crossing };
             add(kind, vec![crossing.said]);
         }
+        add(Crossing, self.coincident_wings());
         add(ScatteredAngles, self.scattered_angles());
         add(GapsInAngles, self.gaps_in_angles());
         add(EdgeAhead, self.trailing_edges_ahead());

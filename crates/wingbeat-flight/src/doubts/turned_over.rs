@@ -86,11 +86,12 @@ impl TurnedOver {
     /// Takes the next step of a flight of `setup`.
     pub fn take(&mut self, r: &Record, setup: &FlightSetup) {
         let is_first = self.wings.is_empty();
-        for (k, wing) in setup.animal.wings.iter().enumerate() {
+        for k in 0..setup.animal.wings.len() {
             let Some(eta) = r.coordinates.get(6 * k + 9..6 * k + 12) else {
                 return;
             };
-            let angles = angles(r, wing, DVec3::from_slice(eta));
+            let plane = setup.stroke_plane_pitch(k);
+            let angles = angles(r, plane, DVec3::from_slice(eta));
             match self.wings.get_mut(k) {
                 Some(turn) => turn.take(angles),
                 None if is_first => self.wings.push(Turn::starting(angles)),
@@ -181,9 +182,10 @@ fn feathers(joint: &Joint, k: usize) -> bool {
     !is_driven && axis.y.abs() >= ALONG_SPAN * axis.length()
 }
 
-/// Stroke angle phi and feathering angle psi of a wing with the Euler angles `eta` \[rad\] in its stroke-plane frame.
-fn angles(r: &Record, wing: &Wing, eta: DVec3) -> [f64; 2] {
-    let plane = DVec3::new(wing.motion.stroke_plane_pitch, 0.0, 0.0);
+/// Stroke angle phi and feathering angle psi of a wing with the Euler angles `eta` \[rad\] in the frame of a stroke plane
+/// of this `pitch` in the body \[rad\].
+fn angles(r: &Record, pitch: f64, eta: DVec3) -> [f64; 2] {
+    let plane = DVec3::new(pitch, 0.0, 0.0);
     let plane = EulerSequence::BODY_231.rotation(plane); // phi of the body is about axis 2
     let wings = EulerSequence::WING_132;
     let relative = (r.root_rotation() * plane).transpose() * wings.rotation(eta);

@@ -48,6 +48,9 @@ impl Equations {
             let air = (self.air.as_ref(), memory.air);
             let scratch = (&s.air_scratch, &mut s.carried_air);
             (self.carried).take_out(&at, air, memory.carried, scratch, &mut s.air)?;
+            for (load, coupling) in s.air.iter_mut().zip(&s.coupling) {
+                *load += *coupling;
+            }
         } else {
             self.bend(t, y, memory, s)?;
         }

@@ -54,6 +54,35 @@ impl FlightSetup {
         Ok(())
     }
 
+    /// Whether wing `w` moves with another wing, which carries it directly or by segments: its motion is in the axes of
+    /// that wing, and what steers strokes and stroke planes of the flyer is not its own a second time.
+    pub fn rides_on_wing(&self, w: usize) -> bool {
+        self.wing_on_body(w) != w
+    }
+
+    /// Pitch of the stroke plane of wing `w` in the body \[rad\]: that of the wing on the body on which it rides.
+    pub fn stroke_plane_pitch(&self, w: usize) -> f64 {
+        let wing = &self.animal.wings[self.wing_on_body(w)];
+        wing.motion.stroke_plane_pitch
+    }
+
+    /// The innermost of the wings that carry wing `w`, directly or by segments; itself where none does.
+    fn wing_on_body(&self, w: usize) -> usize {
+        let (mut body, mut innermost) = (w + 1, w);
+        // No chain is longer than there are joints.
+        for _ in 0..self.joints.len() {
+            let joint = self.joints.iter().find(|j| j.child == body);
+            match joint.and_then(|j| j.parent) {
+                None | Some(0) => break,
+                Some(parent) => body = parent,
+            }
+            if body <= self.animal.wings.len() {
+                innermost = body - 1;
+            }
+        }
+        innermost
+    }
+
     /// Whether what happens depends on the past beside the motion of rigid bodies: wakes, wings that loads bend.
     pub fn has_memory(&self) -> bool {
         self.air.has_memory() || self.animal.is_elastic()

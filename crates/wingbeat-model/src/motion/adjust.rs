@@ -142,6 +142,14 @@ impl Adjustment {
         self.with(difference, |a, d| a + half * d)
     }
 
+    /// What of it acts on a wing that another wing carries, and takes along: the frequency.
+    pub fn on_wing(&self) -> Self {
+        Self {
+            frequency: self.frequency,
+            ..Self::default()
+        }
+    }
+
     /// The share `share` of the way from here to `to`.
     pub fn toward(&self, to: &Self, share: f64) -> Self {
         self.with(to, |a, b| a + share * (b - a))

@@ -38,16 +38,25 @@ pub struct Plant {
 }
 
 impl Plant {
-    /// Of every part of the wingbeat of the trimmed flight, wings on these sides (right +1, left -1).
+    /// Of every part of the wingbeat of the trimmed flight, wings on these [`sides`](crate::control::departure::sides).
     ///
     /// # Errors
     /// Numbers that are not finite.
-    pub fn parts(trim: &Trim, orbit: &Orbit, sides: &[f64]) -> Result<Vec<Self>, AnalysisError> {
+    pub fn parts(
+        trim: &Trim,
+        orbit: &Orbit,
+        sides: &[Option<f64>],
+    ) -> Result<Vec<Self>, AnalysisError> {
         let parts = Part::all(orbit.seen.len());
         parts.map(|p| Self::new(trim, orbit, sides, p)).collect()
     }
 
-    fn new(trim: &Trim, orbit: &Orbit, sides: &[f64], part: Part) -> Result<Self, AnalysisError> {
+    fn new(
+        trim: &Trim,
+        orbit: &Orbit,
+        sides: &[Option<f64>],
+        part: Part,
+    ) -> Result<Self, AnalysisError> {
         let level = Level::of(&trim.beat, &trim.state);
         let joints = &orbit.joints[part.number];
         let states = STATES + joints.len();
@@ -143,7 +152,7 @@ fn fly(
     trim: &Trim,
     part: Part,
     level: &Level,
-    sides: &[f64],
+    sides: &[Option<f64>],
     z: &[f64],
 ) -> Result<Vec<f64>, AnalysisError> {
     let (states, commands) = z.split_at(z.len() - 2 * CONTROLS);
