@@ -5,7 +5,7 @@ use wingbeat_math::{DMat3, DQuat, DVec3, rotation_vector};
 
 use crate::beat::{Beat, State};
 
-/// Forward, right and down at a reference attitude: down along gravity, forward the way the nose points ([`forward`]).
+/// Forward, right and down at a reference attitude: down along gravity, forward the way the nose points (`forward`).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Level {
     /// Level frame to N.
