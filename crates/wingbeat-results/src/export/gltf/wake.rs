@@ -325,7 +325,7 @@ mod tests {
                 linear(srgb)
             );
         }
-        assert_eq!(colour(0.0, 1.0), [255, 222, 123, 255]);
+        assert_eq!(colour(0.0, 1.0), [255, 222, 122, 255]);
     }
 
     /// Two sheets of two rings, side by side, rows alike: without joint edges each root is as strong as its ring, as
