@@ -4,7 +4,8 @@ use crate::common;
 
 use wingbeat_analysis::control::{
     CONTROLS, Channels, Controls, Departure, Held, Law, Limits, Orbit, Reference, Regulator,
-    STATES, Sensors, SteeredBeats, Steering, Timing, Weights, adjustments, disturbed, sides, states,
+    STATES, Sensors, SteeredBeats, Steering, Timing, Weights, adjustments, disturbed, sides,
+    states,
 };
 use wingbeat_analysis::{Beat, Level, Perturbation, Trim, eigen};
 use wingbeat_dynamics::BodyMotion;
