@@ -327,25 +327,32 @@ fn exact_bad_override_says_where_it_came_from() {
 }
 
 #[test]
-fn exact_nan_in_a_table_file() {
+fn exact_gaps_and_numbers_that_are_none_in_a_table_file() {
     let scratch = Scratch::new("file");
     let rows = GOOD.lines().find(|l| l.starts_with("rows_deg")).unwrap();
     case_in(&scratch, &GOOD.replace(rows, "file = \"phi.csv\""));
-    fs::write(
-        scratch.0.join("phi.csv"),
-        "phase,phi\n0,10\n0.25,40\n0.5,nan\n0.75,-40\n1,10\n",
-    )
-    .unwrap();
-    let out = wingbeat(&scratch.0, &["check", "case.toml"]);
-    let report = String::from_utf8(out.stderr).unwrap();
-    assert_eq!(out.status.code(), Some(2));
+    let checked = |cell: &str| {
+        let table = format!("phase,phi\n0,10\n0.25,40\n0.4,20\n0.5,{cell}\n0.75,-40\n1,10\n");
+        fs::write(scratch.0.join("phi.csv"), table).unwrap();
+        let out = wingbeat(&scratch.0, &["check", "case.toml"]);
+        let text = |bytes: Vec<u8>| String::from_utf8(bytes).unwrap();
+        (out.status.code(), text(out.stdout), text(out.stderr))
+    };
+    let (code, _, report) = checked("inf");
+    assert_eq!(code, Some(2));
     assert!(
-        report.contains("line 4: `nan` is not a finite number"),
+        report.contains("line 5: `inf` is not a finite number"),
         "{report}"
     );
     assert!(
         report.contains("case.toml:") && report.contains("table.file"),
         "{report}"
+    );
+    let (code, told, report) = checked("nan");
+    assert_eq!(code, Some(0), "{report}");
+    assert!(
+        told.contains(".phi.table: 1 of 6 rows have no angle"),
+        "{told}"
     );
 }
 
