@@ -2,7 +2,7 @@
 
 use crate::carrier::rides_on_wing;
 use crate::loaded::LoadedCase;
-use crate::raw::{ANGLES, WingMotionCase};
+use crate::raw::{ANGLES, AdjustCase, AngleCase, WingCase, WingMotionCase};
 
 /// A wing with angles of its own, and with others from a shipped set.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -29,6 +29,50 @@ impl LoadedCase {
             .filter_map(|(name, motion)| mixed(name, motion, shared(name)))
             .collect()
     }
+}
+
+impl LoadedCase {
+    /// What `[motion.adjust]` and `[motion.difference]` add to angles that wings are given as tables, as `key = value`;
+    /// none where no wing has a table.
+    pub fn adjusted_tables(&self) -> Vec<String> {
+        let has_table = |(name, wing): (&String, &WingCase)| {
+            let motion = wing
+                .motion
+                .as_ref()
+                .filter(|_| !rides_on_wing(&self.raw, name));
+            let mut angles = motion.into_iter().flat_map(WingMotionCase::angles);
+            angles.any(|(_, law)| matches!(law, AngleCase::Table(_)))
+        };
+        if !self.raw.wing.iter().any(has_table) {
+            return vec![];
+        }
+        let motion = &self.raw.motion;
+        let parts = [
+            ("adjust", &motion.adjust),
+            ("difference", &motion.difference),
+        ];
+        parts
+            .into_iter()
+            .flat_map(|(part, by)| changed(part, by))
+            .collect()
+    }
+}
+
+/// The adjustments that are not 0.
+fn changed(part: &str, by: &AdjustCase) -> Vec<String> {
+    let values = [
+        ("stroke_amplitude", by.stroke_amplitude),
+        ("stroke_offset_deg", by.stroke_offset_deg),
+        ("feathering_amplitude", by.feathering_amplitude),
+        ("feathering_offset_deg", by.feathering_offset_deg),
+        ("feathering_lead", by.feathering_lead),
+        ("deviation_offset_deg", by.deviation_offset_deg),
+        ("stroke_plane_deg", by.stroke_plane_deg),
+    ];
+    let changes = values.into_iter().filter(|(_, value)| *value != 0.0);
+    changes
+        .map(|(key, value)| format!("motion.{part}.{key} = {value}"))
+        .collect()
 }
 
 fn mixed(name: &str, motion: &WingMotionCase, shared: Option<[String; 2]>) -> Option<MixedAngles> {

@@ -2,6 +2,54 @@
 
 use wingbeat_case::LoadedCase;
 
+use crate::common::refusal;
+
+/// A joint of a left wing does not begin with what that of the right wing has.
+#[test]
+fn refuses_a_joint_that_names_no_child() {
+    let joint = "joint.left={ kind = \"revolute\", axis = [0, 1, 0] }";
+    let said = refusal("fruit-fly-hover", &[joint]);
+    let missing = said.contains("joint.left.child") && said.contains("this key is missing");
+    assert!(missing && said.contains("left, right"), "{said}");
+}
+
+/// Of a pair with laws of its own on each side none of the three angles is left out on one.
+#[test]
+fn refuses_an_angle_of_one_side_alone() {
+    for lacking in ["phi", "theta", "psi"] {
+        let sets = ["right", "left"].map(|side| {
+            let angles = ["phi", "theta", "psi"].into_iter();
+            let given = angles.filter(|angle| side == "right" || *angle != lacking);
+            let laws: Vec<String> = given
+                .map(|a| format!("{a}.fourier.cosine_deg = [9.0]"))
+                .collect();
+            format!("wing.{side}.motion={{ {} }}", laws.join(", "))
+        });
+        let said = refusal("fruit-fly-blade", &["motion.data=", &sets[0], &sets[1]]);
+        assert!(
+            said.contains(&format!("wing.left.motion.{lacking}")),
+            "{said}"
+        );
+        assert!(said.contains("would stand still at 0"), "{said}");
+    }
+}
+
+/// What `[motion.adjust]` of a preset adds to measured angles.
+#[test]
+fn exact_adjustments_of_tables_are_listed() {
+    let law = "wing.right.motion.phi={ table = { rows_deg = [[0,10],[0.25,3],[0.5,-10],[0.75,3],[1,10]] } }";
+    let found = |preset: &str, set: &[&str]| {
+        let set: Vec<String> = set.iter().map(|s| (*s).to_owned()).collect();
+        LoadedCase::find(preset, &set).unwrap().adjusted_tables()
+    };
+    assert_eq!(
+        found("fruit-fly-hover", &[law]),
+        ["motion.adjust.stroke_offset_deg = -5.2"]
+    );
+    assert_eq!(found("fruit-fly-hover", &[]), [""; 0]);
+    assert_eq!(found("fruit-fly-hover", &[law, "motion.adjust="]), [""; 0]);
+}
+
 #[test]
 fn behaves_biases_that_the_flight_that_is_held_has_too_are_named() {
     let said = |hold: &str, bias: &str| {

@@ -243,7 +243,7 @@ fn check_carrying(hinge: &Joint) -> Result<(), DynamicsError> {
     if let JointType::PointOnLine { .. } = hinge.model.kind {
         return Err(DynamicsError::BadJoint {
             joint: hinge.name.clone(),
-            what: "the number of free directions of a point on a line, which closes loops and carries nothing,".into(),
+            what: "the number of free directions of a point on a line, which closes loops and carries nothing (the first joint of a child by name carries it: name another one before it),".into(),
             value: 4.0,
         });
     }

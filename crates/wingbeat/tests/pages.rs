@@ -221,8 +221,8 @@ fn balances_the_battery_of_the_page_on_motors() {
     let page = page("motors.md");
     let scratch = Scratch::new("motor");
     let dir = &scratch.0;
-    let [case, volts] = blocks(&page, "toml")[..] else {
-        panic!("two files")
+    let [case, volts, left] = blocks(&page, "toml")[..] else {
+        panic!("two files and a side of its own")
     };
     fs::write(dir.join("motor.toml"), case).unwrap();
     fs::write(dir.join("volts.toml"), volts).unwrap();
@@ -282,6 +282,11 @@ fn balances_the_battery_of_the_page_on_motors() {
         let row = format!("| {lift:.3} | {battery:.3} W | {heat:.3} W |");
         assert!(page.contains(&row), "{row}");
     }
+    // A left joint of its own with the voltage of the right one is the mirror image.
+    let like = left.replace("[0.025]", "[0.03]");
+    fs::write(dir.join("sides.toml"), format!("{case}\n{like}")).unwrap();
+    run(dir, "wingbeat run sides.toml --out sides");
+    assert_eq!(means("sides"), means("motor"));
     let points = fs::read_to_string(dir.join("volts/points.csv")).unwrap();
     let rows: Vec<Vec<&str>> = points
         .lines()

@@ -211,7 +211,7 @@ fn symmetric(e: AnalysisError) -> AnalysisError {
     match e {
         AnalysisError::Asymmetric { lateral, .. } => AnalysisError::Asymmetric {
             lateral,
-            remedy: "feedback is laid out for symmetric flight: make right and left wings alike (no [wing.left] of its own, no motion.difference), and let the wind blow along the plane of symmetry (air.stream_m_s without a part across the heading, which is along n1, with control.hold = \"start\" that at the release); `control.controller = \"external\"` steers any flight",
+            remedy: "feedback is laid out for symmetric flight: make right and left wings alike (no [wing.left] of its own, no motion.difference), and let the wind blow along the plane of symmetry (air.stream_m_s without a part across the heading, which is along n1, with control.hold = \"start\" that at the release) and the weight act (gravity without a part along n2); `control.controller = \"external\"` steers any flight",
         },
         e => e,
     }

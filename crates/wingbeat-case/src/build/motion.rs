@@ -71,7 +71,7 @@ fn start(case: &Case, frequency: f64) -> Start {
     }
 }
 
-/// Refuses strokes and feathering that stand still where only the wing on the other side has any; `has_data`: what is
+/// Refuses angles that stand still where only the wing on the other side has any; `has_data`: what is
 /// left out comes from the data set of `[motion]`.
 pub(super) fn check_halves(
     has_data: bool,
@@ -83,6 +83,7 @@ pub(super) fn check_halves(
     }
     let angles = [
         ("phi", &own.phi, &counterpart.phi),
+        ("theta", &own.theta, &counterpart.theta),
         ("psi", &own.psi, &counterpart.psi),
     ];
     let measured = counterpart.data.is_some();

@@ -108,6 +108,14 @@ pub(super) fn check_bodies(case: &Case) -> Built<()> {
     for (joint, of) in &case.joint {
         let parent = of.parent.as_deref().unwrap_or("body");
         for (key, name) in [("parent", parent), ("child", &of.child[..])] {
+            if name.is_empty() {
+                return Err(Fault::new(
+                    format!("joint.{joint}.{key}"),
+                    "this key is missing",
+                    names.join(", "),
+                    "name the body that it carries; a joint of its own of a left wing takes nothing over from that of the right one",
+                ));
+            }
             if !names.contains(&name) {
                 return Err(no_body(&format!("joint.{joint}.{key}"), name, &names));
             }

@@ -100,10 +100,17 @@ fn rows(
     let converted = |&[x, angle]: &[f64; 2]| convention.apply([x, to_degrees * angle]);
     let rows: Vec<_> = table.rows.iter().map(converted).collect();
     check(csv, &rows, &table.lines, harmonics).map_err(|fault| {
-        match convention.beats_per_unit {
+        let mut fault = match convention.beats_per_unit {
             Some(beats) => timed(fault, &rows, beats, &table.names[0]),
             None => fault,
+        };
+        if let Some(line) = table.gaps.first() {
+            let count = table.gaps.len();
+            fault.problem += &format!(
+                "; rows without an angle are left out ({count}, the first in line {line})"
+            );
         }
+        fault
     })?;
     Ok((rows, table.gaps.len()))
 }

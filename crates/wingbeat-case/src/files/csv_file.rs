@@ -12,7 +12,7 @@ use crate::error::Fault;
 const MARK: &[u8] = b"\xef\xbb\xbf";
 
 /// What cells hold in which there is no number, in letters of either case.
-const NONE: [&str; 4] = ["", "nan", "na", "n/a"];
+const NONE: [&str; 5] = ["", "nan", "-nan", "na", "n/a"];
 
 /// A CSV file, and the key that names it.
 pub(super) struct CsvFile {

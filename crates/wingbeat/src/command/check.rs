@@ -61,6 +61,7 @@ fn look(args: &CheckArgs, report: &mut Report) -> Result<(), IoError> {
     report.value("panels", panels);
     programs(report, &case);
     tell_mixed(report, &case.mixed_angles());
+    tell_adjusted(report, &case.adjusted_tables());
     expectation::tell(report, &estimate);
     // A flight that fails on trial fails of a wrong unit more often than of its steps.
     let cost = cost.inspect_err(|_| warn())?;
@@ -96,6 +97,19 @@ fn tell_mixed(report: &mut Report, wings: &[MixedAngles]) {
         })
     };
     report.value("mixed_angles", wings.iter().map(value).collect::<Vec<_>>());
+}
+
+/// What changes the angles of tables before they are flown.
+fn tell_adjusted(report: &mut Report, by: &[String]) {
+    if !by.is_empty() {
+        entry!(
+            report,
+            "angles",
+            "tables of wings are changed by {}",
+            by.join(", ")
+        );
+    }
+    report.value("adjusted_tables", by);
 }
 
 /// Rows without an angle in tables of them.
