@@ -199,7 +199,7 @@ pub enum AirError {
     },
     /// The influence equations have no unique solution.
     #[error(
-        "air step {step}: the circulations cannot be found ({source}); look for cores of the surfaces (bound_core) wider than their panels, coinciding panels or surfaces, or an open surface declared closed or the other way round"
+        "air step {step}: the circulations cannot be found ({source}); look for cores of the surfaces (bound_core) wider than their panels, coinciding panels or surfaces (of a body on air.ground, panels and their images), or an open surface declared closed or the other way round"
     )]
     Singular {
         /// Accepted steps so far.
