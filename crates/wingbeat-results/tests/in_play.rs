@@ -198,8 +198,8 @@ fn exact_work_of_a_tether_that_speeds_a_body_up_in_four_steps() {
     }
 }
 
-/// A tether that lifts and drops the same rotor as it turns has done `m v^2 / 2 + I w^2 / 2 - m g z` on the body,
-/// and what the air took, to rounding. By quadrature the part of the weight was 3 % off.
+/// A tether that lifts and drops the same rotor as it turns has done `m v^2 / 2 + I w^2 / 2 - m g z` on the
+/// body, and what the air took, to rounding. By quadrature the part of the weight was 3 % off.
 #[test]
 fn exact_work_of_a_tether_that_lifts_a_body_in_four_steps() {
     let lifted = "flight.tether.z={frequency_hz=1.2,sine_m=[0.1]}";
@@ -223,7 +223,8 @@ fn exact_work_of_a_tether_that_lifts_a_body_in_four_steps() {
     }
 }
 
-/// A tether that heaves and pitches bends the wing in the same way whatever the body weighs: its energy closes as well.
+/// A tether that heaves and pitches bends the wing in the same way whatever the body weighs: its energy closes
+/// as well.
 /// The remainder is the rounding of the energy of 1000 kg.
 #[test]
 fn invariant_energy_residual_on_a_tether_that_heaves_does_not_depend_on_the_weight_of_the_body() {

@@ -149,8 +149,8 @@ mod tests {
 
     const ALL: [f64; 2] = [f64::MIN, f64::MAX];
 
-    /// The spectral density of what is looked at every h is the sum of the autocorrelation: h (1 + 2 sum exp(-k h / T))
-    /// for 2 T.
+    /// The spectral density of what is looked at every h is the sum of the autocorrelation:
+    /// h (1 + 2 sum exp(-k h / T)) for 2 T.
     #[test]
     fn exact_density_of_aliased_turbulence_is_the_sum_of_its_autocorrelation() {
         for steps in [0.05_f64, 0.5, 1.0, 3.0] {

@@ -24,8 +24,8 @@ pub struct Towed {
     /// is kept of the start.
     #[serde(skip)]
     pub inertia: Wrench,
-    /// Its weight and the moment about its frame origin [N, N m], N components; not kept either. Impulses have it
-    /// with that of the whole.
+    /// Its weight and the moment about its frame origin [N, N m], N components; not kept either. Impulses have
+    /// it with that of the whole.
     #[serde(skip)]
     pub weight: Wrench,
 }

@@ -12,8 +12,8 @@
 //! the verdict of one that is held in a stream. While a support has the body, the residual counts in the body's
 //! own frame: less the power of what is missing in force and moment of the support, `v . dR_P + w . dR_L` with
 //! the residual R_L of the angular momentum. The body moves as it is made to whatever its mass: only what moves
-//! beside it counts, neither its weight nor what a tether does against that. Works of tether and air count each by
-//! itself: where a tether drives wings through the air, their sum is nothing.
+//! beside it counts, neither its weight nor what a tether does against that. Works of tether and air count each
+//! by itself: where a tether drives wings through the air, their sum is nothing.
 
 use serde::{Deserialize, Serialize};
 use wingbeat_dynamics::{inertia_wrench, kinetic_energy};
