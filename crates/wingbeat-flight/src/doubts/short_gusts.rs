@@ -51,17 +51,32 @@ impl FlightSetup {
             let short = short(&g.shape, flown)?;
             let length = short.time / rate;
             (length / h < short.steps * (1.0 - ROUNDING)).then(|| {
-                format!(
-                    "air.gust[{k}]{} passes the flyer in {length:.1e} s, {:.1} steps of {h:.1e} s: its impulse comes out wrong, \
-                     or is missing; take steps of at most {:.1e} s (time.steps_per_beat, or time.step_s), or a longer gust",
-                    short.what,
-                    length / h,
-                    length / short.steps
-                )
+                let what = &short.what;
+                let (steps, most) = (length / h, length / short.steps);
+                match g.shape {
+                    GustShape::Turbulence(_) => format!(
+                        "air.gust[{k}]{what} is {length:.1e} s to the flyer, {steps:.1} steps of {h:.1e} s: what changes faster than the \
+                         steps is aliased, and the spectral density at low frequencies comes out {:.0} % too large; take steps of \
+                         at most {most:.1e} s (time.steps_per_beat, or time.step_s), or a longer time_scale_s",
+                        100.0 * aliased(steps)
+                    ),
+                    _ => format!(
+                        "air.gust[{k}]{what} passes the flyer in {length:.1e} s, {steps:.1} steps of {h:.1e} s: its impulse comes out \
+                         wrong, or is missing; take steps of at most {most:.1e} s (time.steps_per_beat, or time.step_s), or a \
+                         longer gust"
+                    ),
+                }
             })
         };
         wind.gusts.iter().enumerate().filter_map(say).collect()
     }
+}
+
+/// Part by which the spectral density of turbulence at low frequencies is too large where its time scale takes
+/// so many `steps` \[1\].
+fn aliased(steps: f64) -> f64 {
+    let x = 0.5 / steps;
+    x / x.tanh() - 1.0
 }
 
 /// What of a gust may be too short, of what of it is `flown` in its own time \[s\].
@@ -133,6 +148,17 @@ mod tests {
     use super::*;
 
     const ALL: [f64; 2] = [f64::MIN, f64::MAX];
+
+    /// The spectral density of what is looked at every h is the sum of the autocorrelation:
+    /// h (1 + 2 sum exp(-k h / T)) for 2 T.
+    #[test]
+    fn exact_density_of_aliased_turbulence_is_the_sum_of_its_autocorrelation() {
+        for steps in [0.05_f64, 0.5, 1.0, 3.0] {
+            let sum: f64 = (1..200).map(|k| (-f64::from(k) / steps).exp()).sum();
+            let part = (1.0 + 2.0 * sum) / (2.0 * steps) - 1.0;
+            assert!((aliased(steps) / part - 1.0).abs() < 1e-12, "{steps}");
+        }
+    }
 
     #[test]
     fn exact_narrowest_peaks_of_tables() {

@@ -211,11 +211,12 @@ impl Equations {
         let power = |loads: &[Wrench]| -> f64 {
             loads.iter().zip(&s.motions).map(|(l, m)| l.power(m)).sum()
         };
-        // What it spends on the motion of the root alone is known without a quadrature.
+        // What it spends on the energy and the momenta of the root alone is known without a quadrature.
         let mut tether = s.solution.tether;
         tether.force -= s.towed.inertia.force;
         tether.moment -= s.towed.inertia.moment;
         let [impulse, angular_impulse] = self.external(s, s.solution.budget.centre, &tether);
+        tether += s.towed.weight;
         let deformation: f64 = s.deformation.iter().sum();
         Quadratures {
             hinge_work: s.solution.hinge_power() - s.relative[1],

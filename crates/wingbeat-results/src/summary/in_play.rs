@@ -12,8 +12,8 @@
 //! the verdict of one that is held in a stream. While a support has the body, the residual counts in the body's
 //! own frame: less the power of what is missing in force and moment of the support, `v . dR_P + w . dR_L` with
 //! the residual R_L of the angular momentum. The body moves as it is made to whatever its mass: only what moves
-//! beside it counts. Works of tether and air count each by itself: where a tether drives wings through the air,
-//! their sum is nothing.
+//! beside it counts, neither its weight nor what a tether does against that. Works of tether and air count each
+//! by itself: where a tether drives wings through the air, their sum is nothing.
 
 use serde::{Deserialize, Serialize};
 use wingbeat_dynamics::{inertia_wrench, kinetic_energy};
@@ -42,14 +42,14 @@ struct Carrier {
     angular_momentum: DVec3,
 }
 
-/// What a tether has done in C beside speeding the body up: time \[s\], power \[W\] and work \[J\] up to the
-/// last step, and the kinetic energy of the body at the start \[J\].
+/// What a tether has done in C beside speeding the body up and lifting it: time \[s\], power \[W\] and work
+/// \[J\] up to the last step, and the energy of the body at the start \[J\].
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 struct Tether {
     time: f64,
     power: f64,
     work: f64,
-    kinetic: f64,
+    body: f64,
 }
 
 /// Gathered step by step; energies and works \[J\] in C.
@@ -57,6 +57,7 @@ struct Tether {
 pub(super) struct InPlay {
     start: Option<Start>,
     kinetic: Extent,
+    /// On a tether without that of the body.
     potential: Extent,
     /// Kinetic energy beside that of the mass centre, and strain energy of elastic wings.
     inner: Extent,
@@ -82,7 +83,12 @@ impl InPlay {
         let mass = setup.animal.mass();
         let weight = mass * setup.gravity * (r.time - start.time);
         self.kinetic.take(moving(r, setup, u).0);
-        self.potential.take(r.potential_energy + u.dot(weight));
+        let potential = r.potential_energy + u.dot(weight);
+        let body = match setup.mode {
+            MotionMode::Tethered(_) => self.body_potential(r, setup),
+            MotionMode::Free(_) => 0.0,
+        };
+        self.potential.take(potential - body);
         self.inner.take(inner_energy(r, mass));
         // Of air, loads and tether together: what they do to a frame is known of their sum.
         let external = r.momentum - start.momentum - r.momentum_residual_of_works - weight;
@@ -100,37 +106,49 @@ impl InPlay {
     }
 
     /// A tether that drives wings through the air does as much work as the air takes, and both together none:
-    /// each counts, and both together, without what the body takes up by itself. `external`: work of both and
-    /// of loads in C \[J\].
+    /// each counts, and both together, without what the body takes up by itself, weight and all.
+    /// `external`: work of both and of loads in C \[J\].
     fn take_tether(&mut self, r: &Record, setup: &FlightSetup, external: f64) {
         let u = self.start.map_or(DVec3::ZERO, |start| start.velocity);
         let (body, mut motion) = (&setup.animal.body, body_motion(r));
         motion.v -= u;
         let mut tether = r.tether;
+        tether.force += body.mass * setup.gravity;
+        tether.moment += (motion.r * body.first_moment).cross(setup.gravity);
         if let Some(rates) = r.accelerations.first() {
             let inertia = inertia_wrench(body, &motion, rates);
             tether.force -= inertia.force;
             tether.moment -= inertia.moment;
         }
         let power = tether.power(&motion);
+        let energy = kinetic_energy(body, &motion) + self.body_potential(r, setup);
         let before = self.tether.unwrap_or(Tether {
             time: r.time,
             power,
             work: 0.0,
-            kinetic: kinetic_energy(body, &motion),
+            body: energy,
         });
         let work = before.work + 0.5 * (before.power + power) * (r.time - before.time);
-        let gained = kinetic_energy(body, &motion) - before.kinetic;
         self.tether = Some(Tether {
             time: r.time,
             power,
             work,
             ..before
         });
-        let beside = external - gained;
+        let beside = external - (energy - before.body);
         for work in [work, beside - work, beside] {
             self.works.take(work);
         }
+    }
+
+    /// Potential energy of the body in C, as a frame that moves past the origin of N \[J\].
+    fn body_potential(&self, r: &Record, setup: &FlightSetup) -> f64 {
+        let (body, motion) = (&setup.animal.body, body_motion(r));
+        let carried = self
+            .start
+            .map_or(DVec3::ZERO, |start| start.velocity * (r.time - start.time));
+        let moment = body.mass * (motion.p - carried) + motion.r * body.first_moment;
+        -setup.gravity.dot(moment)
     }
 
     /// Counts what the motion of the frame has to do with the residual in N from the last step to this one.
