@@ -54,7 +54,7 @@ fn setup(keys: &[&str]) -> FlightSetup {
     case.unwrap().setup
 }
 
-/// The hand's places at 5.1 and 4.9 ms, that of the arm's tip with its attitude: its velocity by differences.
+/// A welded hand is where an arm twice as long would be, and its velocity is that of its places a microsecond before and after.
 #[test]
 fn exact_motion_of_a_hand_is_that_of_the_arm_extended() {
     let setup = setup(&[]);
@@ -76,7 +76,7 @@ fn exact_motion_of_a_hand_is_that_of_the_arm_extended() {
     let error = velocity.distance(difference) / velocity.length();
     println!("{apart:e} {error:e}");
     // Measured: roundings, and the third derivative times a sixth of the squared interval.
-    assert!(apart < 1e-16 && error < 1e-7, "{apart:e} {error:e}");
+    assert!(apart < 5e-17 && error < 5e-8, "{apart:e} {error:e}");
 }
 
 /// Slowly towed, the hand has the Reynolds number of its flapping: of the tip at twice the arm's length. On a free joint
@@ -96,7 +96,7 @@ fn agrees_reynolds_number_of_a_hand_is_that_of_its_tip() {
         };
         println!("{} {}", w.report.name, w.tip_speed);
         assert!(
-            (w.tip_speed / flapping - 1.0).abs() < 0.03,
+            (w.tip_speed / flapping - 1.0).abs() < 0.01,
             "{}",
             w.tip_speed
         );
@@ -131,10 +131,7 @@ fn behaves_a_hand_beyond_stall_is_named() {
         setup(&[&held, more].concat()).attached_beyond_stall()
     };
     let beyond = said(35.0, &[]).unwrap();
-    assert!(
-        beyond.contains("(hand-left, hand-right)") || beyond.contains("(hand-right, hand-left)"),
-        "{beyond}"
-    );
+    assert!(beyond.contains("(`hand-left`, `hand-right`)"), "{beyond}");
     assert_eq!(said(2.0, &[]), None);
     assert_eq!(said(35.0, &FREE), None);
 }
