@@ -9,6 +9,7 @@ mod counterparts;
 mod data_sets;
 mod defaults;
 mod differences;
+mod hand_wings;
 mod heeded;
 mod held;
 mod hinged;

@@ -3,7 +3,7 @@
 use crate::animal::{Animal, Wing};
 use crate::crossing::{Sheet, instants, pairs};
 use crate::touching::distance;
-use wingbeat_math::DVec3;
+use wingbeat_math::{DMat3, DVec3};
 
 /// Distance over the smaller mean chord below which sheets are in one place \[1\]: wings of insects and robots are about
 /// as thick.
@@ -15,27 +15,38 @@ const MOST: f64 = 0.5;
 
 /// Pairs of `wings` of the animal that lie in each other over most of the area of the smaller one and most of a beat, at
 /// the instants of [`crate::crossings`], and over which part of the time \[1\].
-pub fn coincident(animal: &Animal, wings: &[usize]) -> Vec<([usize; 2], f64)> {
+/// `carried` has place of the origin \[m\] and attitude in the body of wings that hang on others, at a time \[s\]; none of
+/// those that move on their hinges.
+pub fn coincident(
+    animal: &Animal,
+    wings: &[usize],
+    carried: impl Fn(usize, f64) -> Option<(DVec3, DMat3)>,
+) -> Vec<([usize; 2], f64)> {
     let part = |wings: [usize; 2]| {
-        let part = part_of_time(wings.map(|w| &animal.wings[w]));
+        let carried = |k: usize, t: f64| carried(wings[k], t);
+        let part = part_of_time(wings.map(|w| &animal.wings[w]), carried);
         (part >= MOST).then_some((wings, part))
     };
     pairs(wings.iter().copied()).filter_map(part).collect()
 }
 
 /// Part of the time over which two wings lie in each other; 0 once it can no longer be most of it.
-fn part_of_time(wings: [&Wing; 2]) -> f64 {
+fn part_of_time(wings: [&Wing; 2], carried: impl Fn(usize, f64) -> Option<(DVec3, DMat3)>) -> f64 {
     let reports = wings.map(Wing::report);
     let chord = reports[0].mean_chord.min(reports[1].mean_chord);
     let [small, large] = match reports[0].area <= reports[1].area {
-        true => wings,
-        false => [wings[1], wings[0]],
+        true => [0, 1],
+        false => [1, 0],
     };
-    let (sheet, other) = (Sheet::new(small), Sheet::new(large));
+    let (sheet, other) = (Sheet::new(wings[small]), Sheet::new(wings[large]));
+    let at = |sheet: &Sheet, k: usize, t: f64| match carried(k, t) {
+        Some(place) => sheet.placed(place),
+        None => sheet.at(t),
+    };
     let count = instants(wings).count();
     let (mut met, mut missed) = (0, 0);
     for t in instants(wings) {
-        let nodes = [&sheet.at(t)[..], &other.at(t)];
+        let nodes = [&at(&sheet, small, t)[..], &at(&other, large, t)];
         match lies_in([&sheet, &other], nodes, THICKNESS * chord) {
             true => met += 1,
             false => missed += 1,
@@ -102,7 +113,7 @@ mod tests {
             segments: vec![],
         };
         let all: Vec<usize> = (0..animal.wings.len()).collect();
-        let found = coincident(&animal, &all);
+        let found = coincident(&animal, &all, |_, _| None);
         found.into_iter().map(|(_, part)| part).collect()
     }
 

@@ -253,7 +253,7 @@ impl Sheet {
     }
 
     /// Its nodes \[m\] where the hinge is here and the wing has this attitude.
-    fn placed(&self, (hinge, r): (DVec3, DMat3)) -> Vec<DVec3> {
+    pub fn placed(&self, (hinge, r): (DVec3, DMat3)) -> Vec<DVec3> {
         self.nodes.iter().map(|x| hinge + r * *x).collect()
     }
 

@@ -358,7 +358,7 @@ pub(super) fn reynolds_doubts(air: &AirModel, wings: &[WingEstimate]) -> Vec<Str
 
 fn wing_doubts(setup: &FlightSetup, wing: &Wing, w: &WingEstimate) -> Vec<String> {
     let mut list = Doubts::default();
-    let flaps = Some(w.tip_speed).filter(|u| *u > 0.0);
+    let flaps = Some(w.tip_speed).filter(|u| *u > 0.0 && !w.hangs_free);
     list.see(&TIP_SPEED, "mean tip speed", flaps, " m/s");
     let stroke = w.stroke_amplitude.to_degrees();
     list.see(&STROKE, "stroke amplitude", stroke, " deg");

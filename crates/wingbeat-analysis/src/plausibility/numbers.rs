@@ -10,11 +10,15 @@ pub struct WingEstimate {
     pub report: WingReport,
     /// Stroke angle from end to end \[rad\]; 0 for a wing that does not flap.
     pub stroke_amplitude: f64,
-    /// Mean speed of the tip from flapping, or from the course of a measured surface if that is faster [m/s].
+    /// Mean speed of the tip from flapping, or from the course of a measured surface if that is faster; relative to the
+    /// body, with the motion of the carriers, of a wing that hangs on another one [m/s].
     pub tip_speed: f64,
+    /// Whether it hangs on another wing by joints that leave anything free: its motion is not known beforehand, and speeds
+    /// are those of its own stroke.
+    pub hangs_free: bool,
     /// The larger of tip speed and flight speed [m/s].
     pub speed: f64,
-    /// Reynolds number of the mean chord; none where the viscosity is not known \[1\].
+    /// Reynolds number of the mean chord; none where the viscosity or the motion is not known \[1\].
     pub reynolds: Option<f64>,
     /// Reduced frequency of the mean chord; none where nothing flaps or moves \[1\].
     pub reduced_frequency: Option<f64>,
@@ -53,19 +57,42 @@ pub struct Estimate {
     pub doubts: Vec<String>,
 }
 
+/// What moves a wing beside its own stroke.
+pub(super) struct Moved {
+    /// Fastest speed through the undisturbed air at which a tether moves its tip, strokes left out [m/s].
+    pub by_tether: f64,
+    pub on_wing: OnWing,
+}
+
+/// Whether a wing hangs on another one.
+pub(super) enum OnWing {
+    No,
+    /// By joints that leave nothing free: mean speed of its tip relative to the body [m/s].
+    Prescribed(f64),
+    /// By joints of which one leaves something free.
+    Free,
+}
+
 impl Estimate {
-    pub(super) fn wing(&self, wing: &Wing, report: WingReport, carried: f64) -> WingEstimate {
+    pub(super) fn wing(&self, wing: &Wing, report: WingReport, moved: &Moved) -> WingEstimate {
         let stroke_amplitude = stroke_amplitude(wing);
         let f = wing.motion.frequency;
-        let flapping = 2.0 * stroke_amplitude * report.length * f;
+        let own = 2.0 * stroke_amplitude * report.length * f;
+        let (flapping, hangs_free) = match moved.on_wing {
+            OnWing::No => (own, false),
+            OnWing::Prescribed(speed) => (speed, false),
+            OnWing::Free => (own, true),
+        };
         let tip_speed = flapping.max(f * path_of_measured_tip(wing));
-        let speed = tip_speed.max(self.flight_speed).max(carried);
-        let flaps = tip_speed > 0.0;
+        let speed = tip_speed.max(self.flight_speed).max(moved.by_tether);
+        let flaps = tip_speed > 0.0 && !hangs_free;
+        let viscosity = self.viscosity.filter(|_| !hangs_free);
         WingEstimate {
             stroke_amplitude,
             tip_speed,
+            hangs_free,
             speed,
-            reynolds: (self.viscosity).map(|nu| speed * report.mean_chord / nu),
+            reynolds: viscosity.map(|nu| speed * report.mean_chord / nu),
             reduced_frequency: flaps.then(|| std::f64::consts::PI * f * report.mean_chord / speed),
             report,
             first_frequency: None,

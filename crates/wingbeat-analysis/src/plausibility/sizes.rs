@@ -5,7 +5,7 @@ use wingbeat_math::{DVec3, RotationLaw};
 use wingbeat_model::Wing;
 
 use super::air::{stream, viscosity};
-use super::numbers::Estimate;
+use super::numbers::{Estimate, Moved, OnWing, SAMPLES};
 
 /// Sizes, speeds and what follows from them.
 pub(super) fn sizes(setup: &FlightSetup) -> Estimate {
@@ -27,22 +27,63 @@ pub(super) fn sizes(setup: &FlightSetup) -> Estimate {
         lift_left_out: None,
         doubts: vec![],
     };
-    let wings = animal.wings.iter().zip(reports);
-    let wing = |(w, r)| estimate.wing(w, r, carried(setup, w));
+    let wings = animal.wings.iter().zip(reports).enumerate();
+    let wing = |(k, (w, r))| {
+        let moved = Moved {
+            by_tether: carried(setup, k),
+            on_wing: on_wing(setup, k),
+        };
+        estimate.wing(w, r, &moved)
+    };
     estimate.wings = wings.map(wing).collect();
     estimate
 }
 
-/// Fastest speed through the undisturbed air at which a tether moves the tip of the wing, strokes left out
+/// Whether wing `w` hangs on another one, and how fast its tip then goes on average over a beat, or over the flight where
+/// nothing beats.
+fn on_wing(setup: &FlightSetup, w: usize) -> OnWing {
+    if !setup.rides_on_wing(w) {
+        return OnWing::No;
+    }
+    let tip = tip(&setup.animal.wings[w]);
+    let speed = |t: f64| {
+        let moving = setup.prescribed_in_body(w, t)?;
+        Some((moving.v + moving.r * moving.w.cross(tip)).length())
+    };
+    let times: Vec<f64> = match setup.time.period {
+        Some(period) => (0..SAMPLES)
+            .map(|k| period * k as f64 / SAMPLES as f64)
+            .collect(),
+        None => setup.time.instants(LOOKS).collect(),
+    };
+    let speeds: Option<Vec<f64>> = times.into_iter().map(speed).collect();
+    speeds.map_or(OnWing::Free, |all| {
+        OnWing::Prescribed(all.iter().sum::<f64>() / all.len().max(1) as f64)
+    })
+}
+
+/// The node farthest from the hinge, wing components \[m\].
+fn tip(wing: &Wing) -> DVec3 {
+    let nodes = wing.mesh.nodes.iter().copied();
+    let tip = nodes.max_by(|a, b| a.length().total_cmp(&b.length()));
+    tip.unwrap_or(DVec3::ZERO)
+}
+
+/// Fastest speed through the undisturbed air at which a tether moves the tip of wing `w`, strokes left out
 /// [m/s]; 0 in free flight.
-fn carried(setup: &FlightSetup, wing: &Wing) -> f64 {
+fn carried(setup: &FlightSetup, w: usize) -> f64 {
     let MotionMode::Tethered(motion) = &setup.mode else {
         return 0.0;
     };
     let (air, time) = (stream(&setup.air), &setup.time);
-    let tip = wing.mesh.nodes.iter().copied();
-    let tip = tip.max_by(|a, b| a.length().total_cmp(&b.length()));
-    let tip = wing.hinge_b + tip.map_or(DVec3::ZERO, |x| wing.motion.at(0.0).c * x);
+    let wing = &setup.animal.wings[w];
+    let on_wing = setup
+        .rides_on_wing(w)
+        .then(|| setup.prescribed_in_body(w, 0.0));
+    let tip = match on_wing.flatten() {
+        Some(moving) => moving.p + moving.r * tip(wing),
+        None => wing.hinge_b + wing.motion.at(0.0).c * tip(wing),
+    };
     let past = |t: f64| {
         let root = motion.at(t).motion;
         (root.v + root.r * root.w.cross(tip) - air).length()

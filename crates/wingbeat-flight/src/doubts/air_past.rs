@@ -14,14 +14,28 @@ impl FlightSetup {
         motion: &WingMotion,
         t: f64,
     ) -> impl Fn(DVec3) -> DVec3 + use<> {
-        let root = self.root_at(t);
         let turning = motion.at(t);
+        let in_body = BodyMotion {
+            p: wing.hinge_b,
+            r: turning.c,
+            v: DVec3::ZERO,
+            w: turning.w,
+        };
+        self.air_past_moving(in_body, t)
+    }
+
+    /// The same of a wing that moves so in the body ([`Self::prescribed_in_body`]).
+    pub(crate) fn air_past_moving(
+        &self,
+        wing: BodyMotion,
+        t: f64,
+    ) -> impl Fn(DVec3) -> DVec3 + use<> {
+        let root = self.root_at(t);
         let stream = self.air.stream().unwrap_or_default();
         let stream = root.r.transpose() * (stream - root.v);
-        let hinge = wing.hinge_b;
         move |x| {
-            let of_body = root.w.cross(hinge + turning.c * x);
-            turning.c.transpose() * (stream - of_body) - turning.w.cross(x)
+            let of_body = root.w.cross(wing.p + wing.r * x);
+            wing.r.transpose() * (stream - of_body - wing.v) - wing.w.cross(x)
         }
     }
 

@@ -30,8 +30,9 @@ const INSTANTS: usize = 100;
 
 impl FlightSetup {
     /// Says which wings meet the air beyond stall in their prescribed motion though the lattice lets nothing leave
-    /// their leading edges. Wings with joints of their own, elastic ones and those whose tips shed
-    /// ([`Self::attached_strokes_beyond_stall`]) are left out, and so are forces by Polhamus's analogy.
+    /// their leading edges, those that hang on other wings with the motion of these. Wings on joints that leave anything free,
+    /// elastic ones and those whose tips shed ([`Self::attached_strokes_beyond_stall`]) are left out, and so are forces by
+    /// Polhamus's analogy.
     pub fn attached_beyond_stall(&self) -> Option<String> {
         let found = self.beyond_stall(false)?;
         Some(format!(
@@ -54,7 +55,9 @@ impl FlightSetup {
             return None;
         }
         let wings = self.animal.wings.iter().enumerate();
-        let known = wings.filter(|(w, wing)| !self.has_own_joint(*w) && wing.structure.is_none());
+        let known = wings.filter(|(w, wing)| {
+            wing.structure.is_none() && self.prescribed_in_body(*w, 0.0).is_some()
+        });
         let judged = known.map(|(w, wing)| (&wing.name[..], self.stall(w, wing)));
         let found: Vec<_> = judged.filter(|(_, stall)| stall[0] > PART).collect();
         let [part, most] = [0, 1].map(|k| {
@@ -92,7 +95,11 @@ impl FlightSetup {
             if let Some(shape) = &shape {
                 shape.visit(motion.phase_at(t), |n, [x, v, _]| nodes[n] = [x, v]);
             }
-            let past = self.air_past(wing, &motion, t);
+            let on_joint = self.has_own_joint(w).then(|| self.prescribed_in_body(w, t));
+            let past: Box<dyn Fn(DVec3) -> DVec3> = match on_joint.flatten() {
+                Some(moving) => Box::new(self.air_past_moving(moving, t)),
+                None => Box::new(self.air_past(wing, &motion, t)),
+            };
             for (j, way) in ways.iter_mut().enumerate() {
                 let Some(section) = section(wing, &nodes, j, &past) else {
                     continue;
@@ -124,12 +131,34 @@ impl FlightSetup {
         if air.lattice.plane_wakes {
             return 1.0;
         }
-        let report = self.animal.wings[w].report();
-        let is_joined = air.joined.iter().any(|pair| pair.contains(&w));
+        let surface = one_surface(w, &air.joined_tips);
+        let is_joined = (air.joined.iter().flatten()).any(|w| surface.contains(w));
         let sides = if is_joined { 2.0 } else { 1.0 };
-        let aspect = sides * report.length / report.mean_chord;
+        let reports = surface.iter().map(|&w| self.animal.wings[w].report());
+        let [length, area] = reports.fold([0.0; 2], |[length, area], r| {
+            [length + r.length, area + r.length * r.mean_chord]
+        });
+        let chord = match surface[..] {
+            [only] => self.animal.wings[only].report().mean_chord,
+            _ => area / length,
+        };
+        let aspect = sides * length / chord;
         aspect / (aspect + 2.0)
     }
+}
+
+/// Wing `w` and those that are joined to it by tips and roots, `[inner, outer]`.
+fn one_surface(w: usize, joined_tips: &[[usize; 2]]) -> Vec<usize> {
+    let mut surface = vec![w];
+    let mut next = 0;
+    while let Some(&here) = surface.get(next) {
+        for pair in joined_tips.iter().filter(|pair| pair.contains(&here)) {
+            let new = pair.iter().find(|w| !surface.contains(w)).copied();
+            surface.extend(new);
+        }
+        next += 1;
+    }
+    surface
 }
 
 /// Whether nothing leaves leading edges, and forces are those of attached flow.

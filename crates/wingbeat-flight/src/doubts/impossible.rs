@@ -43,16 +43,30 @@ impl FlightSetup {
     }
 
     /// Says which wings lie in each other over most of their area and of the beat in their prescribed motion
-    /// ([`coincident`]); wings with joints of their own are left out.
+    /// ([`coincident`]), those that hang on other wings with the motion of these; wings on joints that leave anything
+    /// free are left out.
     pub fn coincident_wings(&self) -> Vec<String> {
-        let say = |([a, b], part): ([usize; 2], f64)| {
-            let [a, b] = [a, b].map(|w| &self.animal.wings[w].name);
+        let remedy = |pair: [usize; 2]| match pair.iter().any(|&w| self.has_own_joint(w)) {
+            true => "move hinge or joint (hinge_m; at_m of the joint)",
+            false => "move their hinges apart (hinge_m)",
+        };
+        let say = |(pair, part): ([usize; 2], f64)| {
+            let [a, b] = pair.map(|w| &self.animal.wings[w].name);
             format!(
-                "wings `{a}` and `{b}` lie in each other in {:.0} % of the beat, less than 2 % of a mean chord apart over most of their area: blade elements count the air's force twice, and the lattice's equations are singular or nearly so; remove one of them, or move their hinges apart (hinge_m)",
-                100.0 * part
+                "wings `{a}` and `{b}` lie in each other in {:.0} % of the beat, less than 2 % of a mean chord apart over most of their area: blade elements count the air's force twice, and the lattice's equations are singular or nearly so; remove one of them, or {}",
+                100.0 * part,
+                remedy(pair)
             )
         };
-        let found = coincident(&self.animal, &self.prescribed_wings());
+        let all = 0..self.animal.wings.len();
+        let known: Vec<usize> = all
+            .filter(|&w| self.prescribed_in_body(w, 0.0).is_some())
+            .collect();
+        let carried = |w: usize, t: f64| {
+            let on_joint = self.has_own_joint(w).then(|| self.prescribed_in_body(w, t));
+            on_joint.flatten().map(|moving| (moving.p, moving.r))
+        };
+        let found = coincident(&self.animal, &known, carried);
         found.into_iter().map(say).collect()
     }
 

@@ -18,8 +18,8 @@
 //! | gusts that its steps do not resolve | `short_gusts` |
 //! | forces of blade elements that jump | `jumps` |
 //!
-//! `air_past`: the undisturbed air past a wing in its prescribed motion, by which the motion is judged. `said`: names
-//! of wings, and those of which the same is said.
+//! `air_past`: the undisturbed air past a wing in its prescribed motion, by which the motion is judged.
+//! `on_carriers`: that motion with what carries the wing. `said`: names of wings, and those of which the same is said.
 
 mod air_past;
 mod beyond_stall;
@@ -31,6 +31,7 @@ mod jumps;
 mod late_gusts;
 mod list;
 mod on_bodies;
+mod on_carriers;
 pub(crate) mod pairs;
 pub(crate) mod planes;
 mod revolving;

@@ -83,6 +83,9 @@ fn whole(x: f64) -> String {
 
 /// How a wing moves, as far as it does.
 fn motion(w: &WingEstimate) -> String {
+    if w.hangs_free {
+        return "on another wing by a free joint, its motion not known beforehand".to_owned();
+    }
     let mut parts = vec![];
     if w.tip_speed > 0.0 {
         if w.stroke_amplitude > 0.0 {
