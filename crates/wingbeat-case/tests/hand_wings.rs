@@ -54,7 +54,8 @@ fn setup(keys: &[&str]) -> FlightSetup {
     case.unwrap().setup
 }
 
-/// A welded hand is where an arm twice as long would be, and its velocity is that of its places a microsecond before and after.
+/// A welded hand is where an arm twice as long would be, and its velocity is that of its places a microsecond
+/// before and after.
 #[test]
 fn exact_motion_of_a_hand_is_that_of_the_arm_extended() {
     let setup = setup(&[]);
@@ -79,8 +80,8 @@ fn exact_motion_of_a_hand_is_that_of_the_arm_extended() {
     assert!(apart < 5e-17 && error < 5e-8, "{apart:e} {error:e}");
 }
 
-/// Slowly towed, the hand has the Reynolds number of its flapping: of the tip at twice the arm's length. On a free joint
-/// it is not known.
+/// Slowly towed, the hand has the Reynolds number of its flapping: of the tip at twice the arm's length. On a
+/// free joint it is not known.
 #[test]
 fn agrees_reynolds_number_of_a_hand_is_that_of_its_tip() {
     let slow = "flight.velocity_m_s=[0.03,0,0]";
@@ -111,8 +112,8 @@ fn agrees_reynolds_number_of_a_hand_is_that_of_its_tip() {
     assert!(hands.map(|w| w.reynolds).all(|re| re.is_none()));
 }
 
-/// An arm at 2 deg with a hand at 35 deg to it in a stream is beyond stall, as a wing at 37 deg is; with the hand at 2 deg to
-/// it, or where the joint leaves it free, nothing is said.
+/// An arm at 2 deg with a hand at 35 deg to it in a stream is beyond stall, as a wing at 37 deg is; with the
+/// hand at 2 deg to it, or where the joint leaves it free, nothing is said.
 #[test]
 fn behaves_a_hand_beyond_stall_is_named() {
     let said = |turn: f64, more: &[&str]| {

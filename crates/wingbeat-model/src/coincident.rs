@@ -13,10 +13,10 @@ const THICKNESS: f64 = 0.02;
 /// wings that clap do so for less of the beat.
 const MOST: f64 = 0.5;
 
-/// Pairs of `wings` of the animal that lie in each other over most of the area of the smaller one and most of a beat, at
-/// the instants of [`crate::crossings`], and over which part of the time \[1\].
-/// `carried` has place of the origin \[m\] and attitude in the body of wings that hang on others, at a time \[s\]; none of
-/// those that move on their hinges.
+/// Pairs of `wings` of the animal that lie in each other over most of the area of the smaller one and most of a
+/// beat, at the instants of [`crate::crossings`], and over which part of the time \[1\]. `carried` has place of
+/// the origin \[m\] and attitude in the body of wings that hang on others, at a time \[s\]; none of those that
+/// move on their hinges.
 pub fn coincident(
     animal: &Animal,
     wings: &[usize],

@@ -10,11 +10,11 @@ pub struct WingEstimate {
     pub report: WingReport,
     /// Stroke angle from end to end \[rad\]; 0 for a wing that does not flap.
     pub stroke_amplitude: f64,
-    /// Mean speed of the tip from flapping, or from the course of a measured surface if that is faster; relative to the
-    /// body, with the motion of the carriers, of a wing that hangs on another one [m/s].
+    /// Mean speed of the tip from flapping, or from the course of a measured surface if that is faster;
+    /// relative to the body, with the motion of the carriers, of a wing that hangs on another one [m/s].
     pub tip_speed: f64,
-    /// Whether it hangs on another wing by joints that leave anything free: its motion is not known beforehand, and speeds
-    /// are those of its own stroke.
+    /// Whether it hangs on another wing by joints that leave anything free: its motion is not known beforehand,
+    /// and speeds are those of its own stroke.
     pub hangs_free: bool,
     /// The larger of tip speed and flight speed [m/s].
     pub speed: f64,

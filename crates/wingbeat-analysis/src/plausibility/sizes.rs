@@ -39,8 +39,8 @@ pub(super) fn sizes(setup: &FlightSetup) -> Estimate {
     estimate
 }
 
-/// Whether wing `w` hangs on another one, and how fast its tip then goes on average over a beat, or over the flight where
-/// nothing beats.
+/// Whether wing `w` hangs on another one, and how fast its tip then goes on average over a beat, or over the
+/// flight where nothing beats.
 fn on_wing(setup: &FlightSetup, w: usize) -> OnWing {
     if !setup.rides_on_wing(w) {
         return OnWing::No;

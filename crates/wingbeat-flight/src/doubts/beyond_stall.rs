@@ -29,10 +29,10 @@ const PART: f64 = 0.1;
 const INSTANTS: usize = 100;
 
 impl FlightSetup {
-    /// Says which wings meet the air beyond stall in their prescribed motion though the lattice lets nothing leave
-    /// their leading edges, those that hang on other wings with the motion of these. Wings on joints that leave anything free,
-    /// elastic ones and those whose tips shed ([`Self::attached_strokes_beyond_stall`]) are left out, and so are forces by
-    /// Polhamus's analogy.
+    /// Says which wings meet the air beyond stall in their prescribed motion though the lattice lets nothing
+    /// leave their leading edges, those that hang on other wings with the motion of these. Wings on joints that
+    /// leave anything free, elastic ones and those whose tips shed ([`Self::attached_strokes_beyond_stall`])
+    /// are left out, and so are forces by Polhamus's analogy.
     pub fn attached_beyond_stall(&self) -> Option<String> {
         let found = self.beyond_stall(false)?;
         Some(format!(

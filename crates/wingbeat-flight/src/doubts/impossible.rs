@@ -43,8 +43,8 @@ impl FlightSetup {
     }
 
     /// Says which wings lie in each other over most of their area and of the beat in their prescribed motion
-    /// ([`coincident`]), those that hang on other wings with the motion of these; wings on joints that leave anything
-    /// free are left out.
+    /// ([`coincident`]), those that hang on other wings with the motion of these; wings on joints that leave
+    /// anything free are left out.
     pub fn coincident_wings(&self) -> Vec<String> {
         let remedy = |pair: [usize; 2]| match pair.iter().any(|&w| self.has_own_joint(w)) {
             true => "move hinge or joint (hinge_m; at_m of the joint)",

@@ -6,9 +6,10 @@ use wingbeat_math::{DVec3, RotationLaw};
 use crate::setup::FlightSetup;
 
 impl FlightSetup {
-    /// Motion of wing `w` relative to the root frame at time `t` \[s\], all strokes at full rate from the first instant:
-    /// place \[m\] and velocity [m/s] of its origin in root components, its attitude, its angular velocity in wing
-    /// components [rad/s]. None where a joint between it and the body leaves anything free, so that it is not known beforehand.
+    /// Motion of wing `w` relative to the root frame at time `t` \[s\], all strokes at full rate from the first
+    /// instant: place \[m\] and velocity [m/s] of its origin in root components, its attitude, its angular
+    /// velocity in wing components [rad/s]. None where a joint between it and the body leaves anything free, so
+    /// that it is not known beforehand.
     pub fn prescribed_in_body(&self, w: usize, t: f64) -> Option<BodyMotion> {
         self.in_root(w + 1, t, self.joints.len())
     }
