@@ -86,10 +86,10 @@ pub(super) fn check_halves(
         ("theta", &own.theta, &counterpart.theta),
         ("psi", &own.psi, &counterpart.psi),
     ];
+    // A set has all three angles; a deviation of 0 beside it is common.
     let measured = counterpart.data.is_some();
-    let still = angles
-        .into_iter()
-        .find(|(_, a, b)| a.is_none() && (measured || b.is_some()));
+    let still = (angles.into_iter())
+        .find(|(key, a, b)| a.is_none() && (measured && *key != "theta" || b.is_some()));
     let Some((key, _, _)) = still else {
         return Ok(());
     };
