@@ -135,7 +135,7 @@ fn refuses_rows_that_lack_a_phase_or_a_place() {
     let outline = format!("wing.right.planform={{ outline = {{ file = {points:?} }} }}");
     for set in [law, outline] {
         let said = refusal("fruit-fly-hover", &[&set]);
-        assert!(said.contains("line 3: a cell is empty"), "{said}");
+        assert!(said.contains("line 3: a cell of `"), "{said}");
         assert!(said.contains("leave the row out"), "{said}");
     }
 }

@@ -11,10 +11,10 @@ pub struct WingEstimate {
     /// Stroke angle from end to end \[rad\]; 0 for a wing that does not flap.
     pub stroke_amplitude: f64,
     /// Mean speed of the tip from flapping, or from the course of a measured surface if that is faster;
-    /// relative to the body, with the motion of the carriers, of a wing that hangs on another one [m/s].
+    /// relative to the body; of a wing that joints or other wings move, with their motion [m/s].
     pub tip_speed: f64,
-    /// Whether it hangs on another wing by joints that leave anything free: its motion is not known beforehand,
-    /// and speeds are those of its own stroke.
+    /// Whether joints that leave anything free move it, as it rides on another wing or has no stroke of its own:
+    /// its motion is not known beforehand, and speeds are those of its own stroke.
     pub hangs_free: bool,
     /// The larger of tip speed and flight speed [m/s].
     pub speed: f64,
@@ -61,15 +61,16 @@ pub struct Estimate {
 pub(super) struct Moved {
     /// Fastest speed through the undisturbed air at which a tether moves its tip, strokes left out [m/s].
     pub by_tether: f64,
-    pub on_wing: OnWing,
+    pub by_joints: ByJoints,
 }
 
-/// Whether a wing hangs on another one.
-pub(super) enum OnWing {
+/// How joints move a wing relative to the body.
+pub(super) enum ByJoints {
+    /// Not at all, or what they leave free is small beside its own stroke, as at a passive hinge.
     No,
-    /// By joints that leave nothing free: mean speed of its tip relative to the body [m/s].
+    /// They leave nothing free: mean speed of its tip relative to the body [m/s].
     Prescribed(f64),
-    /// By joints of which one leaves something free.
+    /// One leaves something free.
     Free,
 }
 
@@ -78,10 +79,10 @@ impl Estimate {
         let stroke_amplitude = stroke_amplitude(wing);
         let f = wing.motion.frequency;
         let own = 2.0 * stroke_amplitude * report.length * f;
-        let (flapping, hangs_free) = match moved.on_wing {
-            OnWing::No => (own, false),
-            OnWing::Prescribed(speed) => (speed, false),
-            OnWing::Free => (own, true),
+        let (flapping, hangs_free) = match moved.by_joints {
+            ByJoints::No => (own, false),
+            ByJoints::Prescribed(speed) => (speed, false),
+            ByJoints::Free => (own, true),
         };
         let tip_speed = flapping.max(f * path_of_measured_tip(wing));
         let speed = tip_speed.max(self.flight_speed).max(moved.by_tether);

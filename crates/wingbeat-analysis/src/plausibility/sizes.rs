@@ -5,7 +5,7 @@ use wingbeat_math::{DVec3, RotationLaw};
 use wingbeat_model::Wing;
 
 use super::air::{stream, viscosity};
-use super::numbers::{Estimate, Moved, OnWing, SAMPLES};
+use super::numbers::{ByJoints, Estimate, Moved, SAMPLES, stroke_amplitude};
 
 /// Sizes, speeds and what follows from them.
 pub(super) fn sizes(setup: &FlightSetup) -> Estimate {
@@ -31,7 +31,7 @@ pub(super) fn sizes(setup: &FlightSetup) -> Estimate {
     let wing = |(k, (w, r))| {
         let moved = Moved {
             by_tether: carried(setup, k),
-            on_wing: on_wing(setup, k),
+            by_joints: by_joints(setup, k),
         };
         estimate.wing(w, r, &moved)
     };
@@ -39,11 +39,13 @@ pub(super) fn sizes(setup: &FlightSetup) -> Estimate {
     estimate
 }
 
-/// Whether wing `w` hangs on another one, and how fast its tip then goes on average over a beat, or over the
-/// flight where nothing beats.
-fn on_wing(setup: &FlightSetup, w: usize) -> OnWing {
-    if !setup.rides_on_wing(w) {
-        return OnWing::No;
+/// Whether joints move wing `w`, which hangs on another one or has no stroke of its own, and how fast its tip
+/// then goes on average over a beat, or over the flight where nothing beats.
+fn by_joints(setup: &FlightSetup, w: usize) -> ByJoints {
+    let hangs_on_joint = setup.joints.iter().any(|j| j.child == w + 1);
+    let is_moved = hangs_on_joint && stroke_amplitude(&setup.animal.wings[w]) == 0.0;
+    if !setup.rides_on_wing(w) && !is_moved {
+        return ByJoints::No;
     }
     let tip = tip(&setup.animal.wings[w]);
     let speed = |t: f64| {
@@ -57,8 +59,8 @@ fn on_wing(setup: &FlightSetup, w: usize) -> OnWing {
         None => setup.time.instants(LOOKS).collect(),
     };
     let speeds: Option<Vec<f64>> = times.into_iter().map(speed).collect();
-    speeds.map_or(OnWing::Free, |all| {
-        OnWing::Prescribed(all.iter().sum::<f64>() / all.len().max(1) as f64)
+    speeds.map_or(ByJoints::Free, |all| {
+        ByJoints::Prescribed(all.iter().sum::<f64>() / all.len().max(1) as f64)
     })
 }
 
@@ -77,10 +79,7 @@ fn carried(setup: &FlightSetup, w: usize) -> f64 {
     };
     let (air, time) = (stream(&setup.air), &setup.time);
     let wing = &setup.animal.wings[w];
-    let on_wing = setup
-        .rides_on_wing(w)
-        .then(|| setup.prescribed_in_body(w, 0.0));
-    let tip = match on_wing.flatten() {
+    let tip = match setup.prescribed_in_body(w, 0.0) {
         Some(moving) => moving.p + moving.r * tip(wing),
         None => wing.hinge_b + wing.motion.at(0.0).c * tip(wing),
     };

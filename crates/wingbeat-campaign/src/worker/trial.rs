@@ -323,10 +323,14 @@ impl CampaignFile {
             Some(_) => "mean_beats",
             None => "keep",
         };
+        let allowed = match most {
+            0 => "flights of a whole wingbeat or more".to_owned(),
+            _ => format!("a whole number from 1 to {most}"),
+        };
         Err(self.fault(
             place,
             format!("means over {wanted} wingbeats, and flights of {most} whole ones"),
-            &format!("a whole number from 1 to {}", most.max(1)),
+            &allowed,
             "fly longer (`\"time.beats\"` in [set]), take means over fewer, or keep what is no mean (`end.`, `summary.`)",
         ))
     }

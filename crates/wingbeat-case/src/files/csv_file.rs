@@ -59,7 +59,7 @@ impl CsvFile {
                     found.lines.push(line);
                 }
                 (_, None) => found.gaps.push(line),
-                (None, Some(_)) => return Err(self.empty(line)),
+                (None, Some(_)) => return Err(self.empty(line, &found.names[..1])),
             }
         }
         if found.rows.is_empty() {
@@ -136,10 +136,15 @@ impl CsvFile {
         })
     }
 
-    /// A row of this line has to have both numbers, and one is missing.
-    pub fn empty(&self, line: u64) -> Fault {
+    /// A row of this line has to have the numbers of these columns, and one is missing.
+    pub fn empty(&self, line: u64, columns: &[String]) -> Fault {
+        let named = columns.iter().any(|name| !name.is_empty());
+        let of = match named {
+            true => format!(" of `{}`", columns.join("` or `")),
+            false => String::new(),
+        };
         let mut fault = self.bad(&format!(
-            "line {line}: a cell is empty, or says that there is no number"
+            "line {line}: a cell{of} is empty, or says that there is no number"
         ));
         fault.remedy = "write the number, or leave the row out".into();
         fault

@@ -77,7 +77,7 @@ fn points(csv: &CsvFile, outline: &OutlineCase) -> Result<(Vec<[f64; 2]>, Option
     };
     let found = csv.columns(choose)?;
     if let Some(&line) = found.gaps.first() {
-        return Err(csv.empty(line));
+        return Err(csv.empty(line, &found.names));
     }
     let [x, y] = found.names.each_ref().map(|name| unit(name));
     if x != y {

@@ -120,6 +120,15 @@ impl Size {
     }
 }
 
+/// A mass \[kg\] in milligrams, or in grams from one on.
+fn in_words(mass: f64) -> String {
+    let (scaled, unit) = match mass < 1e-3 {
+        true => (1e6 * mass, "mg"),
+        false => (1e3 * mass, "g"),
+    };
+    format!("{} {unit}", number(scaled))
+}
+
 /// A number and where it comes from.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Sourced {
@@ -210,7 +219,7 @@ impl Insect {
             |value| Sourced::new(value, format!("estimated: proportions of the {}", s.name));
         Ok(Self {
             name: "insect".to_owned(),
-            title: format!("insect of {} mg", number(1e6 * mass.value)),
+            title: format!("insect of {}", in_words(mass.value)),
             made_by: size.command(),
             wing_mass: proportional(s.wing_share * mass.value),
             body_length: proportional(s.body_length * (mass.value / m0).cbrt()),

@@ -84,7 +84,7 @@ fn whole(x: f64) -> String {
 /// How a wing moves, as far as it does.
 fn motion(w: &WingEstimate) -> String {
     if w.hangs_free {
-        return "on another wing by a free joint, its motion not known beforehand".to_owned();
+        return "on a free joint, its motion not known beforehand".to_owned();
     }
     let mut parts = vec![];
     if w.tip_speed > 0.0 {
