@@ -18,7 +18,8 @@ pub struct Engine<'a> {
 }
 
 impl Engine<'_> {
-    /// A script for `sbatch`: an array of jobs, a shard each, then one that merges.
+    /// A script for `sbatch`: an array of jobs, a shard each. The notice before the time limit goes to the batch shell,
+    /// which the campaign takes the place of.
     pub fn slurm(&self, campaign: &Campaign, time: &str) -> String {
         let Self { shards, jobs, .. } = self;
         let [file, out] = [self.file, self.out].map(shell);
@@ -33,7 +34,7 @@ impl Engine<'_> {
 #SBATCH --cpus-per-task={jobs}
 #SBATCH --time={time}
 #SBATCH --output=slurm-%A_%a.log
-#SBATCH --signal=TERM@60
+#SBATCH --signal=B:TERM@60
 #SBATCH --requeue
 exec wingbeat campaign run {file} --out {out} --shard "$SLURM_ARRAY_TASK_ID/{shards}" --jobs "${{SLURM_CPUS_PER_TASK:-{jobs}}}"
 "#

@@ -222,3 +222,26 @@ fn refuses_what_is_no_file() {
         "{said}"
     );
 }
+
+/// On its own line a turned filament is as near as rounding makes it: without a core that is a lift of 1e12 N.
+#[test]
+fn refuses_bound_cores_that_are_lost_in_rounding() {
+    for (core, size) in [
+        ("cut_off", "length"),
+        ("vatistas", "radius"),
+        ("scully", "radius"),
+        ("lamb_oseen", "radius"),
+    ] {
+        for chords in ["0", "1e-7"] {
+            let set = format!("air.bound_core={{{core}={{{size}_chords={chords}}}}}");
+            let said = refusal("flapping-rectangles", &[&set]);
+            let key = format!("air.bound_core.{core}.{size}_m");
+            assert!(
+                said.contains(&key) && said.contains("a millionth of the mean chord"),
+                "{said}"
+            );
+        }
+    }
+    let zero = "air.bound_core={algebraic={radius_chords=0}}".to_owned();
+    LoadedCase::find(Path::new("fruit-fly-hover"), &[zero]).unwrap();
+}

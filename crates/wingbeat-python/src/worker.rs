@@ -32,14 +32,15 @@ impl Watch {
 
 /// What came of work, and what interrupted it: a signal or the progress callback.
 pub struct Worked<T> {
-    /// None where it was told to stop and did not in time.
+    /// None where it was to stop and did not in time, or was not waited for.
     pub result: Option<T>,
     /// The exception that ended it.
     pub interrupted: Option<PyErr>,
 }
 
 /// Does `work` within the pool of threads while Python goes on, and calls `progress(done, of)` meanwhile. A
-/// signal stops it: work that is `patient` (it writes files) is then waited for, other work for a moment only.
+/// signal stops it: work that is `patient` (it writes files) is then waited for until another signal comes, other work
+/// for a moment only.
 pub fn work<T: Send + 'static>(
     py: Python<'_>,
     progress: Option<(&Py<PyAny>, usize)>,
@@ -57,12 +58,13 @@ pub fn work<T: Send + 'static>(
         }
     });
     let interrupted = loop {
-        match py.detach(|| receive(&results, Some(PERIOD))) {
+        match py.detach(|| receive(&results, PERIOD)) {
             Ok(result) => {
-                let told = tell(py, progress, &watch);
+                // A signal of the last moment, too: Python would raise it elsewhere, and the result were lost.
+                let go_on = py.check_signals().and_then(|()| tell(py, progress, &watch));
                 return Ok(Worked {
                     result: Some(result),
-                    interrupted: told.err(),
+                    interrupted: go_on.err(),
                 });
             }
             Err(RecvTimeoutError::Disconnected) => return Err(broken()),
@@ -74,19 +76,30 @@ pub fn work<T: Send + 'static>(
         }
     };
     watch.stop.store(true, Ordering::Relaxed);
+    let result = match patient {
+        true => finished(py, &results),
+        false => py.detach(|| receive(&results, PATIENCE).ok()),
+    };
     Ok(Worked {
-        result: py.detach(|| receive(&results, (!patient).then_some(PATIENCE)).ok()),
+        result,
         interrupted: Some(interrupted),
     })
 }
 
-/// Waits for the result, for so long at most.
-fn receive<T>(results: &Mutex<Receiver<T>>, most: Option<Duration>) -> Result<T, RecvTimeoutError> {
-    let results = results.lock().unwrap_or_else(PoisonError::into_inner);
-    match most {
-        Some(most) => results.recv_timeout(most),
-        None => results.recv().map_err(|_| RecvTimeoutError::Disconnected),
+/// What work that was told to stop has when it has ended; none where another signal says not to wait for it.
+fn finished<T: Send>(py: Python<'_>, results: &Mutex<Receiver<T>>) -> Option<T> {
+    loop {
+        match py.detach(|| receive(results, PERIOD)) {
+            Err(RecvTimeoutError::Timeout) if py.check_signals().is_ok() => {}
+            result => return result.ok(),
+        }
     }
+}
+
+/// Waits for the result, for so long at most.
+fn receive<T>(results: &Mutex<Receiver<T>>, most: Duration) -> Result<T, RecvTimeoutError> {
+    let results = results.lock().unwrap_or_else(PoisonError::into_inner);
+    results.recv_timeout(most)
 }
 
 fn tell(py: Python<'_>, progress: Option<(&Py<PyAny>, usize)>, watch: &Watch) -> PyResult<()> {

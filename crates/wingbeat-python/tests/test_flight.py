@@ -5,9 +5,15 @@ from __future__ import annotations
 import copy
 import gc
 import hashlib
+import os
 import pickle
+import signal
+import subprocess
+import sys
 import threading
+import time
 import tomllib
+import traceback
 import weakref
 from pathlib import Path
 
@@ -225,6 +231,46 @@ def test_behaves_a_flight_stopped_by_ctrl_c_is_resumed_by_the_program(program, t
     resumed = wingbeat.read(tmp_path / "stopped")
     for column, numbers in whole.arrays.items():
         np.testing.assert_array_equal(resumed.arrays[column], numbers)
+
+
+def test_behaves_ctrl_c_at_any_time_leaves_the_exception_its_run(blade):
+    flight, runs = blade.set({"time.beats": 10}), []
+    for k in range(12):
+        timer = threading.Timer(0.02 + 0.004 * k, os.kill, (os.getpid(), signal.SIGINT))
+        try:
+            timer.start()
+            while True:
+                flight.fly(frames=False)
+        except KeyboardInterrupt as error:
+            # Between two flights Python itself raises it.
+            frames = [frame.name for frame in traceback.extract_tb(error.__traceback__)]
+            if "fly" in frames:
+                runs.append(error.run)
+        timer.join()
+    assert len(runs) >= 6 and any(run is not None for run in runs)
+
+
+@pytest.mark.timed
+def test_behaves_a_second_ctrl_c_does_not_wait_for_the_page(tmp_path):
+    script = (
+        "import wingbeat\n"
+        "try:\n    wingbeat.Flight.preset('fruit-fly-blade').set({'time.beats': 3000}).fly(out='run')\n"
+        "except KeyboardInterrupt as e:\n    print('run', e.run, flush=True)\n"
+    )
+    process = subprocess.Popen([sys.executable, "-c", script], stdout=subprocess.PIPE, text=True, cwd=tmp_path)
+    while not (tmp_path / "run" / "history.csv").is_file():
+        time.sleep(0.02)
+    time.sleep(1.0)
+    process.send_signal(signal.SIGINT)
+    time.sleep(0.3)
+    sent = time.monotonic()
+    process.send_signal(signal.SIGINT)
+    assert process.stdout is not None
+    told = process.stdout.readline()
+    assert told == "run None\n" and time.monotonic() - sent < 0.5
+    process.kill()
+    process.wait()
+
 
 
 def test_agrees_exports_with_the_history_value_for_value(blade, tmp_path):

@@ -118,9 +118,14 @@ impl Topology {
         }
     }
 
+    /// The surface of a node.
+    pub(crate) fn surface_of(&self, node: usize) -> usize {
+        self.first_node.partition_point(|&f| f <= node) - 1
+    }
+
     /// Name of the surface of a node, and the node's number there.
     pub(crate) fn locate_node(&self, node: usize) -> (String, usize) {
-        let s = self.first_node.partition_point(|&f| f <= node) - 1;
+        let s = self.surface_of(node);
         (self.surface_names[s].clone(), node - self.first_node[s])
     }
 

@@ -10,7 +10,8 @@
 //! a wing, and between two panels, to the last bit: where the push jumped there, rounding would
 //! decide, on the left wing otherwise than on the right one. So
 //! - within a clearance of the edges of a wing the push falls smoothly to zero;
-//! - between panels it is shared by both;
+//! - between panels it is shared by both, also between a panel and its mirror image where an edge lies on a plane of
+//!   images;
 //! - it is blocked by the wing where it crosses it, `x(s)` with `s = |h0| / (|h0| + |h1|)` for heights h0 at
 //!   the start and h1 at the end (both raised by half of what is no height); what is not blocked there, near an
 //!   edge, is kept off on the side where it ends;
@@ -24,6 +25,7 @@
 //! they are extrapolated with the velocities of the accepted step, an error of half the
 //! acceleration times the step squared, which the clearance must exceed.
 
+use crate::images::Plane;
 use crate::lattice::Lattice;
 use crate::state::AirState;
 use rayon::prelude::*;
@@ -85,7 +87,27 @@ impl Obstacles {
         for s in (0..count).filter(|&s| !lattice.surfaces()[s].carry_through) {
             self.surfaces[lattice.joined_groups()[s]].add(lattice, s, ends);
         }
+        if count > 0 {
+            self.add_images(lattice, &state.position);
+        }
         self.surfaces.iter_mut().for_each(Obstacle::enclose);
+    }
+
+    /// Adds the mirror images of surfaces that are joined to them on a plane, which are one surface with them.
+    fn add_images(&mut self, lattice: &Lattice, position: &[DVec3]) {
+        let topology = lattice.topology();
+        let mut added: Vec<(usize, Plane)> = vec![];
+        for line in &topology.plane_lines {
+            let node = line[line.len() / 2];
+            let group = lattice.joined_groups()[topology.surface_of(node)];
+            let Some(&plane) = lattice.nearest_plane(position[node]) else {
+                continue;
+            };
+            if !added.contains(&(group, plane)) {
+                added.push((group, plane));
+                self.surfaces[group].add_image(&plane);
+            }
+        }
     }
 
     /// Mends the ends of the paths `from` -> `to` of all nodes; returns how many were changed, all and those that
@@ -174,6 +196,20 @@ impl Obstacle {
                 .extend(sides.map(|k| [0, 1].map(|end| panel.side(end, k))));
             self.panels.push(panel);
         }
+    }
+
+    /// Adds the mirror images of all its panels and borders in a plane.
+    fn add_image(&mut self, plane: &Plane) {
+        let reflected = |x: DVec3| 2.0 * plane.foot(x) - x;
+        let image = |p: &Panel| {
+            let corner = |k: usize| [0, 1].map(|end| reflected(p.corners[end][k]));
+            Panel::new(std::array::from_fn(corner), p.is_border)
+        };
+        let panels: Vec<Panel> = self.panels.iter().map(image).collect();
+        self.panels.extend(panels);
+        let sides = self.border.clone();
+        let sides = sides.iter().map(|side| side.map(|end| end.map(reflected)));
+        self.border.extend(sides);
     }
 
     /// Finds the sphere.

@@ -43,8 +43,10 @@ fn settings(case: &AirCase, chord: &Chord) -> Built<AirSettings> {
     let wake_core = chord.core("air.wake_core", &case.wake_core)?;
     let ground = case.ground.map(|g| wind::ground(&g, stream)).transpose()?;
     let particles = |p| particles(p, case, chord, wake_core);
+    let bound_core = bound_core(chord, &case.bound_core, wake_core)?;
+    chord.check_bound_core(&bound_core)?;
     Ok(AirSettings {
-        bound_core: bound_core(chord, &case.bound_core, wake_core)?,
+        bound_core,
         wake_core,
         wake_overlap: case.wake_overlap.value(),
         overlap_slope: overlap_slope(case)?,

@@ -7,6 +7,11 @@ use super::fault::Built;
 use crate::error::Fault;
 use crate::raw::CoreCase;
 
+/// Size of a bound core in mean chords below which rounding decides what a turned filament does to points on its
+/// own line: their distance from it is 1e-16 of the places, which no narrower core hides (a thousandth of this
+/// changes the lift of flapping wings by 3 to 70 %). An algebraic core is part of the distance and may be 0.
+const LEAST_BOUND_CORE: f64 = 1e-6;
+
 /// The mean chord of all wings; of an animal without wings the mean width of the panels of its body, of
 /// several parts the smallest of their mean widths.
 pub(super) struct Chord(Option<f64>);
@@ -80,5 +85,27 @@ impl Chord {
                 viscosity: c.viscosity_m2_s.unwrap_or(AIR_VISCOSITY),
             },
         })
+    }
+
+    /// Refuses a core of the surfaces that is lost in rounding.
+    pub fn check_bound_core(&self, core: &CoreModel) -> Built<()> {
+        let (key, size) = match *core {
+            CoreModel::CutOff { delta } => ("cut_off.length_m", delta),
+            CoreModel::Vatistas { radius } => ("vatistas.radius_m", radius),
+            CoreModel::Scully { radius } => ("scully.radius_m", radius),
+            CoreModel::LambOseen { radius, .. } => ("lamb_oseen.radius_m", radius),
+            CoreModel::Algebraic { .. } => return Ok(()),
+        };
+        match self.0.map(|chord| LEAST_BOUND_CORE * chord) {
+            Some(least) if size < least => Err(Fault::new(
+                format!("air.bound_core.{key}"),
+                format!(
+                    "{size:e} is so small that roundings decide what filaments do on their own line"
+                ),
+                format!("at least a millionth of the mean chord, {least:.3e}"),
+                "0.01 chords are far below a panel; `algebraic` may be 0",
+            )),
+            _ => Ok(()),
+        }
     }
 }

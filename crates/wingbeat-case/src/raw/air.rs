@@ -60,7 +60,8 @@ pub struct AirCase {
     #[schemars(extend("with" = LATTICE))]
     pub shed: Vec<EdgeKind>,
     /// Core of the vortex filaments on the surfaces. Default: algebraic, 0.01 mean chords; of animals without
-    /// wings 0.01 mean widths of the panels of their bodies, which stand for the chord there.
+    /// wings 0.01 mean widths of the panels of their bodies, which stand for the chord there. At least a millionth of
+    /// that, but for the algebraic one, which may be 0: beside their own line filaments know distances to rounding.
     ///
     /// Change it with care: a core wider than half a panel spoils the Kutta condition.
     #[default(LambOseenCase::chords(0.01))]

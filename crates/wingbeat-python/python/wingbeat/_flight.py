@@ -250,7 +250,7 @@ class Flight:
         ``progress`` is called with steps done and all steps; True shows a bar (tqdm where there is one). ``frames=False``
         keeps no surfaces and wakes in memory. Other threads run meanwhile. Ctrl-C stops the flight: with ``out`` its
         state is saved, and ``wingbeat resume`` goes on from it. Whatever exception ends a flight, what was flown is its
-        ``run``: None if it ended at its start.
+        ``run``: None if it ended at its start, or if a second Ctrl-C did not wait for the files of the first.
         """
         folder = None if out is None else path("out", out)
         if out is not None and self._core.is_own:
@@ -260,7 +260,12 @@ class Flight:
                 remedy="fly() in memory, then run.write(FOLDER)",
             )
         bar = shown(progress, self.name, "step")
-        run, error = self._core.fly(folder, bar, flag("frames", frames))
+        frames = flag("frames", frames)
+        try:
+            run, error = self._core.fly(folder, bar, frames)
+        except BaseException as error:
+            _keep(error, None)
+            raise
         if error is not None:
             _keep(error, None if run is None else Run(run))
             raise error

@@ -6,7 +6,7 @@ use wingbeat::analysis::{
     doubtful_reynolds_numbers, stroke_amplitude, turned_inside_out,
 };
 use wingbeat::case::LoadedCase;
-use wingbeat::flight::FlightSetup;
+use wingbeat::flight::{FlightSetup, MotionMode};
 use wingbeat::math::{DVec3, larger};
 use wingbeat::results::fixed::signed;
 
@@ -50,11 +50,29 @@ fn heading(report: &mut Report, case: &LoadedCase, problem: &TrimProblem) {
         line!(report, "of the open loop: [control] is left out");
     }
     report.value("control_left_out", has_control);
+    let start = start_velocity(&case.setup);
+    let is_left_out = start != DVec3::ZERO && problem.velocity == DVec3::ZERO;
+    if is_left_out {
+        let [n1, n2, n3] = start.to_array();
+        line!(
+            report,
+            "flight.velocity_m_s = [{n1}, {n2}, {n3}] of the case is left out: --forward, --sideslip and --climb say the speed"
+        );
+    }
+    report.value("velocity_left_out", is_left_out);
     report.value("case", case.name.as_str());
     report.value("forward_m_s", forward);
     report.value("climb_m_s", up);
     report.value("sideslip_m_s", problem.velocity.y);
     report.value("turn_rate_deg_s", problem.turn_rate.to_degrees());
+}
+
+/// Velocity of the body at the start of a free flight, N components [m/s]; 0 on a tether.
+fn start_velocity(setup: &FlightSetup) -> DVec3 {
+    match &setup.mode {
+        MotionMode::Free(start) => start.velocity,
+        MotionMode::Tethered(_) => DVec3::ZERO,
+    }
 }
 
 /// Whether it was found.
