@@ -123,7 +123,7 @@ pub enum FlightError {
     },
     /// Motion that is not mirror-symmetric though only one half of the air is computed.
     #[error(
-        "t = {time:.6e} s: the motion is not mirror-symmetric: within a step it parts from its image by {apart:.1e} of its natural sizes, by loads, springs, speeds or masses of one side; compute both halves: air.mirror = false"
+        "t = {time:.6e} s: the motion is not mirror-symmetric: within a step it parts from its image by {apart:.1e} of its natural sizes, by loads, springs, speeds or masses of one side, or by rounding in joints far stiffer than steps resolve; compute both halves: air.mirror = false"
     )]
     Asymmetric {
         /// Time \[s\].

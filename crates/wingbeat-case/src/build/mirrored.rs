@@ -5,7 +5,9 @@ use wingbeat_model::{Animal, mirror_name};
 use super::fault::Built;
 use super::names::body_names;
 use crate::error::Fault;
-use crate::raw::{AirModel, Case, ElementCase, JointCase, JointKind, SeriesCase, TravelCase};
+use crate::raw::{
+    AdjustCase, AirModel, Case, ElementCase, JointCase, JointKind, SeriesCase, TravelCase,
+};
 
 /// The joint of a right wing for a left wing that has none, and the other way round, unless that wing is not to
 /// be mirrored: points and displacements are mirrored, axes of rotation too, so that equal angles are mirror
@@ -47,11 +49,19 @@ pub(super) fn mirrored(
     Some((name, image))
 }
 
-/// Refuses joints of a right and a left wing whose springs, dampers or stops differ where one half of the air
-/// is computed.
+/// Refuses strokes of right and left wings that differ, and joints whose springs, dampers or stops do, where one
+/// half of the air is computed.
 pub(super) fn check_halves(case: &Case) -> Built<()> {
     if !case.air.mirror || case.air.model != AirModel::VortexLattice {
         return Ok(());
+    }
+    if case.motion.difference != AdjustCase::default() {
+        return Err(Fault::new(
+            "motion.difference",
+            "strokes of right and left wings differ, and one half of the air is computed (air.mirror = true)",
+            "none where air.mirror = true",
+            "set air.mirror = false: both sides are computed",
+        ));
     }
     for (name, joint) in &case.joint {
         let counterpart = mirror_name(&joint.child);

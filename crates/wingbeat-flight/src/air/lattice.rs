@@ -52,6 +52,12 @@ impl LatticeAir {
             )
         };
         let is_free = matches!(setup.mode, MotionMode::Free(_));
+        let across = root.r.y_axis.dot(root.v).abs() > ROUNDING * root.v.length();
+        let turns = root.w.with_y(0.0).length() > ROUNDING * root.w.length();
+        if is_free && (across || turns) {
+            let problem = "the body starts across its plane of symmetry, or rolls or yaws (flight.velocity_m_s, flight.angular_velocity_deg_s)";
+            return Err(refused(problem));
+        }
         if is_free && root.r.y_axis.dot(setup.gravity).abs() > ROUNDING * setup.gravity.length() {
             let problem = "gravity pulls across the plane of symmetry of the body";
             return Err(refused(problem));
