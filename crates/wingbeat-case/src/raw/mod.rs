@@ -210,9 +210,9 @@ const ITERATED: &str = "dynamics.integrator = hamming | bdf";
 pub struct CorrectorCase {
     /// Largest change between two passes, relative to natural sizes, that counts as converged.
     ///
-    /// Change it for studies of convergence.
+    /// Change it for studies of convergence: where it is large, passes are left out.
     #[default(CorrectorSettings::default().tolerance)]
-    #[schemars(extend("exclusiveMinimum" = 0, "with" = ITERATED))]
+    #[schemars(range(max = 1e-3), extend("exclusiveMinimum" = 0, "with" = ITERATED))]
     pub tolerance: f64,
     /// Most passes; more is an error. What has not converged after a hundred passes will not.
     ///
