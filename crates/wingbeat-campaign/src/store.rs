@@ -207,7 +207,8 @@ impl Store {
         }
     }
 
-    fn place(&self, hash: &str, ending: &str) -> PathBuf {
+    /// Where the result of a point is: `ending` is "ok", or "failed".
+    pub(crate) fn place(&self, hash: &str, ending: &str) -> PathBuf {
         let folder = self.root.join("points").join(&hash[..2]);
         folder.join(format!("{hash}.{ending}"))
     }
@@ -237,22 +238,41 @@ impl Store {
         Ok(())
     }
 
-    /// The result of a point that is done; none where there is none, or a damaged one or that of another point,
-    /// which is removed.
+    /// The result of a point that is done; none where there is none, or only a damaged one or that of another point,
+    /// which stay where they are.
     ///
     /// # Errors
-    /// A file that cannot be read.
+    /// A file that cannot be read, or that another version of wingbeat wrote.
     pub fn get(&self, hash: &str) -> Result<Option<PointResult>, IoError> {
+        self.find(hash, |_| Ok(()))
+    }
+
+    /// The same, and damaged results and those of other points are removed, so that the point is flown again.
+    ///
+    /// # Errors
+    /// A file that cannot be read or removed, or that another version of wingbeat wrote.
+    pub fn get_or_remove(&self, hash: &str) -> Result<Option<PointResult>, IoError> {
+        self.find(hash, |path| {
+            fs::remove_file(path).map_err(IoError::write(path))
+        })
+    }
+
+    fn find(
+        &self,
+        hash: &str,
+        on_damage: impl Fn(&Path) -> Result<(), IoError>,
+    ) -> Result<Option<PointResult>, IoError> {
         for ending in ["ok", "failed"] {
             let path = self.place(hash, ending);
             let bytes = match fs::read(&path) {
                 Err(e) if e.kind() == ErrorKind::NotFound => continue,
                 read => read.map_err(IoError::read(&path))?,
             };
-            if let Some(result) = decoded(hash, &bytes) {
-                return Ok(Some(result));
+            match decoded(hash, &bytes) {
+                Record::Whole(result) => return Ok(Some(result)),
+                Record::Damaged => on_damage(&path)?,
+                Record::OtherFormat(what) => return Err(other_format(path, &what)),
             }
-            fs::remove_file(&path).map_err(IoError::write(&path))?;
         }
         Ok(None)
     }
@@ -278,22 +298,28 @@ impl Store {
     }
 
     /// All points that are done by their hashes, and whether they failed; damage is not looked for.
-    pub fn done(&self) -> HashMap<String, bool> {
+    ///
+    /// # Errors
+    /// A folder that cannot be read.
+    pub fn done(&self) -> Result<HashMap<String, bool>, IoError> {
         let mut done = HashMap::new();
-        let folders = fs::read_dir(self.path("points"))
-            .into_iter()
-            .flatten()
-            .flatten();
-        for file in folders.flat_map(|f| fs::read_dir(f.path()).into_iter().flatten().flatten()) {
-            let name = file.file_name();
-            let Some((hash, ending)) = name.to_str().and_then(|n| n.split_once('.')) else {
-                continue;
-            };
-            if hash.len() == 64 && (ending == "ok" || ending == "failed") {
-                done.insert(hash.to_owned(), ending == "failed");
+        let is_of_points = |folder: &PathBuf| {
+            let name = folder.file_name().unwrap_or_default();
+            name.len() == 2 && name.as_encoded_bytes().iter().all(u8::is_ascii_hexdigit)
+        };
+        let folders = entries(&self.path("points"))?;
+        for folder in folders.iter().filter(|f| is_of_points(f)) {
+            for file in entries(folder)? {
+                let name = file.file_name().and_then(|n| n.to_str());
+                let Some((hash, ending)) = name.and_then(|n| n.split_once('.')) else {
+                    continue;
+                };
+                if hash.len() == 64 && (ending == "ok" || ending == "failed") {
+                    done.insert(hash.to_owned(), ending == "failed");
+                }
             }
         }
-        done
+        Ok(done)
     }
 
     /// The attempts at a point.
@@ -319,20 +345,73 @@ impl Store {
     }
 }
 
-fn decoded(hash: &str, bytes: &[u8]) -> Option<PointResult> {
-    let text = std::str::from_utf8(bytes).ok()?;
+/// Paths in a folder, in no order; none where there is no such folder.
+///
+/// # Errors
+/// A folder that cannot be read.
+pub(crate) fn entries(folder: &Path) -> Result<Vec<PathBuf>, IoError> {
+    let listed = match fs::read_dir(folder) {
+        Err(e) if e.kind() == ErrorKind::NotFound => return Ok(vec![]),
+        listed => listed.map_err(IoError::read(folder))?,
+    };
+    let paths = listed.map(|entry| entry.map(|e| e.path()));
+    paths
+        .collect::<Result<_, _>>()
+        .map_err(IoError::read(folder))
+}
+
+/// What the file of a result holds.
+enum Record {
+    Whole(PointResult),
+    /// Not what was written, or what was written of another point.
+    Damaged,
+    /// A record of another version of wingbeat: what is unknown in it.
+    OtherFormat(String),
+}
+
+fn other_format(path: PathBuf, what: &str) -> IoError {
+    let problem = format!(
+        "another version of wingbeat wrote this result ({what}); this one ({}) reads `{}` and `{}`: use the version that wrote it, or remove the file and fly the point again",
+        env!("CARGO_PKG_VERSION"),
+        MAGIC.trim(),
+        WITHOUT_POINT.trim(),
+    );
+    IoError::Damaged { path, problem }
+}
+
+fn decoded(hash: &str, bytes: &[u8]) -> Record {
+    let Ok(text) = std::str::from_utf8(bytes) else {
+        return Record::Damaged;
+    };
     let of = |magic| text.strip_prefix(magic)?.split_once('\n');
     let (sum, body, is_bound) = match (of(MAGIC), of(WITHOUT_POINT)) {
         (Some((sum, body)), _) => (sum, body, true),
         (None, Some((sum, body))) => (sum, body, false),
-        (None, None) => return None,
+        (None, None) => return other_version(text).map_or(Record::Damaged, Record::OtherFormat),
     };
-    let body = body.strip_suffix('\n')?;
+    let Some(body) = body.strip_suffix('\n') else {
+        return Record::Damaged;
+    };
     let expected = match is_bound {
         true => checksum(hash, body),
         false => sha256(body.as_bytes()),
     };
-    (expected == sum).then(|| serde_json::from_str(body).ok())?
+    if expected != sum {
+        return Record::Damaged;
+    }
+    // What has its checksum is what was written.
+    serde_json::from_str(body).map_or_else(|e| Record::OtherFormat(e.to_string()), Record::Whole)
+}
+
+/// The first words of a record of a version that is not known here: `wingbeat-point 3`.
+fn other_version(text: &str) -> Option<String> {
+    let mut words = text.lines().next()?.split(' ');
+    let (name, version) = (words.next()?, words.next()?);
+    let is_known = [MAGIC, WITHOUT_POINT]
+        .map(str::trim)
+        .contains(&&*format!("{name} {version}"));
+    let is_other = name == "wingbeat-point" && version.parse::<u32>().is_ok() && !is_known;
+    is_other.then(|| format!("`{name} {version}`"))
 }
 
 /// Checksum of the result of a point: of both, so that a record under the name of another point is found.
@@ -364,10 +443,15 @@ mod tests {
             let mut changed = whole.clone();
             changed[k] ^= 4;
             fs::write(&path, &changed).unwrap();
+            if k == MAGIC.len() - 2 {
+                continue; // the version: a test of its own
+            }
             assert_eq!(store.get(&hash).unwrap(), None, "byte {k}");
+            assert!(path.exists(), "who only reads removes nothing");
+            assert_eq!(store.get_or_remove(&hash).unwrap(), None, "byte {k}");
             assert!(!path.exists(), "it is flown again");
             fs::write(&path, &whole[..k]).unwrap();
-            assert_eq!(store.get(&hash).unwrap(), None, "cut to {k}");
+            assert_eq!(store.get_or_remove(&hash).unwrap(), None, "cut to {k}");
         }
         let other = hexadecimal(&[0x3c; 32]);
         store
@@ -383,6 +467,51 @@ mod tests {
         assert_eq!(store.count_death(&hash, 0).unwrap(), 2);
         assert_eq!(store.count_death(&hash, 40).unwrap(), 1, "it advanced");
         fs::remove_dir_all(root).unwrap();
+    }
+
+    /// A later version is not damage: neither who reads nor who flies removes what it wrote.
+    #[test]
+    fn refuses_results_of_other_versions_and_keeps_them() {
+        let root = std::env::temp_dir().join(format!("wingbeat-later-{}", std::process::id()));
+        let store = Store::open(&root, "text").unwrap();
+        let hash = hexadecimal(&[0xa7; 32]);
+        store.put(&hash, &PointResult::of(&[0.5], None)).unwrap();
+        let path = store.place(&hash, "ok");
+        let later = fs::read_to_string(&path)
+            .unwrap()
+            .replace("point 2 ", "point 3 ");
+        let body = r#"{"values":[0.5],"verdict":"violet"}"#;
+        let words = format!("{MAGIC}{}\n{body}\n", checksum(&hash, body));
+        for (text, unknown) in [(later, "wingbeat-point 3"), (words, "violet")] {
+            fs::write(&path, &text).unwrap();
+            for found in [store.get(&hash), store.get_or_remove(&hash)] {
+                let refused = found.map(drop).unwrap_err().to_string();
+                assert!(
+                    refused.contains(unknown) && refused.contains("fly the point again"),
+                    "{refused}"
+                );
+            }
+            assert_eq!(fs::read_to_string(&path).unwrap(), text);
+        }
+        fs::remove_dir_all(&root).unwrap();
+    }
+
+    /// A folder that cannot be read is no folder without results.
+    #[test]
+    fn refuses_folders_that_cannot_be_read() {
+        let root = std::env::temp_dir().join(format!("wingbeat-unread-{}", std::process::id()));
+        let store = Store::open(&root, "text").unwrap();
+        assert_eq!(store.done().unwrap().len(), 0, "nothing was flown yet");
+        store.make(&store.path("points")).unwrap();
+        fs::write(store.path("points/notes.txt"), "not of a point").unwrap();
+        assert_eq!(store.done().unwrap().len(), 0);
+        fs::write(store.path("points/a7"), "no folder").unwrap();
+        let refused = store.done().map(drop).unwrap_err().to_string();
+        assert!(
+            refused.contains("cannot read") && refused.contains("a7"),
+            "{refused}"
+        );
+        fs::remove_dir_all(&root).unwrap();
     }
 
     #[cfg(unix)]
