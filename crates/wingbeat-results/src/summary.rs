@@ -48,7 +48,7 @@ pub use verdict::Verdict;
 use verdict::Warnings;
 use wingbeat_case::IoError;
 use wingbeat_case::LoadedCase;
-pub use words::prefix;
+pub use words::{broken, prefix};
 
 impl Summary {
     /// From the history of a run, read row by row. A thinned history does not hold every step: there it is the
