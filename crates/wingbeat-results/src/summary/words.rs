@@ -12,7 +12,7 @@ use super::last_part::LastPart;
 use super::means::ManyBeats;
 use super::numbers::Summary;
 use crate::Outcome;
-use crate::fixed::{fixed, signed, signed_or_power};
+use crate::common::fixed::{fixed, signed, signed_or_power};
 
 impl Summary {
     /// For people; the verdict comes first, its word in front.

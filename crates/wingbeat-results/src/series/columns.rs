@@ -13,9 +13,9 @@ use wingbeat_dynamics::{DynamicsError, JointType};
 use wingbeat_flight::{FlightSetup, JointCoordinate, Record, joint_coordinates, loop_names};
 use wingbeat_model::Animal;
 
-use crate::other_build::check_columns;
-use crate::quantity::{Entry, Fold, Group, Kind, Of, Quantity, Unit};
-use crate::table::GROUPS;
+use crate::common::other_build::check_columns;
+use crate::series::quantity::{Entry, Fold, Group, Kind, Of, Quantity, Unit};
+use crate::series::table::GROUPS;
 use wingbeat_case::{IoError, column_name};
 
 /// Number of the column of the step.

@@ -12,7 +12,7 @@ use self::loads::{
     ORIENTATIONS, PASSIVE, TETHER,
 };
 use self::motion::{ACCELERATIONS, POSES, PRESCRIBED, RATES, ROOT, TIME};
-use crate::quantity::{Group, Of, Quantity};
+use crate::series::quantity::{Group, Of, Quantity};
 
 const fn group(of: Of, quantities: &'static [Quantity]) -> Group {
     Group { of, quantities }

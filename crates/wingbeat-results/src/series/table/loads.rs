@@ -1,8 +1,8 @@
 //! Columns of joints and loads.
 
-use crate::quantity::Components::{Child, Inertial};
-use crate::quantity::Entry::{Count, Real};
-use crate::quantity::{Frame, Quantity, Unit, scalar};
+use crate::series::quantity::Components::{Child, Inertial};
+use crate::series::quantity::Entry::{Count, Real};
+use crate::series::quantity::{Frame, Quantity, Unit, scalar};
 
 pub(super) const CONNECTIONS: &[Quantity] = &[scalar(
     "multiplier_{s}",

@@ -1,8 +1,8 @@
 //! Columns of time and motion.
 
-use crate::quantity::Components::{Angles, Inertial, Own, Place, Quaternion};
-use crate::quantity::Entry::{Count, Real};
-use crate::quantity::{Frame, Quantity, Unit, scalar};
+use crate::series::quantity::Components::{Angles, Inertial, Own, Place, Quaternion};
+use crate::series::quantity::Entry::{Count, Real};
+use crate::series::quantity::{Frame, Quantity, Unit, scalar};
 
 pub(super) const TIME: &[Quantity] = &[
     scalar(

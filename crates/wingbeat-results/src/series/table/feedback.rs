@@ -1,8 +1,8 @@
 //! Columns of feedback: commands and reference.
 
-use crate::quantity::Components::Place;
-use crate::quantity::Entry::{Count, Real};
-use crate::quantity::{Frame, Quantity, Unit, scalar};
+use crate::series::quantity::Components::Place;
+use crate::series::quantity::Entry::{Count, Real};
+use crate::series::quantity::{Frame, Quantity, Unit, scalar};
 
 /// What feedback commands.
 pub(super) const COMMANDS: &[Quantity] = &[

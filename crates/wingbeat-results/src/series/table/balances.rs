@@ -1,9 +1,9 @@
 //! Columns of balances, quality and wakes.
 
-use crate::quantity::Components::Inertial;
-use crate::quantity::Entry::{Count, Real};
-use crate::quantity::Fold::{Largest, Smallest, Sum};
-use crate::quantity::{Frame, Quantity, Unit, scalar};
+use crate::series::quantity::Components::Inertial;
+use crate::series::quantity::Entry::{Count, Real};
+use crate::series::quantity::Fold::{Largest, Smallest, Sum};
+use crate::series::quantity::{Frame, Quantity, Unit, scalar};
 
 pub(super) const ENERGIES: &[Quantity] = &[
     scalar(
