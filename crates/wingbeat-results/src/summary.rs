@@ -42,7 +42,7 @@ pub use last_part::LastPart;
 pub use means::{LEFT_OUT, ManyBeats};
 use momentum_balance::ratio;
 pub use numbers::Summary;
-pub use per_beat::{PerBeat, Quantity};
+pub use per_beat::{PerBeat, SummaryQuantity};
 use statistics::Statistics;
 pub use verdict::Verdict;
 use verdict::Warnings;

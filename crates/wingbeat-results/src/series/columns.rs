@@ -14,7 +14,7 @@ use wingbeat_flight::{FlightSetup, JointCoordinate, Record, joint_coordinates, l
 use wingbeat_model::Animal;
 
 use crate::common::other_build::check_columns;
-use crate::series::quantity::{Entry, Fold, Group, Kind, Of, Quantity, Unit};
+use crate::series::quantity::{Entry, Fold, Group, HistoryQuantity, Kind, Of, Unit};
 use crate::series::table::GROUPS;
 use wingbeat_case::{IoError, column_name};
 
@@ -41,7 +41,7 @@ pub struct Column {
     /// Whether it holds whole numbers.
     pub is_count: bool,
     of: Of,
-    quantity: &'static Quantity,
+    quantity: &'static HistoryQuantity,
     subject: usize,
     component: usize,
 }
@@ -383,7 +383,7 @@ impl Subject {
     pub(crate) fn column(
         &self,
         of: Of,
-        q: &'static Quantity,
+        q: &'static HistoryQuantity,
         component: usize,
         letter: &str,
     ) -> Column {
