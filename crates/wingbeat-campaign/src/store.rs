@@ -14,6 +14,8 @@
 //! Results are not put onto the disk one by one (`fsync`): a power failure may lose or damage those of the last
 //! seconds. Their checksums, each of a record and its point, tell, and they are flown again.
 
+mod record;
+
 use std::collections::HashMap;
 use std::fs;
 use std::io::ErrorKind;
@@ -22,79 +24,12 @@ use std::path::{Path, PathBuf};
 use serde::{Deserialize, Serialize};
 use wingbeat_case::IoError;
 use wingbeat_results::directory::{remove_file, remove_left_behind, write_whole};
-use wingbeat_results::manifest::sha256;
-use wingbeat_results::summary::Verdict;
+
+pub use self::record::{PointResult, Reason};
+use self::record::{Record, decoded, encoded, other_format};
 
 /// The copy of the campaign's file; where it is, there is a campaign.
 pub const FILE: &str = "campaign.toml";
-const MAGIC: &str = "wingbeat-point 2 ";
-/// Of records of before, whose checksum is of the result alone and not of the point.
-const WITHOUT_POINT: &str = "wingbeat-point 1 ";
-
-/// Why a point has no numbers.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Reason {
-    /// The case was refused.
-    Refused,
-    /// The flight has fewer wingbeats than means are taken over.
-    Short,
-    /// The flight or the analysis could not go on.
-    Diverged,
-    /// The process that flew it died, too often.
-    Died,
-    /// Its files could not be written, too often.
-    Unwritten,
-    /// It took longer than it may.
-    Slow,
-}
-
-impl Reason {
-    /// Its name in tables.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Refused => "refused",
-            Self::Short => "short",
-            Self::Diverged => "diverged",
-            Self::Died => "died",
-            Self::Unwritten => "unwritten",
-            Self::Slow => "slow",
-        }
-    }
-}
-
-/// What is known of a point that is done.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct PointResult {
-    /// Its numbers, in the order of `keep` \[unit of each\]; none where they are not finite, empty where it failed.
-    pub values: Vec<Option<f64>>,
-    /// How far its flight can be trusted; none where nothing was flown, and of results that do not say it yet.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub verdict: Option<Verdict>,
-    /// Why it failed.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub failed: Option<(Reason, String)>,
-}
-
-impl PointResult {
-    /// Of a point that was flown, with the verdict on its flight.
-    pub fn of(values: &[f64], verdict: Option<Verdict>) -> Self {
-        Self {
-            values: values.iter().map(|x| x.is_finite().then_some(*x)).collect(),
-            verdict,
-            failed: None,
-        }
-    }
-
-    /// Of a point that failed.
-    pub fn failure(reason: Reason, words: String) -> Self {
-        Self {
-            values: vec![],
-            verdict: None,
-            failed: Some((reason, words)),
-        }
-    }
-}
 
 /// How often the process died that flew a point, and how far its checkpoint was.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -223,13 +158,7 @@ impl Store {
     /// # Errors
     /// A file that cannot be written.
     pub fn put(&self, hash: &str, result: &PointResult) -> Result<(), IoError> {
-        let body = serde_json::to_string(result).expect("a result is JSON");
-        let text = format!("{MAGIC}{}\n{body}\n", checksum(hash, &body));
-        let ending = if result.failed.is_some() {
-            "failed"
-        } else {
-            "ok"
-        };
+        let (text, ending) = encoded(hash, result);
         self.write(&self.place(hash, ending), text.as_bytes())?;
         let attempts = self.path("attempts").join(hash);
         if attempts.exists() && result.failed.is_none() {
@@ -360,69 +289,12 @@ pub(crate) fn entries(folder: &Path) -> Result<Vec<PathBuf>, IoError> {
         .map_err(IoError::read(folder))
 }
 
-/// What the file of a result holds.
-enum Record {
-    Whole(PointResult),
-    /// Not what was written, or what was written of another point.
-    Damaged,
-    /// A record of another version of wingbeat: what is unknown in it.
-    OtherFormat(String),
-}
-
-fn other_format(path: PathBuf, what: &str) -> IoError {
-    let problem = format!(
-        "another version of wingbeat wrote this result ({what}); this one ({}) reads `{}` and `{}`: use the version that wrote it, or remove the file and fly the point again",
-        env!("CARGO_PKG_VERSION"),
-        MAGIC.trim(),
-        WITHOUT_POINT.trim(),
-    );
-    IoError::Damaged { path, problem }
-}
-
-fn decoded(hash: &str, bytes: &[u8]) -> Record {
-    let Ok(text) = std::str::from_utf8(bytes) else {
-        return Record::Damaged;
-    };
-    let of = |magic| text.strip_prefix(magic)?.split_once('\n');
-    let (sum, body, is_bound) = match (of(MAGIC), of(WITHOUT_POINT)) {
-        (Some((sum, body)), _) => (sum, body, true),
-        (None, Some((sum, body))) => (sum, body, false),
-        (None, None) => return other_version(text).map_or(Record::Damaged, Record::OtherFormat),
-    };
-    let Some(body) = body.strip_suffix('\n') else {
-        return Record::Damaged;
-    };
-    let expected = match is_bound {
-        true => checksum(hash, body),
-        false => sha256(body.as_bytes()),
-    };
-    if expected != sum {
-        return Record::Damaged;
-    }
-    // What has its checksum is what was written.
-    serde_json::from_str(body).map_or_else(|e| Record::OtherFormat(e.to_string()), Record::Whole)
-}
-
-/// The first words of a record of a version that is not known here: `wingbeat-point 3`.
-fn other_version(text: &str) -> Option<String> {
-    let mut words = text.lines().next()?.split(' ');
-    let (name, version) = (words.next()?, words.next()?);
-    let is_known = [MAGIC, WITHOUT_POINT]
-        .map(str::trim)
-        .contains(&&*format!("{name} {version}"));
-    let is_other = name == "wingbeat-point" && version.parse::<u32>().is_ok() && !is_known;
-    is_other.then(|| format!("`{name} {version}`"))
-}
-
-/// Checksum of the result of a point: of both, so that a record under the name of another point is found.
-fn checksum(hash: &str, body: &str) -> String {
-    sha256(format!("{hash}\n{body}").as_bytes())
-}
-
 #[cfg(test)]
 mod tests {
-    use wingbeat_results::manifest::hexadecimal;
+    use wingbeat_results::manifest::{hexadecimal, sha256};
+    use wingbeat_results::summary::Verdict;
 
+    use super::record::{MAGIC, WITHOUT_POINT, checksum};
     use super::*;
 
     #[test]
