@@ -46,45 +46,35 @@ pub struct PowerQuantity {
     pub of: fn(&Power) -> f64,
 }
 
+const fn row(
+    name: &'static str,
+    label: &'static str,
+    about: &'static str,
+    of: fn(&Power) -> f64,
+) -> PowerQuantity {
+    PowerQuantity {
+        name,
+        label,
+        about,
+        of,
+    }
+}
+
 impl Power {
     /// All powers, as the command line and campaigns list them.
+    #[rustfmt::skip]
     pub const QUANTITIES: [PowerQuantity; 6] = [
-        PowerQuantity {
-            name: "aerodynamic",
-            label: "against the air, relative to the body",
-            about: "mean power against the air, of the motion relative to the body",
-            of: |p| p.aerodynamic,
-        },
-        PowerQuantity {
-            name: "inertial_positive",
-            label: "inertial, positive part",
-            about: "positive part of the inertial power",
-            of: |p| p.inertial_positive,
-        },
-        PowerQuantity {
-            name: "perfect_storage",
-            label: "muscles, perfect elastic storage",
-            about: "muscle power with perfect elastic storage",
-            of: |p| p.perfect_storage,
-        },
-        PowerQuantity {
-            name: "no_storage",
-            label: "muscles, no elastic storage",
-            about: "muscle power without elastic storage",
-            of: |p| p.no_storage,
-        },
-        PowerQuantity {
-            name: "peak",
-            label: "peak of all wings",
-            about: "peak power of all wings",
-            of: |p| p.peak,
-        },
-        PowerQuantity {
-            name: "damping",
-            label: "damping of elastic wings",
-            about: "mean of what the damping of elastic wings takes",
-            of: |p| p.damping,
-        },
+        row("aerodynamic", "against the air, relative to the body",
+            "mean power against the air, of the motion relative to the body", |p| p.aerodynamic),
+        row("inertial_positive", "inertial, positive part", "positive part of the inertial power",
+            |p| p.inertial_positive),
+        row("perfect_storage", "muscles, perfect elastic storage", "muscle power with perfect elastic storage",
+            |p| p.perfect_storage),
+        row("no_storage", "muscles, no elastic storage", "muscle power without elastic storage",
+            |p| p.no_storage),
+        row("peak", "peak of all wings", "peak power of all wings", |p| p.peak),
+        row("damping", "damping of elastic wings", "mean of what the damping of elastic wings takes",
+            |p| p.damping),
     ];
 
     /// Power per body mass [W/kg].

@@ -149,6 +149,12 @@ impl Plan {
         listed.chain(drawn).collect()
     }
 
+    /// The value of a key at point `i`; none of a key that does not vary.
+    pub fn value(&self, key: &str, i: usize) -> Option<Value> {
+        let k = self.keys.iter().position(|known| known == key)?;
+        Some(self.values(i).swap_remove(k))
+    }
+
     /// What is put on top of the case at point `i`: `KEY=VALUE`.
     pub fn overrides(&self, i: usize) -> Vec<String> {
         let of = |(key, value): (&String, Value)| pair(key, &value);
@@ -166,7 +172,7 @@ pub fn pair(key: &str, value: &Value) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::plan::raw::Ends;
+    use crate::plan::raw::{Ends, Variation};
 
     #[test]
     fn exact_points_of_a_grid_with_samples() {
@@ -174,7 +180,7 @@ mod tests {
         let a = Axis::of_key("a", whole(&[1, 2, 3]));
         let b = Axis::of_key("b", whole(&[10, 20]));
         let ends = Ends { from: 0.0, to: 1.0 };
-        let draw = Sampler::uniform("c", 1, ends);
+        let draw = Sampler::new("c", 1, &Variation::Uniform(ends), 4, 0);
         let plan = Plan::new(vec![a, b], vec![draw.clone()], 4).unwrap();
         assert_eq!((plan.points(), plan.shape()), (24, vec![3, 2, 4]));
         assert_eq!(plan.place(0), (vec![0, 0], 0));

@@ -38,7 +38,7 @@ impl Status {
     /// # Errors
     /// A directory that cannot be read.
     pub fn of(campaign: &Campaign, store: &Store) -> Result<Self, IoError> {
-        let known = store.done();
+        let known = store.done()?;
         let points = campaign.plan().points();
         let (mut done, mut failed, mut names) = (0, 0, vec![]);
         for i in 0..points {
@@ -53,7 +53,7 @@ impl Status {
         let flying = if finished {
             0
         } else {
-            leases(campaign, store)?.held()
+            leases(campaign, store)?.held()?
         };
         Ok(Self {
             points,
@@ -93,11 +93,7 @@ fn rate(store: &Store, names: &[(String, bool)]) -> Option<f64> {
     let now = SystemTime::now();
     let ages = names.iter().step_by(stride).filter_map(|(hash, failed)| {
         let ending = if *failed { "failed" } else { "ok" };
-        let path = store
-            .path("points")
-            .join(&hash[..2])
-            .join(format!("{hash}.{ending}"));
-        let changed = path.metadata().ok()?.modified().ok()?;
+        let changed = store.place(hash, ending).metadata().ok()?.modified().ok()?;
         Some(now.duration_since(changed).unwrap_or_default())
     });
     let recent: Vec<Duration> = ages.filter(|age| *age < WINDOW).collect();
@@ -111,7 +107,7 @@ fn rate(store: &Store, names: &[(String, bool)]) -> Option<f64> {
 /// A directory that cannot be changed.
 pub fn retry(campaign: &Campaign, store: &Store) -> Result<usize, IoError> {
     let leases = leases(campaign, store)?;
-    let known = store.done();
+    let known = store.done()?;
     let mut forgotten = 0;
     for i in 0..campaign.plan().points() {
         let hash = hexadecimal(&campaign.hash(i));

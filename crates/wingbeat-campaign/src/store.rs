@@ -14,6 +14,8 @@
 //! Results are not put onto the disk one by one (`fsync`): a power failure may lose or damage those of the last
 //! seconds. Their checksums, each of a record and its point, tell, and they are flown again.
 
+mod record;
+
 use std::collections::HashMap;
 use std::fs;
 use std::io::ErrorKind;
@@ -22,79 +24,12 @@ use std::path::{Path, PathBuf};
 use serde::{Deserialize, Serialize};
 use wingbeat_case::IoError;
 use wingbeat_results::directory::{remove_file, remove_left_behind, write_whole};
-use wingbeat_results::manifest::sha256;
-use wingbeat_results::summary::Verdict;
+
+pub use self::record::{PointResult, Reason};
+use self::record::{Record, decoded, encoded, other_format};
 
 /// The copy of the campaign's file; where it is, there is a campaign.
 pub const FILE: &str = "campaign.toml";
-const MAGIC: &str = "wingbeat-point 2 ";
-/// Of records of before, whose checksum is of the result alone and not of the point.
-const WITHOUT_POINT: &str = "wingbeat-point 1 ";
-
-/// Why a point has no numbers.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Reason {
-    /// The case was refused.
-    Refused,
-    /// The flight has fewer wingbeats than means are taken over.
-    Short,
-    /// The flight or the analysis could not go on.
-    Diverged,
-    /// The process that flew it died, too often.
-    Died,
-    /// Its files could not be written, too often.
-    Unwritten,
-    /// It took longer than it may.
-    Slow,
-}
-
-impl Reason {
-    /// Its name in tables.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Refused => "refused",
-            Self::Short => "short",
-            Self::Diverged => "diverged",
-            Self::Died => "died",
-            Self::Unwritten => "unwritten",
-            Self::Slow => "slow",
-        }
-    }
-}
-
-/// What is known of a point that is done.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct PointResult {
-    /// Its numbers, in the order of `keep` \[unit of each\]; none where they are not finite, empty where it failed.
-    pub values: Vec<Option<f64>>,
-    /// How far its flight can be trusted; none where nothing was flown, and of results that do not say it yet.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub verdict: Option<Verdict>,
-    /// Why it failed.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub failed: Option<(Reason, String)>,
-}
-
-impl PointResult {
-    /// Of a point that was flown, with the verdict on its flight.
-    pub fn of(values: &[f64], verdict: Option<Verdict>) -> Self {
-        Self {
-            values: values.iter().map(|x| x.is_finite().then_some(*x)).collect(),
-            verdict,
-            failed: None,
-        }
-    }
-
-    /// Of a point that failed.
-    pub fn failure(reason: Reason, words: String) -> Self {
-        Self {
-            values: vec![],
-            verdict: None,
-            failed: Some((reason, words)),
-        }
-    }
-}
 
 /// How often the process died that flew a point, and how far its checkpoint was.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -207,7 +142,8 @@ impl Store {
         }
     }
 
-    fn place(&self, hash: &str, ending: &str) -> PathBuf {
+    /// Where the result of a point is: `ending` is "ok", or "failed".
+    pub(crate) fn place(&self, hash: &str, ending: &str) -> PathBuf {
         let folder = self.root.join("points").join(&hash[..2]);
         folder.join(format!("{hash}.{ending}"))
     }
@@ -222,13 +158,7 @@ impl Store {
     /// # Errors
     /// A file that cannot be written.
     pub fn put(&self, hash: &str, result: &PointResult) -> Result<(), IoError> {
-        let body = serde_json::to_string(result).expect("a result is JSON");
-        let text = format!("{MAGIC}{}\n{body}\n", checksum(hash, &body));
-        let ending = if result.failed.is_some() {
-            "failed"
-        } else {
-            "ok"
-        };
+        let (text, ending) = encoded(hash, result);
         self.write(&self.place(hash, ending), text.as_bytes())?;
         let attempts = self.path("attempts").join(hash);
         if attempts.exists() && result.failed.is_none() {
@@ -237,22 +167,41 @@ impl Store {
         Ok(())
     }
 
-    /// The result of a point that is done; none where there is none, or a damaged one or that of another point,
-    /// which is removed.
+    /// The result of a point that is done; none where there is none, or only a damaged one or that of another point,
+    /// which stay where they are.
     ///
     /// # Errors
-    /// A file that cannot be read.
+    /// A file that cannot be read, or that another version of wingbeat wrote.
     pub fn get(&self, hash: &str) -> Result<Option<PointResult>, IoError> {
+        self.find(hash, |_| Ok(()))
+    }
+
+    /// The same, and damaged results and those of other points are removed, so that the point is flown again.
+    ///
+    /// # Errors
+    /// A file that cannot be read or removed, or that another version of wingbeat wrote.
+    pub fn get_or_remove(&self, hash: &str) -> Result<Option<PointResult>, IoError> {
+        self.find(hash, |path| {
+            fs::remove_file(path).map_err(IoError::write(path))
+        })
+    }
+
+    fn find(
+        &self,
+        hash: &str,
+        on_damage: impl Fn(&Path) -> Result<(), IoError>,
+    ) -> Result<Option<PointResult>, IoError> {
         for ending in ["ok", "failed"] {
             let path = self.place(hash, ending);
             let bytes = match fs::read(&path) {
                 Err(e) if e.kind() == ErrorKind::NotFound => continue,
                 read => read.map_err(IoError::read(&path))?,
             };
-            if let Some(result) = decoded(hash, &bytes) {
-                return Ok(Some(result));
+            match decoded(hash, &bytes) {
+                Record::Whole(result) => return Ok(Some(result)),
+                Record::Damaged => on_damage(&path)?,
+                Record::OtherFormat(what) => return Err(other_format(path, &what)),
             }
-            fs::remove_file(&path).map_err(IoError::write(&path))?;
         }
         Ok(None)
     }
@@ -278,22 +227,28 @@ impl Store {
     }
 
     /// All points that are done by their hashes, and whether they failed; damage is not looked for.
-    pub fn done(&self) -> HashMap<String, bool> {
+    ///
+    /// # Errors
+    /// A folder that cannot be read.
+    pub fn done(&self) -> Result<HashMap<String, bool>, IoError> {
         let mut done = HashMap::new();
-        let folders = fs::read_dir(self.path("points"))
-            .into_iter()
-            .flatten()
-            .flatten();
-        for file in folders.flat_map(|f| fs::read_dir(f.path()).into_iter().flatten().flatten()) {
-            let name = file.file_name();
-            let Some((hash, ending)) = name.to_str().and_then(|n| n.split_once('.')) else {
-                continue;
-            };
-            if hash.len() == 64 && (ending == "ok" || ending == "failed") {
-                done.insert(hash.to_owned(), ending == "failed");
+        let is_of_points = |folder: &PathBuf| {
+            let name = folder.file_name().unwrap_or_default();
+            name.len() == 2 && name.as_encoded_bytes().iter().all(u8::is_ascii_hexdigit)
+        };
+        let folders = entries(&self.path("points"))?;
+        for folder in folders.iter().filter(|f| is_of_points(f)) {
+            for file in entries(folder)? {
+                let name = file.file_name().and_then(|n| n.to_str());
+                let Some((hash, ending)) = name.and_then(|n| n.split_once('.')) else {
+                    continue;
+                };
+                if hash.len() == 64 && (ending == "ok" || ending == "failed") {
+                    done.insert(hash.to_owned(), ending == "failed");
+                }
             }
         }
-        done
+        Ok(done)
     }
 
     /// The attempts at a point.
@@ -319,31 +274,27 @@ impl Store {
     }
 }
 
-fn decoded(hash: &str, bytes: &[u8]) -> Option<PointResult> {
-    let text = std::str::from_utf8(bytes).ok()?;
-    let of = |magic| text.strip_prefix(magic)?.split_once('\n');
-    let (sum, body, is_bound) = match (of(MAGIC), of(WITHOUT_POINT)) {
-        (Some((sum, body)), _) => (sum, body, true),
-        (None, Some((sum, body))) => (sum, body, false),
-        (None, None) => return None,
+/// Paths in a folder, in no order; none where there is no such folder.
+///
+/// # Errors
+/// A folder that cannot be read.
+pub(crate) fn entries(folder: &Path) -> Result<Vec<PathBuf>, IoError> {
+    let listed = match fs::read_dir(folder) {
+        Err(e) if e.kind() == ErrorKind::NotFound => return Ok(vec![]),
+        listed => listed.map_err(IoError::read(folder))?,
     };
-    let body = body.strip_suffix('\n')?;
-    let expected = match is_bound {
-        true => checksum(hash, body),
-        false => sha256(body.as_bytes()),
-    };
-    (expected == sum).then(|| serde_json::from_str(body).ok())?
-}
-
-/// Checksum of the result of a point: of both, so that a record under the name of another point is found.
-fn checksum(hash: &str, body: &str) -> String {
-    sha256(format!("{hash}\n{body}").as_bytes())
+    let paths = listed.map(|entry| entry.map(|e| e.path()));
+    paths
+        .collect::<Result<_, _>>()
+        .map_err(IoError::read(folder))
 }
 
 #[cfg(test)]
 mod tests {
-    use wingbeat_results::manifest::hexadecimal;
+    use wingbeat_results::manifest::{hexadecimal, sha256};
+    use wingbeat_results::summary::Verdict;
 
+    use super::record::{MAGIC, WITHOUT_POINT, checksum};
     use super::*;
 
     #[test]
@@ -364,10 +315,15 @@ mod tests {
             let mut changed = whole.clone();
             changed[k] ^= 4;
             fs::write(&path, &changed).unwrap();
+            if k == MAGIC.len() - 2 {
+                continue; // the version: a test of its own
+            }
             assert_eq!(store.get(&hash).unwrap(), None, "byte {k}");
+            assert!(path.exists(), "who only reads removes nothing");
+            assert_eq!(store.get_or_remove(&hash).unwrap(), None, "byte {k}");
             assert!(!path.exists(), "it is flown again");
             fs::write(&path, &whole[..k]).unwrap();
-            assert_eq!(store.get(&hash).unwrap(), None, "cut to {k}");
+            assert_eq!(store.get_or_remove(&hash).unwrap(), None, "cut to {k}");
         }
         let other = hexadecimal(&[0x3c; 32]);
         store
@@ -383,6 +339,51 @@ mod tests {
         assert_eq!(store.count_death(&hash, 0).unwrap(), 2);
         assert_eq!(store.count_death(&hash, 40).unwrap(), 1, "it advanced");
         fs::remove_dir_all(root).unwrap();
+    }
+
+    /// A later version is not damage: neither who reads nor who flies removes what it wrote.
+    #[test]
+    fn refuses_results_of_other_versions_and_keeps_them() {
+        let root = std::env::temp_dir().join(format!("wingbeat-later-{}", std::process::id()));
+        let store = Store::open(&root, "text").unwrap();
+        let hash = hexadecimal(&[0xa7; 32]);
+        store.put(&hash, &PointResult::of(&[0.5], None)).unwrap();
+        let path = store.place(&hash, "ok");
+        let later = fs::read_to_string(&path)
+            .unwrap()
+            .replace("point 2 ", "point 3 ");
+        let body = r#"{"values":[0.5],"verdict":"violet"}"#;
+        let words = format!("{MAGIC}{}\n{body}\n", checksum(&hash, body));
+        for (text, unknown) in [(later, "wingbeat-point 3"), (words, "violet")] {
+            fs::write(&path, &text).unwrap();
+            for found in [store.get(&hash), store.get_or_remove(&hash)] {
+                let refused = found.map(drop).unwrap_err().to_string();
+                assert!(
+                    refused.contains(unknown) && refused.contains("fly the point again"),
+                    "{refused}"
+                );
+            }
+            assert_eq!(fs::read_to_string(&path).unwrap(), text);
+        }
+        fs::remove_dir_all(&root).unwrap();
+    }
+
+    /// A folder that cannot be read is no folder without results.
+    #[test]
+    fn refuses_folders_that_cannot_be_read() {
+        let root = std::env::temp_dir().join(format!("wingbeat-unread-{}", std::process::id()));
+        let store = Store::open(&root, "text").unwrap();
+        assert_eq!(store.done().unwrap().len(), 0, "nothing was flown yet");
+        store.make(&store.path("points")).unwrap();
+        fs::write(store.path("points/notes.txt"), "not of a point").unwrap();
+        assert_eq!(store.done().unwrap().len(), 0);
+        fs::write(store.path("points/a7"), "no folder").unwrap();
+        let refused = store.done().map(drop).unwrap_err().to_string();
+        assert!(
+            refused.contains("cannot read") && refused.contains("a7"),
+            "{refused}"
+        );
+        fs::remove_dir_all(&root).unwrap();
     }
 
     #[cfg(unix)]

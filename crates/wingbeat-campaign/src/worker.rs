@@ -11,6 +11,7 @@ pub(crate) mod trial;
 
 use std::io::ErrorKind;
 use std::ops::Range;
+use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
@@ -18,7 +19,7 @@ use wingbeat_case::IoError;
 use wingbeat_results::manifest::hexadecimal;
 
 use crate::campaign::Campaign;
-use crate::store::{PointResult, Reason, Store};
+use crate::store::{PointResult, Reason, Store, entries};
 use crate::worker::flight::saved_step;
 use crate::worker::lease::{Lease, Leases, Taken};
 use crate::worker::point::Done;
@@ -90,7 +91,7 @@ impl<'a> Worker<'a> {
         leases.beat();
         let blocks = blocks(&range, campaign.block);
         let mut complete = vec![false; blocks.len()];
-        for block in leases.done() {
+        for block in leases.done()? {
             if blocks.contains(&block) {
                 complete[block - blocks.start] = true;
             }
@@ -260,7 +261,7 @@ impl<'a> Worker<'a> {
             return Ok(None);
         }
         self.weighed = Some(Instant::now());
-        let bytes = size(self.store.root());
+        let bytes = size(self.store.root())?;
         Ok((bytes as f64 > limit * 1e6).then_some(bytes))
     }
 }
@@ -279,15 +280,18 @@ fn rest(length: Duration, stop: &AtomicBool) {
     }
 }
 
-/// Bytes of all files in a folder.
-pub fn size(folder: &std::path::Path) -> u64 {
-    let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
-    let of = |e: std::fs::DirEntry| match e.file_type() {
-        Ok(t) if t.is_dir() => size(&e.path()),
-        Ok(_) => e.metadata().map_or(0, |m| m.len()),
-        Err(_) => 0,
+/// Bytes of all files in a folder; what others remove meanwhile has none.
+///
+/// # Errors
+/// A folder or a file that cannot be read.
+fn size(folder: &Path) -> Result<u64, IoError> {
+    let of = |path: &PathBuf| match path.symlink_metadata() {
+        Err(e) if e.kind() == ErrorKind::NotFound => Ok(0),
+        Err(e) => Err(IoError::read(path)(e)),
+        Ok(about) if about.is_dir() => size(path),
+        Ok(about) => Ok(about.len()),
     };
-    entries.map(of).sum()
+    entries(folder)?.iter().map(of).sum()
 }
 
 /// Whether there is no space, or a file may not grow.
@@ -315,14 +319,14 @@ pub fn blocks(range: &Range<usize>, block: usize) -> Range<usize> {
 /// A directory that cannot be read or written.
 pub fn inspect(campaign: &Campaign, store: &Store, range: &Range<usize>) -> Result<usize, IoError> {
     let leases = leases(campaign, store)?;
-    let finished: std::collections::HashSet<usize> = leases.done().into_iter().collect();
-    let known = store.done();
+    let finished: std::collections::HashSet<usize> = leases.done()?.into_iter().collect();
+    let known = store.done()?;
     let mut done = 0;
     for i in range.clone() {
         let hash = hexadecimal(&campaign.hash(i));
         let there = match known.get(&hash) {
             None => false,
-            Some(_) if store.get(&hash)?.is_none() => false,
+            Some(_) if store.get_or_remove(&hash)?.is_none() => false,
             Some(failed) if *failed || point::has_files(campaign, i, &hash, store) => true,
             Some(_) => {
                 store.forget(&hash)?;
@@ -339,8 +343,11 @@ pub fn inspect(campaign: &Campaign, store: &Store, range: &Range<usize>) -> Resu
 }
 
 /// Points of the range that have no result, by the names of the results alone.
-pub fn left(campaign: &Campaign, store: &Store, range: &Range<usize>) -> usize {
-    let known = store.done();
+///
+/// # Errors
+/// A directory that cannot be read.
+pub fn left(campaign: &Campaign, store: &Store, range: &Range<usize>) -> Result<usize, IoError> {
+    let known = store.done()?;
     let lacks = |i: &usize| !known.contains_key(&hexadecimal(&campaign.hash(*i)));
-    range.clone().filter(lacks).count()
+    Ok(range.clone().filter(lacks).count())
 }

@@ -22,7 +22,10 @@ use crate::written::flight::tethered;
 /// The case of a trimmed flight as TOML: the given case with the adjusted wing motion, hinges and
 /// the state of body and free joints at the start of the periodic beat, impulsively started, in the
 /// trim's steps by the trim's method: what was trimmed is what flies. Feedback holds it as it begins.
-pub fn trimmed_case(case: &LoadedCase, trim: &Trim) -> String {
+///
+/// # Errors
+/// A trimmed wingbeat whose numbers do not stay finite.
+pub fn trimmed_case(case: &LoadedCase, trim: &Trim) -> Result<String, AnalysisError> {
     let mut raw = adjusted(case, &trim.solution);
     lead(&mut raw, case, &trim.setup);
     let time = &case.setup.time;
@@ -58,10 +61,8 @@ pub fn trimmed_case(case: &LoadedCase, trim: &Trim) -> String {
         }
     }
     let flight = released_into(&trim.beat.root(&trim.state), trim.beat.period());
-    if let Ok(velocity) = trim.mean_velocity() {
-        hold(&mut raw, velocity);
-    }
-    with_start(case, raw, flight, &trim.solution)
+    hold(&mut raw, trim.mean_velocity()?);
+    Ok(with_start(case, raw, flight, &trim.solution))
 }
 
 /// Whether the case of a trimmed flight goes without the feedback of `case`: it is laid out for flights that

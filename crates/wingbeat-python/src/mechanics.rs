@@ -181,9 +181,12 @@ impl Trim {
 
     /// The trimmed flight as the text of a case; none where no case says it.
     #[getter]
-    fn case_text(&self) -> Option<String> {
-        let case = self.case.as_ref()?;
-        Some(trimmed_case(case, &self.trim))
+    fn case_text(&self, py: Python<'_>) -> PyResult<Option<String>> {
+        let text = self
+            .case
+            .as_ref()
+            .map(|case| trimmed_case(case, &self.trim));
+        text.transpose().map_err(|e| raised(py, &e.into()))
     }
 
     /// The averaged model: A by rows, derivatives of loads by rows, its modes; Floquet's modes.

@@ -16,42 +16,30 @@
 //! [`export`] writes a result in formats of other programs. Names of columns carry units; numbers
 //! are SI and radians on the other side of this border.
 //!
+//! The modules in storeys, each on those before it: `common`, `series` (history.csv), `snapshots` (frames),
+//! [`summary`], `run` (the directory and who writes it), [`export`].
+//!
 //! What it does not know: physics, drawing. The only formulas are conversions of units and means
 //! over a wingbeat.
 #![warn(missing_docs)]
 
-mod arrays;
-pub mod checkpoint;
-pub mod columns;
-mod columns_page;
-pub mod directory;
+mod common;
 pub mod export;
-pub mod file;
-pub mod fixed;
-mod framer;
-pub mod frames;
-pub mod history;
-pub mod manifest;
-mod other_build;
-pub mod particles;
-pub mod poses;
-pub mod quantity;
-mod recorded;
-pub mod records;
-pub mod rows;
-pub mod saver;
+mod run;
+mod series;
+mod snapshots;
 pub mod summary;
-mod table;
-pub mod vtp;
-mod whole;
-pub mod writer;
 
-pub use columns_page::columns_page;
-pub use directory::{RESULTS, ResultDir, latest_run};
-pub use history::History;
-pub use manifest::{Manifest, Outcome};
-pub use other_build::FORMAT;
-pub use recorded::RecordedFlight;
-pub use records::Records;
+pub use common::manifest::{Manifest, Outcome};
+pub use common::other_build::FORMAT;
+pub use common::{checkpoint, fixed, manifest};
+pub use run::directory::{RESULTS, ResultDir, latest_run};
+pub use run::recorded::RecordedFlight;
+pub use run::writer::RunWriter;
+pub use run::{directory, file, saver, writer};
+pub use series::columns_page::columns_page;
+pub use series::history::History;
+pub use series::records::Records;
+pub use series::{columns, history, quantity, records, rows};
+pub use snapshots::{frames, particles, poses, vtp};
 pub use summary::Summary;
-pub use writer::RunWriter;

@@ -29,7 +29,7 @@ use wingbeat_flight::{AirModel, FlightSetup, Record};
 use wingbeat_math::{larger, smaller};
 use wingbeat_model::Wing;
 
-use super::Outcome;
+use crate::Outcome;
 pub use beats::{BeatMeans, Beats, down, over_weight};
 pub use bent::BentWing;
 pub use comparison::MeanDifference;
@@ -42,13 +42,13 @@ pub use last_part::LastPart;
 pub use means::{LEFT_OUT, ManyBeats};
 use momentum_balance::ratio;
 pub use numbers::Summary;
-pub use per_beat::{PerBeat, Quantity};
+pub use per_beat::{PerBeat, SummaryQuantity};
 use statistics::Statistics;
 pub use verdict::Verdict;
 use verdict::Warnings;
 use wingbeat_case::IoError;
 use wingbeat_case::LoadedCase;
-pub use words::prefix;
+pub use words::{broken, prefix};
 
 impl Summary {
     /// From the history of a run, read row by row. A thinned history does not hold every step: there it is the
@@ -205,7 +205,7 @@ pub fn ordinal(number: usize) -> String {
 }
 
 /// Total air force along a direction, row by row \[N\].
-pub fn air_force(history: &super::History, direction: wingbeat_math::DVec3) -> Vec<f64> {
+pub fn air_force(history: &crate::History, direction: wingbeat_math::DVec3) -> Vec<f64> {
     let mut total = vec![0.0; history.rows()];
     for k in 0..3 {
         let suffix = format!("_force_n{}_newton", k + 1);
@@ -221,7 +221,7 @@ pub fn air_force(history: &super::History, direction: wingbeat_math::DVec3) -> V
 const PASSIVE_POWER: &str = "passive_power_watt";
 
 /// Total power of the actuators of all joints and of prescribed deformation, row by row \[W\].
-pub fn driving_power(history: &super::History) -> Vec<f64> {
+pub fn driving_power(history: &crate::History) -> Vec<f64> {
     let mut power = history.sum(gives_power);
     let passive = history.sum(|n| n == PASSIVE_POWER);
     (power.iter_mut().zip(passive)).for_each(|(all, passive)| *all -= passive);
@@ -235,7 +235,7 @@ fn gives_power(name: &str) -> bool {
 }
 
 /// What [`driving_power`] is the power of, in words; none where nothing is driven.
-pub fn driving_power_name(setup: &FlightSetup, history: &super::History) -> Option<&'static str> {
+pub fn driving_power_name(setup: &FlightSetup, history: &crate::History) -> Option<&'static str> {
     let names = || history.names().iter().filter(|n| gives_power(n));
     // Joined roots have columns of their deformation even where nothing moves them.
     let beats = |w: &Wing| w.deformation.is_some() || !w.motion.angles.are_constant();

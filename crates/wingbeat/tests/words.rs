@@ -48,12 +48,12 @@ const EXCEPT: &[(&str, &str, &str)] = &[
     ),
     ("case/src/external/partner.rs", "ours", "our own program"),
     (
-        "results/src/directory.rs",
+        "results/src/run/directory.rs",
         "ours",
         "files that the program wrote",
     ),
     (
-        "results/src/saver.rs",
+        "results/src/run/saver.rs",
         "ours",
         "files that the program wrote",
     ),

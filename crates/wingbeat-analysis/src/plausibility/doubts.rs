@@ -267,9 +267,7 @@ fn drag_of_small_insects(setup: &FlightSetup, e: &Estimate) -> Option<String> {
 
 /// Weight, lift and inertia of a flyer that nothing holds.
 fn free_flight(setup: &FlightSetup, e: &Estimate, list: &mut Doubts) {
-    if let MotionMode::Free(start) = &setup.mode
-        && start.held_steps >= setup.time.steps
-    {
+    if setup.mode.is_held_throughout(setup.time.steps) {
         list.0.push(
             "the animal is held for as long as it is flown (flight.held_beats): fly longer (time), or mode = \"tethered\""
                 .to_owned(),

@@ -45,7 +45,7 @@ impl Reader<'_> {
                 None => {
                     let dimension = samplers.len();
                     self.check_law(&place, variation, samples, dimension)?;
-                    samplers.push(sampler(&key, seed, variation, samples, dimension));
+                    samplers.push(Sampler::new(&key, seed, variation, samples, dimension));
                 }
             }
         }
@@ -408,18 +408,4 @@ fn is_drawn(v: &Variation) -> bool {
         v,
         Variation::List(_) | Variation::Range(_) | Variation::LogRange(_)
     )
-}
-
-/// What draws a parameter; listed ones are none.
-fn sampler(key: &str, seed: u64, v: &Variation, samples: usize, dimension: usize) -> Sampler {
-    match v {
-        Variation::LatinHypercube(e) => Sampler::latin_hypercube(key, seed, *e, samples),
-        Variation::Sobol(e) => Sampler::sobol(key, seed, *e, dimension),
-        Variation::Uniform(e) => Sampler::uniform(key, seed, *e),
-        Variation::LogUniform(e) => Sampler::log_uniform(key, seed, *e),
-        Variation::Normal(n) => Sampler::normal(key, seed, *n),
-        Variation::List(_) | Variation::Range(_) | Variation::LogRange(_) => {
-            unreachable!("listed parameters are axes")
-        }
-    }
 }

@@ -9,7 +9,7 @@ use sha2::{Digest, Sha256};
 use statrs::function::erf::erfc_inv;
 use wingbeat_math::to_twelve_digits;
 
-use crate::plan::raw::{Ends, Normal};
+use crate::plan::raw::{Ends, Normal, Variation};
 
 /// Samples of a Sobol sequence at most, as the library has them.
 pub const MAX_SOBOL: usize = 1 << 16;
@@ -37,38 +37,24 @@ enum Law {
 }
 
 impl Sampler {
-    /// All values equally likely.
-    pub fn uniform(key: &str, seed: u64, ends: Ends) -> Self {
-        Self::new(key, seed, Law::Uniform(ends))
-    }
-
-    /// All logarithms equally likely.
-    pub fn log_uniform(key: &str, seed: u64, ends: Ends) -> Self {
-        Self::new(key, seed, Law::LogUniform(ends))
-    }
-
-    /// Normal.
-    pub fn normal(key: &str, seed: u64, normal: Normal) -> Self {
-        Self::new(key, seed, Law::Normal(normal))
-    }
-
-    /// One of each of `samples` equal parts, in random order.
-    pub fn latin_hypercube(key: &str, seed: u64, ends: Ends, samples: usize) -> Self {
-        let mut parts: Vec<u32> = (0..samples as u32).collect();
-        for k in (1..samples).rev() {
-            // Fisher-Yates; the remainder of 64 bits is uneven by less than 1e-9.
-            let other = random(seed, key, "order", k) % (k as u64 + 1);
-            parts.swap(k, other as usize);
-        }
-        Self::new(key, seed, Law::LatinHypercube(ends, parts))
-    }
-
-    /// Dimension number `dimension` of a Sobol sequence, whose seed is below 2^32.
-    pub fn sobol(key: &str, seed: u64, ends: Ends, dimension: usize) -> Self {
-        Self::new(key, seed, Law::Sobol(ends, dimension as u32))
-    }
-
-    fn new(key: &str, seed: u64, law: Law) -> Self {
+    /// Of a parameter that is drawn. A Latin hypercube has as many equal parts as `samples`, one value in each, in random
+    /// order; a Sobol sequence, whose seed is below 2^32, its `dimension` of this number.
+    ///
+    /// # Panics
+    /// A parameter whose values are listed.
+    pub fn new(key: &str, seed: u64, how: &Variation, samples: usize, dimension: usize) -> Self {
+        let law = match how {
+            Variation::Uniform(ends) => Law::Uniform(*ends),
+            Variation::LogUniform(ends) => Law::LogUniform(*ends),
+            Variation::Normal(normal) => Law::Normal(*normal),
+            Variation::LatinHypercube(ends) => {
+                Law::LatinHypercube(*ends, parts(key, seed, samples))
+            }
+            Variation::Sobol(ends) => Law::Sobol(*ends, dimension as u32),
+            Variation::List(_) | Variation::Range(_) | Variation::LogRange(_) => {
+                unreachable!("listed parameters are axes")
+            }
+        };
         Self {
             key: key.to_owned(),
             seed,
@@ -97,6 +83,17 @@ impl Sampler {
             ),
         })
     }
+}
+
+/// The numbers below `samples` in random order.
+fn parts(key: &str, seed: u64, samples: usize) -> Vec<u32> {
+    let mut parts: Vec<u32> = (0..samples as u32).collect();
+    for k in (1..samples).rev() {
+        // Fisher-Yates; the remainder of 64 bits is uneven by less than 1e-9.
+        let other = random(seed, key, "order", k) % (k as u64 + 1);
+        parts.swap(k, other as usize);
+    }
+    parts
 }
 
 fn between(ends: &Ends, u: f64) -> f64 {
@@ -156,7 +153,8 @@ mod tests {
     fn exact_moments_of_what_is_drawn() {
         let n = 20_000;
         let draw = |s: Sampler| -> Vec<f64> { (0..n).map(|k| s.value(k)).collect() };
-        let [mean, variance] = moments(&draw(Sampler::uniform("a", 7, ENDS)));
+        let draw = |how: Variation| draw(Sampler::new("a", 7, &how, n, 0));
+        let [mean, variance] = moments(&draw(Variation::Uniform(ENDS)));
         assert!((mean - 4.0).abs() < 4.0 * 1.155 / 141.0, "{mean}");
         assert!((variance - 16.0 / 12.0).abs() < 0.04, "{variance}");
         let normal = |from, to| Normal {
@@ -165,21 +163,21 @@ mod tests {
             from,
             to,
         };
-        let [mean, variance] = moments(&draw(Sampler::normal("a", 7, normal(None, None))));
+        let [mean, variance] = moments(&draw(Variation::Normal(normal(None, None))));
         assert!((mean - 3.0).abs() < 4.0 * 0.5 / 141.0, "{mean}");
         assert!(
             (variance - 0.25).abs() < 4.0 * 0.25 * 1.414 / 141.0,
             "{variance}"
         );
         // Cut off at the mean: the half-normal distribution, mean sigma sqrt(2 / pi).
-        let half = draw(Sampler::normal("a", 7, normal(Some(3.0), None)));
+        let half = draw(Variation::Normal(normal(Some(3.0), None)));
         let [mean, _] = moments(&half);
         assert!(
             (mean - 3.0 - 0.5 * 0.797_885).abs() < 4.0 * 0.3 / 141.0,
             "{mean}"
         );
         assert!(half.iter().all(|x| *x >= 3.0));
-        let logs: Vec<f64> = draw(Sampler::log_uniform("a", 7, ENDS));
+        let logs: Vec<f64> = draw(Variation::LogUniform(ENDS));
         let logs: Vec<f64> = logs.iter().map(|x| x.ln()).collect();
         let middle = 0.5 * (2.0_f64.ln() + 6.0_f64.ln());
         assert!((moments(&logs)[0] - middle).abs() < 4.0 * 0.317 / 141.0);
@@ -190,7 +188,7 @@ mod tests {
     fn invariant_keys_and_seeds_are_independent() {
         let n = 20_000;
         let draw = |key: &str, seed| -> Vec<f64> {
-            let s = Sampler::uniform(key, seed, ENDS);
+            let s = Sampler::new(key, seed, &Variation::Uniform(ENDS), n, 0);
             (0..n).map(|k| s.value(k) - 4.0).collect()
         };
         let first = draw("a", 1);
@@ -204,9 +202,8 @@ mod tests {
     #[test]
     fn exact_latin_hypercube_and_sobol_have_one_sample_in_each_part() {
         let n = 64;
-        let latin = Sampler::latin_hypercube("a", 3, ENDS, n);
-        let sobol = Sampler::sobol("a", 3, ENDS, 1);
-        for sampler in [latin, sobol] {
+        for how in [Variation::LatinHypercube(ENDS), Variation::Sobol(ENDS)] {
+            let sampler = Sampler::new("a", 3, &how, n, 1);
             let part = |k: usize| ((sampler.value(k) - 2.0) / 4.0 * n as f64) as usize;
             let mut parts: Vec<usize> = (0..n).map(part).collect();
             assert!(parts.windows(2).any(|w| w[1] < w[0]), "not in order");

@@ -22,7 +22,10 @@ pub const OPTIONS: [&str; 5] = [
     "steps_per_beat",
 ];
 
-const STEPS_ALLOWED: &str = "a whole number from 20 to 2000";
+fn allowed_steps() -> String {
+    let [least, most] = TRIM_STEPS;
+    format!("a whole number from {least} to {most}")
+}
 
 /// Checks the options themselves, and that the air can be trimmed in.
 ///
@@ -81,7 +84,7 @@ pub struct Bad {
     /// What is wrong.
     pub problem: String,
     /// What is allowed.
-    pub allowed: &'static str,
+    pub allowed: String,
     /// What to try.
     pub remedy: &'static str,
 }
@@ -99,7 +102,7 @@ pub fn options(raw: &RawCampaign, plan: &Plan, i: usize) -> Result<TrimOptions, 
         let number = value.number().ok_or_else(|| Bad {
             key: key.clone(),
             problem: format!("`{}` is no number", value.shown()),
-            allowed: "a number",
+            allowed: "a number".to_owned(),
             remedy: "give numbers",
         })?;
         match name {
@@ -121,7 +124,7 @@ fn whole(key: &str, number: f64) -> Result<usize, Bad> {
         false => Err(Bad {
             key: key.to_owned(),
             problem: format!("{number} has a fraction"),
-            allowed: STEPS_ALLOWED,
+            allowed: allowed_steps(),
             remedy: "give whole numbers, by a list or a range",
         }),
     }
@@ -138,7 +141,7 @@ fn check_options(options: &TrimOptions) -> Result<(), Bad> {
             return Err(Bad {
                 key: format!("{TRIM}{name}"),
                 problem: format!("{speed} m/s is no speed below that of sound"),
-                allowed: "a speed between -340 and 340",
+                allowed: format!("a speed between -{SPEED_OF_SOUND} and {SPEED_OF_SOUND}"),
                 remedy: "the air is incompressible: choose a lower speed",
             });
         }
@@ -151,7 +154,7 @@ fn check_options(options: &TrimOptions) -> Result<(), Bad> {
         Some(steps) => Err(Bad {
             key: format!("{TRIM}steps_per_beat"),
             problem: format!("{steps} steps per wingbeat"),
-            allowed: STEPS_ALLOWED,
+            allowed: allowed_steps(),
             remedy: "100 is the default",
         }),
     }

@@ -19,6 +19,7 @@ use wingbeat_case::IoError;
 use wingbeat_results::directory::remove_file;
 use wingbeat_results::manifest::sha256;
 
+use crate::store::entries;
 use crate::worker::process::{Process, start_of};
 
 /// Heartbeats this old are those of the dead.
@@ -113,12 +114,13 @@ impl Leases {
     }
 
     /// Blocks that are done.
-    pub fn done(&self) -> Vec<usize> {
-        let files = fs::read_dir(&self.folder).into_iter().flatten().flatten();
+    ///
+    /// # Errors
+    /// A folder that cannot be read.
+    pub fn done(&self) -> Result<Vec<usize>, IoError> {
         let block = |name: &str| name.strip_suffix(".done")?.parse().ok();
-        files
-            .filter_map(|f| f.file_name().to_str().and_then(block))
-            .collect()
+        let of = |file: &PathBuf| file.file_name()?.to_str().and_then(block);
+        Ok(entries(&self.folder)?.iter().filter_map(of).collect())
     }
 
     /// A block that was done is not any more.
@@ -257,16 +259,20 @@ impl Leases {
     }
 
     /// Blocks that somebody alive flies now.
-    pub fn held(&self) -> usize {
-        let files = fs::read_dir(&self.folder).into_iter().flatten().flatten();
+    ///
+    /// # Errors
+    /// A folder that cannot be read.
+    pub fn held(&self) -> Result<usize, IoError> {
         let lease = |name: &str| {
             name.rsplit_once('.')
                 .is_some_and(|(b, g)| b.parse::<usize>().is_ok() && g.parse::<usize>().is_ok())
         };
-        let leases = files.filter(|f| f.file_name().to_str().is_some_and(lease));
-        leases
-            .filter(|f| matches!(self.look(&f.path()), Ok(Holder::Alive)))
-            .count()
+        let is_lease =
+            |file: &PathBuf| file.file_name().and_then(|n| n.to_str()).is_some_and(lease);
+        // Where no clock can be written, the heartbeats of other machines say nothing.
+        let is_held =
+            |file: &PathBuf| is_lease(file) && matches!(self.look(file), Ok(Holder::Alive));
+        Ok(entries(&self.folder)?.iter().filter(|f| is_held(f)).count())
     }
 }
 
@@ -387,7 +393,7 @@ mod tests {
         assert_eq!((flown, lease.generation), (Some(7), 3));
         lease.done().unwrap();
         assert!(matches!(leases.take(3).unwrap(), Taken::Done));
-        assert_eq!(leases.done(), [3]);
+        assert_eq!(leases.done().unwrap(), [3]);
         leases.undo(3).unwrap();
         assert!(matches!(leases.take(3).unwrap(), Taken::Own(_, None)));
         fs::remove_dir_all(&leases.folder).unwrap();

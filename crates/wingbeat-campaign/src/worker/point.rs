@@ -236,7 +236,7 @@ impl Point<'_> {
 
     /// The case of the trimmed flight.
     fn trimmed(&self, case: &LoadedCase, trim: &Trim) -> Result<LoadedCase, Halt> {
-        let text = trimmed_case(case, trim);
+        let text = trimmed_case(case, trim).map_err(analysis)?;
         let trimmed = LoadedCase::from_text(case.origin(), &text, Path::new(""), &[]);
         trimmed.map_err(|e| Halt::Refused(format!("the trimmed flight: {e}")))
     }

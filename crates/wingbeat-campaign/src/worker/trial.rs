@@ -127,7 +127,7 @@ impl CampaignFile {
         let found = trimming::options(&self.raw, &self.plan, i);
         found.map(Some).map_err(|bad| {
             let place = self.places().of(&bad.key).unwrap_or(bad.key);
-            self.fault(&place, bad.problem, bad.allowed, bad.remedy)
+            self.fault(&place, bad.problem, &bad.allowed, bad.remedy)
         })
     }
 

@@ -16,6 +16,21 @@ pub enum MotionMode {
     Tethered(PrescribedMotion),
 }
 
+impl MotionMode {
+    /// Whether a support has the root at this step: a tether, or the hold before a release.
+    pub fn is_supported_at(&self, step: usize) -> bool {
+        match self {
+            Self::Free(start) => step < start.held_steps,
+            Self::Tethered(_) => true,
+        }
+    }
+
+    /// Whether a root that is to be released is held for all of so many steps.
+    pub fn is_held_throughout(&self, steps: usize) -> bool {
+        matches!(self, Self::Free(start) if start.held_steps >= steps)
+    }
+}
+
 /// Position, attitude and velocities of the root body at time zero.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct StartState {

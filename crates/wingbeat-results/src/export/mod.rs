@@ -22,8 +22,8 @@ mod vtkhdf;
 use std::path::{Path, PathBuf};
 
 use crate::ResultDir;
-use crate::file::{Existing, NewFile, make_folder};
-use crate::frames::{self, Frame};
+use crate::run::file::{Existing, NewFile, make_folder};
+use crate::snapshots::frames::{self, Frame};
 use wingbeat_case::IoError;
 
 use source::Source;

@@ -4,9 +4,9 @@ use std::path::PathBuf;
 
 use wingbeat_case::{IoError, LoadedCase};
 
-use crate::columns::{Column, Columns};
-use crate::poses::Poses;
-use crate::rows::Rows;
+use crate::series::columns::{Column, Columns};
+use crate::series::rows::Rows;
+use crate::snapshots::poses::Poses;
 use crate::{Manifest, ResultDir};
 
 /// A result that is exported.

@@ -9,10 +9,10 @@ use super::hdf5::{Attribute, Hdf5File, Kind, Layout};
 use super::parquet::{Cells, ParquetWriter};
 use super::source::Source;
 use crate::Summary;
-use crate::columns::{Column, TIME};
-use crate::frames::{self, Frame, Mesh};
-use crate::particles::{Cloud, NUMBERS};
-use crate::vtp::SHARED;
+use crate::series::columns::{Column, TIME};
+use crate::snapshots::frames::{self, Frame, Mesh};
+use crate::snapshots::particles::{Cloud, NUMBERS};
+use crate::snapshots::vtp::SHARED;
 use wingbeat_case::IoError;
 
 /// Version of the layout of the HDF5 file.

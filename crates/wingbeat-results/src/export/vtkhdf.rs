@@ -6,8 +6,8 @@ use std::path::Path;
 use super::hdf5::{Attribute, Hdf5File, Kind, Layout};
 use super::source::Source;
 use super::tables::particle_counts;
-use crate::frames::{self, Frame, Mesh};
-use crate::particles::NUMBERS;
+use crate::snapshots::frames::{self, Frame, Mesh};
+use crate::snapshots::particles::NUMBERS;
 use wingbeat_case::IoError;
 
 /// Kinds of cells in the order of their offsets.

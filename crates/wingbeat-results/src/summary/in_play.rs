@@ -21,7 +21,7 @@ use wingbeat_flight::{FlightSetup, MotionMode, Record};
 use wingbeat_math::{DVec3, larger};
 
 use super::extent::Extent;
-use super::momentum_balance::{ROUNDING, body_motion, is_supported, moving, ratio, velocity};
+use super::momentum_balance::{ROUNDING, body_motion, moving, ratio, velocity};
 
 /// Where a flight begins: velocity of C \[m/s\] and momentum [kg m/s], N components, time \[s\].
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
@@ -196,7 +196,7 @@ impl InPlay {
 
 /// The frame in which residuals count: C of velocity `u` [m/s], N components, and that of a body on a support.
 fn carrier(r: &Record, setup: &FlightSetup, u: DVec3) -> Carrier {
-    let is_supported = is_supported(r, setup);
+    let is_supported = setup.mode.is_supported_at(r.step);
     let body = body_motion(r);
     let (velocity, angular_velocity) = match is_supported {
         true => {

@@ -6,8 +6,8 @@
 
 use serde::{Deserialize, Serialize};
 use wingbeat_dynamics::{BodyMotion, kinetic_energy, linear_momentum};
-use wingbeat_flight::{FlightSetup, MotionMode, Record};
-use wingbeat_math::{DMat3, DQuat, DVec3, larger};
+use wingbeat_flight::{FlightSetup, Record};
+use wingbeat_math::{DVec3, larger};
 
 use super::extent::Extent;
 
@@ -97,7 +97,7 @@ pub(super) struct MomentumBalance {
 impl MomentumBalance {
     /// Takes the next step.
     pub fn take(&mut self, r: &Record, setup: &FlightSetup) {
-        match (is_supported(r, setup), self.free.start) {
+        match (setup.mode.is_supported_at(r.step), self.free.start) {
             (true, _) => self.held.take(r, setup),
             (false, Some(_)) => self.free.take(r, setup),
             (false, None) => {
@@ -135,18 +135,10 @@ pub(super) fn ratio(x: f64, scale: f64) -> f64 {
     if scale == 0.0 { x } else { x / scale }
 }
 
-/// Whether a support has the body: a tether, or the hold before a release.
-pub(super) fn is_supported(r: &Record, setup: &FlightSetup) -> bool {
-    match &setup.mode {
-        MotionMode::Tethered(_) => true,
-        MotionMode::Free(start) => r.step < start.held_steps,
-    }
-}
-
 /// Velocity of the frame in which the flyer rests, N components \[m/s\]: that of its mass centre, of one on a support
 /// that of its body.
 pub(super) fn velocity(r: &Record, setup: &FlightSetup) -> DVec3 {
-    match is_supported(r, setup) {
+    match setup.mode.is_supported_at(r.step) {
         true => body_motion(r).v,
         false => r.momentum / setup.animal.mass(),
     }
@@ -155,10 +147,9 @@ pub(super) fn velocity(r: &Record, setup: &FlightSetup) -> DVec3 {
 /// Motion of the central body.
 pub(super) fn body_motion(r: &Record) -> BodyMotion {
     let three = |numbers: &[f64]| numbers.get(..3).map_or(DVec3::ZERO, DVec3::from_slice);
-    let [w, x, y, z] = r.root_quaternion;
     BodyMotion {
         p: three(&r.coordinates),
-        r: DMat3::from_quat(DQuat::from_xyzw(x, y, z, w)),
+        r: r.root_rotation(),
         v: three(&r.rates),
         w: r.root_angular_velocity,
     }
@@ -169,7 +160,7 @@ pub(super) fn body_motion(r: &Record) -> BodyMotion {
 pub(super) fn moving(r: &Record, setup: &FlightSetup, u: DVec3) -> Share {
     let mass = setup.animal.mass();
     let kinetic = r.kinetic_energy - u.dot(r.momentum) + 0.5 * mass * u.length_squared();
-    let body = match is_supported(r, setup) {
+    let body = match setup.mode.is_supported_at(r.step) {
         true => body(r, setup, u),
         false => (0.0, DVec3::ZERO),
     };

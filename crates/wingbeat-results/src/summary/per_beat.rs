@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 /// A number that results have under a name.
 #[derive(Clone, Copy, Debug)]
-pub struct Quantity<S, T = f64> {
+pub struct SummaryQuantity<S, T = f64> {
     /// Its name in files and campaigns, with its unit.
     pub name: &'static str,
     /// Its unit, as units are written: `m s-1`.
@@ -16,6 +16,23 @@ pub struct Quantity<S, T = f64> {
     pub about: &'static str,
     /// Takes it \[`unit`\]; none where it is not known.
     pub of: fn(&S) -> Option<T>,
+}
+
+/// A row of a table of them.
+pub(super) const fn row<S, T>(
+    name: &'static str,
+    unit: &'static str,
+    label: Option<&'static str>,
+    about: &'static str,
+    of: fn(&S) -> Option<T>,
+) -> SummaryQuantity<S, T> {
+    SummaryQuantity {
+        name,
+        unit,
+        label,
+        about,
+        of,
+    }
 }
 
 /// A `T` for each quantity of a wingbeat: a mean, or a mean with its error.
@@ -46,70 +63,28 @@ pub struct PerBeat<T = f64> {
 
 impl<T: Copy> PerBeat<T> {
     /// All of them, as campaigns list and comparisons show them.
-    pub const QUANTITIES: [Quantity<Self, T>; 9] = [
-        Quantity {
-            name: "lift_over_weight",
-            unit: "1",
-            label: Some("lift over weight"),
-            about: "mean air force against gravity over the weight",
-            of: |m| m.lift_over_weight,
-        },
-        Quantity {
-            name: "lift_newton",
-            unit: "N",
-            label: Some("lift [N]"),
-            about: "mean air force against gravity",
-            of: |m| Some(m.lift_newton),
-        },
-        Quantity {
-            name: "thrust_newton",
-            unit: "N",
-            label: Some("forward force [N]"),
-            about: "mean air force along n1, forward",
-            of: |m| Some(m.thrust_newton),
-        },
-        Quantity {
-            name: "power_watt",
-            unit: "W",
-            label: Some("power [W]"),
-            about: "mean power of actuators and of prescribed deformation",
-            of: |m| Some(m.power_watt),
-        },
-        Quantity {
-            name: "positive_power_watt",
-            unit: "W",
-            label: Some("positive power [W]"),
-            about: "mean of its positive part, joint by joint: what actuators give that get nothing back",
-            of: |m| Some(m.positive_power_watt),
-        },
-        Quantity {
-            name: "lift_coefficient",
-            unit: "1",
-            label: Some("lift coefficient [1]"),
-            about: "mean air force against gravity over the mean dynamic pressure on the wings",
-            of: |m| m.lift_coefficient,
-        },
-        Quantity {
-            name: "thrust_coefficient",
-            unit: "1",
-            label: Some("thrust coefficient [1]"),
-            about: "the same of the air force along n1",
-            of: |m| m.thrust_coefficient,
-        },
-        Quantity {
-            name: "inviscid_lift_newton",
-            unit: "N",
-            label: None,
-            about: "mean inviscid air force against gravity; none without a lattice",
-            of: |m| m.inviscid_lift_newton,
-        },
-        Quantity {
-            name: "lift_by_impulse_newton",
-            unit: "N",
-            label: None,
-            about: "the same by the rate of the vortex impulse; with vortex particles it depends on the origin",
-            of: |m| m.lift_by_impulse_newton,
-        },
+    #[rustfmt::skip]
+    pub const QUANTITIES: [SummaryQuantity<Self, T>; 9] = [
+        row("lift_over_weight", "1", Some("lift over weight"), "mean air force against gravity over the weight",
+            |m| m.lift_over_weight),
+        row("lift_newton", "N", Some("lift [N]"), "mean air force against gravity", |m| Some(m.lift_newton)),
+        row("thrust_newton", "N", Some("forward force [N]"), "mean air force along n1, forward",
+            |m| Some(m.thrust_newton)),
+        row("power_watt", "W", Some("power [W]"), "mean power of actuators and of prescribed deformation",
+            |m| Some(m.power_watt)),
+        row("positive_power_watt", "W", Some("positive power [W]"),
+            "mean of its positive part, joint by joint: what actuators give that get nothing back",
+            |m| Some(m.positive_power_watt)),
+        row("lift_coefficient", "1", Some("lift coefficient [1]"),
+            "mean air force against gravity over the mean dynamic pressure on the wings",
+            |m| m.lift_coefficient),
+        row("thrust_coefficient", "1", Some("thrust coefficient [1]"), "the same of the air force along n1",
+            |m| m.thrust_coefficient),
+        row("inviscid_lift_newton", "N", None,
+            "mean inviscid air force against gravity; none without a lattice", |m| m.inviscid_lift_newton),
+        row("lift_by_impulse_newton", "N", None,
+            "the same by the rate of the vortex impulse; with vortex particles it depends on the origin",
+            |m| m.lift_by_impulse_newton),
     ];
 
     /// Each quantity of `all`, one or more, as one: `of` its values in their order; none where one of them is none.
@@ -141,7 +116,7 @@ impl<T: Copy> PerBeat<T> {
 
     /// The quantities that comparisons show and both have, beside each other: label, this, the other.
     pub(super) fn beside(&self, other: &Self) -> Vec<(&'static str, T, T)> {
-        let row = |q: Quantity<Self, T>| Some((q.label?, (q.of)(self)?, (q.of)(other)?));
+        let row = |q: SummaryQuantity<Self, T>| Some((q.label?, (q.of)(self)?, (q.of)(other)?));
         Self::QUANTITIES.into_iter().filter_map(row).collect()
     }
 }

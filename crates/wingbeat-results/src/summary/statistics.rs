@@ -7,7 +7,7 @@ use wingbeat_flight::{FlightSetup, Record};
 use super::beats::{BeatMeans, Beats};
 use super::each_step::EachStep;
 use super::last_part::Bounds;
-use crate::records::Records;
+use crate::series::records::Records;
 use wingbeat_case::IoError;
 
 /// A whole history.

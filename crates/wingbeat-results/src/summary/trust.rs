@@ -130,15 +130,8 @@ fn mode(setup: &FlightSetup, summary: &Summary, list: &mut Warnings) {
             false => "Tethered: the body does not answer to the forces on it. What the tether spends on moving it is no part of the power, which is that of hinges and prescribed deformation; it is in applied_work_joule of history.csv.",
         });
     }
-    if is_never_released(setup, summary) {
+    if setup.mode.is_held_throughout(summary.steps) {
         list.note("Held to its end (flight.held_beats): the body has not been released.");
-    }
-}
-
-fn is_never_released(setup: &FlightSetup, summary: &Summary) -> bool {
-    match &setup.mode {
-        MotionMode::Free(start) => start.held_steps >= summary.steps,
-        MotionMode::Tethered(_) => false,
     }
 }
 
@@ -193,7 +186,8 @@ const TURNED: [f64; 2] = [90.0, 5.0];
 fn feedback(setup: &FlightSetup, summary: &Summary, list: &mut Warnings) {
     let departures = summary.departures.as_ref();
     // A body that is held to its end is not steered.
-    let Some(departures) = departures.filter(|_| !is_never_released(setup, summary)) else {
+    let Some(departures) = departures.filter(|_| !setup.mode.is_held_throughout(summary.steps))
+    else {
         return;
     };
     let turn = departures.attitude_deg;

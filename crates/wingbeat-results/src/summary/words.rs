@@ -12,7 +12,7 @@ use super::last_part::LastPart;
 use super::means::ManyBeats;
 use super::numbers::Summary;
 use crate::Outcome;
-use crate::fixed::{fixed, signed, signed_or_power};
+use crate::common::fixed::{fixed, signed, signed_or_power};
 
 impl Summary {
     /// For people; the verdict comes first, its word in front.
@@ -379,20 +379,28 @@ pub fn prefix(x: f64) -> (f64, &'static str) {
 
 /// Text broken at 92 columns, continued under the first word.
 fn wrapped(bullet: &str, text: &str) -> String {
-    let mut out = bullet.to_owned();
-    let mut column = bullet.len();
+    let lines = broken(text, bullet.chars().count(), 92);
+    format!("{bullet}{lines}\n")
+}
+
+/// Text that begins in column `indent`, broken before the word that would end beyond `width` columns (characters) and
+/// continued in the column where it begins; a word that is too long by itself stands alone.
+pub fn broken(text: &str, indent: usize, width: usize) -> String {
+    let mut out = String::new();
+    let mut column = indent;
     for word in text.split(' ') {
-        if column + word.len() > 92 {
-            let _ = write!(out, "\n{:width$}", "", width = bullet.len());
-            column = bullet.len();
+        let length = word.chars().count();
+        if column > indent && column + length > width {
+            out.truncate(out.trim_end().len());
+            let _ = write!(out, "\n{:indent$}", ""); // a string takes everything
+            column = indent;
         }
         out.push_str(word);
         out.push(' ');
-        column += word.len() + 1;
+        column += length + 1;
     }
     out.truncate(out.trim_end().len());
-    out.push('\n');
-    out.replace(" \n", "\n")
+    out
 }
 
 #[cfg(test)]
@@ -421,5 +429,9 @@ mod tests {
         assert!(
             text.lines().count() == 2 && text.lines().all(|l| l.len() <= 92 && !l.ends_with(' '))
         );
+        // Letters of two bytes are as wide as others.
+        let [ascii, wide] = ["fluegel ", "flügeln "].map(|word| wrapped("  - ", &word.repeat(30)));
+        assert_eq!(ascii.replace("fluegel", "flügeln"), wide);
+        assert_eq!(broken("abc defghij kl", 2, 8), "abc\n  defghij\n  kl");
     }
 }

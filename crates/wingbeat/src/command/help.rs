@@ -10,6 +10,7 @@ use clap::{Arg, Command, CommandFactory, Error};
 use clap_complete::Shell;
 use wingbeat::case::{nearest, presets};
 use wingbeat::results::file::{Existing, NewFile, make_folder};
+use wingbeat::results::summary::broken;
 
 use crate::command::cli::{Cli, MAX_WIDTH, ManArgs, STYLES};
 use crate::command::failure::Failure;
@@ -19,7 +20,7 @@ use crate::command::terminal::{self, say};
 const PROGRAM: &str = "wingbeat";
 
 /// Columns before the descriptions of commands.
-const INDENT: usize = 14;
+const INDENT: usize = 15;
 
 /// The commands by what they are for.
 const GROUPS: [(&str, &[&str]); 5] = [
@@ -154,20 +155,6 @@ fn width() -> usize {
         .min(MAX_WIDTH)
 }
 
-/// Ends a line with words from the column of the descriptions on, and goes on below them.
-fn wrap(text: &mut String, words: &str, width: usize) {
-    let mut column = INDENT;
-    for word in words.split_whitespace() {
-        if column > INDENT && column + 1 + word.chars().count() > width {
-            let _ = write!(text, "\n{:INDENT$}", ""); // a string takes everything
-            column = INDENT;
-        }
-        let _ = write!(text, " {word}");
-        column += 1 + word.chars().count();
-    }
-    text.push('\n');
-}
-
 /// The groups with what each command is for.
 fn groups(command: &Command, width: usize) -> String {
     let (header, literal) = (STYLES.get_header(), STYLES.get_literal());
@@ -177,8 +164,8 @@ fn groups(command: &Command, width: usize) -> String {
         for name in names {
             let about = command.find_subcommand(name).and_then(Command::get_about);
             let about = about.map(ToString::to_string).unwrap_or_default();
-            let _ = write!(text, "  {literal}{name:<12}{literal:#}");
-            wrap(&mut text, &about, width);
+            let about = broken(&about, INDENT, width);
+            let _ = writeln!(text, "  {literal}{name:<12}{literal:#} {about}");
         }
         text.push('\n');
     }

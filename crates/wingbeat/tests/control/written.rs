@@ -30,7 +30,7 @@ fn balances_a_trimmed_case_under_feedback_flies_on_at_its_speed() {
     let pitch = case.setup.angles_at_release().x;
     let forward = TrimProblem::straight(DVec3::new(SPEED, 0.0, 0.0), pitch);
     let trim = flight.trim(&forward).unwrap();
-    let text = trimmed_case(&case, &trim);
+    let text = trimmed_case(&case, &trim).unwrap();
     let set = ["time.beats=30".to_owned()];
     let written = LoadedCase::from_text("written", &text, std::path::Path::new(""), &set).unwrap();
     let period = written.setup.time.period.unwrap();

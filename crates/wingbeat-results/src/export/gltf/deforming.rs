@@ -10,7 +10,7 @@ use super::basis::Basis;
 use super::document::{Document, FLOAT};
 use super::shapes::Shapes;
 use crate::export::source::Source;
-use crate::poses::Poses;
+use crate::snapshots::poses::Poses;
 use wingbeat_case::IoError;
 
 /// How far a node may be from its place in any shape, in lengths of the wing \[1\].

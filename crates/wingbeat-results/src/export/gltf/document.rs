@@ -10,7 +10,7 @@ use wingbeat_math::DVec3;
 
 use super::basis::Basis;
 use crate::export::source::Source;
-use crate::poses::Poses;
+use crate::snapshots::poses::Poses;
 
 pub(super) const FLOAT: u32 = 5126;
 pub(super) const UNSIGNED: u32 = 5125;

@@ -20,8 +20,8 @@ use wingbeat_math::{DMat3, DQuat, DVec3};
 
 use super::block::Block;
 use super::source::Source;
-use crate::poses::Poses;
-use crate::rows::Rows;
+use crate::series::rows::Rows;
+use crate::snapshots::poses::Poses;
 use deforming::Deforming;
 use document::{Document, FLOAT, Shown};
 use wake::Wakes;

@@ -4,8 +4,8 @@
 use wingbeat_math::DVec3;
 
 use crate::export::source::Source;
-use crate::frames::{self, Frame, Mesh};
-use crate::poses::{Poses, picture};
+use crate::snapshots::frames::{self, Frame, Mesh};
+use crate::snapshots::poses::{Poses, picture};
 use wingbeat_case::IoError;
 
 /// The wings that deform, and where their shapes come from.

@@ -11,8 +11,8 @@ use serde_json::{Value, json};
 
 use super::document::{BYTE, Document, FLOAT, VERTICES, WAKE, bounds};
 use crate::export::source::Source;
-use crate::frames::{self, Frame, JoinedEdges, Mesh, Sheet};
-use crate::particles::Cloud;
+use crate::snapshots::frames::{self, Frame, JoinedEdges, Mesh, Sheet};
+use crate::snapshots::particles::Cloud;
 use wingbeat_case::IoError;
 
 /// Wake older than this is not shown \[wingbeats\].

@@ -2,6 +2,9 @@
 //! refer to.
 
 use std::collections::HashMap;
+use std::io;
+
+use super::message::short;
 
 /// Objects and bytes of a collection of texts, at most about these: numbers of objects have 16 bits, and readers load a
 /// collection whole.
@@ -9,10 +12,13 @@ const OBJECTS: usize = 60_000;
 const BYTES: usize = 1 << 20;
 
 /// A collection of these objects.
-pub(super) fn collection<'a>(list: impl Iterator<Item = &'a [u8]>) -> Vec<u8> {
+///
+/// # Errors
+/// More than 65 535 of them.
+pub(super) fn collection<'a>(list: impl Iterator<Item = &'a [u8]>) -> io::Result<Vec<u8>> {
     let mut objects = vec![];
     for (k, content) in list.enumerate() {
-        objects.extend((k as u16 + 1).to_le_bytes());
+        objects.extend(short(k + 1, "arrays and texts of a file")?);
         objects.extend([1, 0, 0, 0, 0, 0]); // referred to
         objects.extend((content.len() as u64).to_le_bytes());
         objects.extend(content);
@@ -26,12 +32,15 @@ pub(super) fn collection<'a>(list: impl Iterator<Item = &'a [u8]>) -> Vec<u8> {
     out.extend([0; 8]); // object 0: what is left
     out.extend((free as u64).to_le_bytes());
     out.resize(size, 0);
-    out
+    Ok(out)
 }
 
 /// Collections from `place` on that hold the texts of all lists, each once; and for each list what its array
 /// holds: length, place of the collection and number of the object of each text (IV.B).
-pub(super) fn texts(lists: &[&[String]], place: u64) -> (Vec<u8>, Vec<Vec<u8>>) {
+///
+/// # Errors
+/// Those of [`collection`], which holds fewer objects here than can be numbered.
+pub(super) fn texts(lists: &[&[String]], place: u64) -> io::Result<(Vec<u8>, Vec<Vec<u8>>)> {
     let mut found: HashMap<&str, (u64, u32)> = HashMap::new();
     let (mut out, mut open, mut bytes): (Vec<u8>, Vec<&[u8]>, usize) = (vec![], vec![], 0);
     for text in lists.iter().copied().flatten().filter(|t| !t.is_empty()) {
@@ -39,7 +48,7 @@ pub(super) fn texts(lists: &[&[String]], place: u64) -> (Vec<u8>, Vec<Vec<u8>>) 
             continue;
         }
         if open.len() == OBJECTS || bytes > BYTES {
-            out.extend(collection(open.drain(..)));
+            out.extend(collection(open.drain(..))?);
             bytes = 0;
         }
         open.push(text.as_bytes());
@@ -47,7 +56,7 @@ pub(super) fn texts(lists: &[&[String]], place: u64) -> (Vec<u8>, Vec<Vec<u8>>) 
         found.insert(text, (place + out.len() as u64, open.len() as u32));
     }
     if !open.is_empty() {
-        out.extend(collection(open.into_iter()));
+        out.extend(collection(open.into_iter())?);
     }
     let reference = |text: &String| {
         let (place, number) = found.get(text.as_str()).copied().unwrap_or_default();
@@ -55,5 +64,5 @@ pub(super) fn texts(lists: &[&[String]], place: u64) -> (Vec<u8>, Vec<Vec<u8>>) 
         [&length[..], &place.to_le_bytes(), &number.to_le_bytes()].concat()
     };
     let references = lists.iter().map(|l| l.iter().flat_map(reference).collect());
-    (out, references.collect())
+    Ok((out, references.collect()))
 }

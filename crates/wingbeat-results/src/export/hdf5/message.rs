@@ -2,6 +2,8 @@
 //!
 //! Section numbers refer to the *HDF5 File Format Specification, version 3.0* (The HDF Group).
 
+use std::io;
+
 /// Type of the numbers of an array.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
@@ -80,8 +82,32 @@ pub(super) fn dataspace(shape: &[usize]) -> Vec<u8> {
     m
 }
 
+/// A length or number of 16 bits, of `what`.
+///
+/// # Errors
+/// One that needs more.
+pub(super) fn short(n: usize, what: &str) -> io::Result<[u8; 2]> {
+    let problem = || {
+        format!(
+            "{what}: {n} is more than the {} that HDF5 files can hold",
+            u16::MAX
+        )
+    };
+    u16::try_from(n)
+        .map(u16::to_le_bytes)
+        .map_err(|_| io::Error::other(problem()))
+}
+
 /// Attribute message, version 3 (IV.A.2.m); `heap` is where the references to arrays stand.
-pub(super) fn attribute(name: &str, value: &Attribute, rank: usize, heap: u64) -> Vec<u8> {
+///
+/// # Errors
+/// One of 64 KiB or more, which no message can hold.
+pub(super) fn attribute(
+    name: &str,
+    value: &Attribute,
+    rank: usize,
+    heap: u64,
+) -> io::Result<Vec<u8>> {
     let (kind, space, data) = match value {
         Attribute::Text(text) => {
             let bytes = [text.as_bytes(), &[0]].concat();
@@ -117,7 +143,10 @@ pub(super) fn attribute(name: &str, value: &Attribute, rank: usize, heap: u64) -
     };
     let mut m = vec![3, 0];
     for n in [name.len() + 1, kind.len(), space.len()] {
-        m.extend((n as u16).to_le_bytes());
+        m.extend(short(
+            n,
+            &format!("bytes of the name of attribute `{name}`"),
+        )?);
     }
     m.push(1); // names are UTF-8
     m.extend(name.as_bytes());
@@ -125,24 +154,31 @@ pub(super) fn attribute(name: &str, value: &Attribute, rank: usize, heap: u64) -
     m.extend(kind);
     m.extend(space);
     m.extend(data);
-    m
+    short(m.len(), &format!("bytes of attribute `{name}`"))?;
+    Ok(m)
 }
 
 /// Link message to an object of the same file (IV.A.2.g).
-pub(super) fn link(name: &str, place: u64) -> Vec<u8> {
+///
+/// # Errors
+/// A name of nearly 64 KiB or more.
+pub(super) fn link(name: &str, place: u64) -> io::Result<Vec<u8>> {
     let mut m = vec![1, 0x11, 1]; // two bytes of length; UTF-8
-    m.extend((name.len() as u16).to_le_bytes());
+    m.extend(short(name.len(), &format!("bytes of the name `{name}`"))?);
     m.extend(name.as_bytes());
     m.extend(place.to_le_bytes());
-    m
+    Ok(m)
 }
 
 /// Object header, version 2 (IV.A.1.b), of messages with their types.
-pub(super) fn object(messages: &[(u8, Vec<u8>)]) -> Vec<u8> {
+///
+/// # Errors
+/// A message of 64 KiB or more.
+pub(super) fn object(messages: &[(u8, Vec<u8>)]) -> io::Result<Vec<u8>> {
     let mut body = vec![];
     for (kind, data) in messages {
         body.push(*kind);
-        body.extend((data.len() as u16).to_le_bytes());
+        body.extend(short(data.len(), "bytes of a message")?);
         body.push(0);
         body.extend(data);
     }
@@ -151,7 +187,7 @@ pub(super) fn object(messages: &[(u8, Vec<u8>)]) -> Vec<u8> {
     out.extend(body);
     let sum = lookup3(&out);
     out.extend(sum.to_le_bytes());
-    out
+    Ok(out)
 }
 
 pub(super) const UNDEFINED: u64 = u64::MAX;

@@ -120,7 +120,13 @@ impl Layout {
     }
 
     /// The header of an object when all objects stand at `places` and arrays at `data`.
-    fn header(&self, object: &Object, places: &[u64], data: &[u64], heap: u64) -> Vec<u8> {
+    fn header(
+        &self,
+        object: &Object,
+        places: &[u64],
+        data: &[u64],
+        heap: u64,
+    ) -> std::io::Result<Vec<u8>> {
         match object {
             Object::Group(path) => {
                 let mut info = vec![0, 0];
@@ -131,11 +137,11 @@ impl Layout {
                     let full = self.path(child);
                     let (parent, name) = full.rsplit_once('/').unwrap_or(("", full));
                     if parent == *path && !full.is_empty() {
-                        messages.push((0x06, link(name, *place)));
+                        messages.push((0x06, link(name, *place)?));
                     }
                 }
                 for (_, name, value) in self.attributes.iter().filter(|a| a.0 == *path) {
-                    messages.push((0x0c, attribute(name, value, 0, heap)));
+                    messages.push((0x0c, attribute(name, value, 0, heap)?));
                 }
                 self::object(&messages)
             }
@@ -143,7 +149,7 @@ impl Layout {
         }
     }
 
-    fn array(&self, k: usize, place: u64, heap: u64) -> Vec<u8> {
+    fn array(&self, k: usize, place: u64, heap: u64) -> std::io::Result<Vec<u8>> {
         let d = &self.datasets[k];
         let bytes = self.bytes(k);
         let mut contiguous = vec![3, 1]; // data layout, version 3 (IV.A.2.i)
@@ -156,7 +162,7 @@ impl Layout {
             (0x08, contiguous),
         ];
         for (name, value) in &d.attributes {
-            messages.push((0x0c, attribute(name, value, d.shape.len(), heap)));
+            messages.push((0x0c, attribute(name, value, d.shape.len(), heap)?));
         }
         object(&messages)
     }
@@ -169,7 +175,7 @@ impl Layout {
     /// Begins a file: everything but the numbers of the arrays, which are zeros until written.
     ///
     /// # Errors
-    /// A file that cannot be written.
+    /// A file that cannot be written; more than the format holds: attributes of 64 KiB, 65 536 arrays.
     pub fn create(&self, path: &Path) -> std::io::Result<Hdf5File> {
         const SUPERBLOCK: u64 = 48;
         let objects = self.objects();
@@ -179,16 +185,16 @@ impl Layout {
         let mut places = vec![];
         for o in &objects {
             places.push(at);
-            at += self.header(o, &none, &empty, 0).len() as u64;
+            at += self.header(o, &none, &empty, 0)?.len() as u64;
         }
         let heap = at.next_multiple_of(8);
         let arrays: Vec<[u8; 8]> = places[1 + self.groups.len()..]
             .iter()
             .map(|place| place.to_le_bytes())
             .collect();
-        let mut heaps = heap::collection(arrays.iter().map(<[u8; 8]>::as_slice));
+        let mut heaps = heap::collection(arrays.iter().map(<[u8; 8]>::as_slice))?;
         let lists: Vec<&[String]> = self.texts.iter().map(|(_, list)| &list[..]).collect();
-        let (collections, references) = heap::texts(&lists, heap + heaps.len() as u64);
+        let (collections, references) = heap::texts(&lists, heap + heaps.len() as u64)?;
         heaps.extend(collections);
         at = heap + heaps.len() as u64;
         let mut data = vec![];
@@ -201,7 +207,7 @@ impl Layout {
         }
         let mut front = superblock(places[0], at);
         for o in &objects {
-            front.extend(self.header(o, &places, &data, heap));
+            front.extend(self.header(o, &places, &data, heap)?);
         }
         front.resize(heap as usize, 0);
         front.extend(heaps);
@@ -251,5 +257,32 @@ impl Hdf5File {
     pub fn integers(&mut self, dataset: usize, at: usize, values: &[i64]) -> std::io::Result<()> {
         let bytes: Vec<u8> = values.iter().flat_map(|v| v.to_le_bytes()).collect();
         self.put(dataset, 8 * at as u64, &bytes)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Lengths that have 16 bits in the file end there: they were cut, and readers found no attribute behind.
+    #[test]
+    fn refuses_attributes_and_arrays_beyond_16_bits() {
+        let name = format!("wingbeat-hdf5-{}.h5", std::process::id());
+        let path = std::env::temp_dir().join(name);
+        let refused = |layout: &Layout| {
+            let problem = layout.create(&path).map(drop).unwrap_err().to_string();
+            assert!(!path.exists() && problem.contains("65535"), "{problem}");
+            problem
+        };
+        let mut layout = Layout::default();
+        let keys = |bytes: usize| Attribute::Text("k".repeat(bytes));
+        layout.note_group("", "coordinates", keys(65_000));
+        layout.create(&path).unwrap();
+        std::fs::remove_file(&path).unwrap();
+        layout.note_group("", "coordinates", keys(65_536));
+        assert!(refused(&layout).contains("`coordinates`"));
+        let mut layout = Layout::default();
+        (0..=u16::MAX).for_each(|k| _ = layout.dataset(&k.to_string(), Kind::Float, &[]));
+        assert!(refused(&layout).contains("arrays"));
     }
 }

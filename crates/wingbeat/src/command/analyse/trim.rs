@@ -55,7 +55,7 @@ pub(crate) fn run(args: &TrimArgs) -> Result<(), Failure> {
         } else {
             let (case, trim) = trimmed(trimming, report)?;
             let lacks = lacks_feedback(&case, &trim.solution);
-            (trimmed_case(&case, &trim), lacks)
+            (trimmed_case(&case, &trim)?, lacks)
         };
         if let Some(file) = file {
             file.write(&text)?;

@@ -58,7 +58,7 @@ pub(super) fn run(args: &RunArgs) -> Result<(), Failure> {
         warn_of_programs(&campaign);
         worked?;
     }
-    let left = left(&campaign, &store, &range);
+    let left = left(&campaign, &store, &range)?;
     if left > 0 {
         tell!("interrupted: {left} points are left; the same command goes on");
         return Err(Failure::Told(INTERRUPTED));

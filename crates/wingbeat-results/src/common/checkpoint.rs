@@ -14,7 +14,7 @@ use std::path::Path;
 use serde::{Deserialize, Serialize};
 use wingbeat_flight::FlightState;
 
-use super::manifest::sha256;
+use crate::common::manifest::sha256;
 use wingbeat_case::IoError;
 
 /// Name of the file in a result directory.

@@ -7,10 +7,10 @@ use std::path::{Path, PathBuf};
 use wingbeat_case::IoError;
 
 use crate::Outcome;
-use crate::history::is_abandoned;
-use crate::vtp::is_frame;
-pub use crate::whole::{remove_directory, remove_file, remove_left_behind, write_whole};
-use crate::whole::{target_name, was_there};
+pub use crate::common::whole::{remove_directory, remove_file, remove_left_behind, write_whole};
+use crate::common::whole::{target_name, was_there};
+use crate::series::history::is_abandoned;
+use crate::snapshots::vtp::is_frame;
 
 /// Files a run and its exports may have; `--overwrite` removes these, the frames and the figures, and
 /// nothing else. The manifest comes first and goes last: where it is, there is a run.
@@ -129,7 +129,7 @@ impl ResultDir {
                 remedy: "it holds no earlier run (no manifest.json of ours), so --overwrite leaves it alone: choose another directory",
             });
         }
-        if super::history::is_locked(&path.join("history.csv")) {
+        if crate::series::history::is_locked(&path.join("history.csv")) {
             return Err(IoError::Exists {
                 path: path.to_owned(),
                 remedy: "another wingbeat is writing it right now: wait for it, or choose another directory",
@@ -154,7 +154,7 @@ impl ResultDir {
     /// # Errors
     /// [`IoError::Damaged`] for a directory that holds no run.
     pub fn open(path: &Path) -> Result<Self, IoError> {
-        super::saver::read_manifest(path)?;
+        crate::run::saver::read_manifest(path)?;
         Ok(Self {
             path: path.to_owned(),
         })
@@ -167,7 +167,7 @@ impl ResultDir {
     /// [`IoError::Damaged`] for a directory that holds no run, a case or history that is missing
     /// or was changed.
     pub fn read(path: &Path) -> Result<Self, IoError> {
-        super::saver::check(path)?;
+        crate::run::saver::check(path)?;
         Ok(Self {
             path: path.to_owned(),
         })
@@ -185,16 +185,16 @@ impl ResultDir {
     ///
     /// # Errors
     /// A history.csv that is missing or was damaged.
-    pub fn history(&self) -> Result<super::History, IoError> {
-        super::History::read(&self.join("history.csv"))
+    pub fn history(&self) -> Result<crate::History, IoError> {
+        crate::History::read(&self.join("history.csv"))
     }
 
     /// The manifest; a run that was killed counts as interrupted.
     ///
     /// # Errors
     /// A manifest.json that is missing or was damaged.
-    pub fn manifest(&self) -> Result<super::Manifest, IoError> {
-        let mut manifest = super::saver::read_manifest(&self.path)?;
+    pub fn manifest(&self) -> Result<crate::Manifest, IoError> {
+        let mut manifest = crate::run::saver::read_manifest(&self.path)?;
         if manifest.outcome == Outcome::Running && is_abandoned(&self.join("history.csv")) {
             manifest.outcome = Outcome::Interrupted;
         }
@@ -292,7 +292,7 @@ fn is_empty(path: &Path) -> bool {
 /// Whether a run was written here: other programs have files called manifest.json, too.
 fn holds_run(path: &Path) -> bool {
     let beside = || path.join("manifest.json").is_file() && path.join("history.csv").is_file();
-    super::saver::read_manifest(path).is_ok() || beside()
+    crate::run::saver::read_manifest(path).is_ok() || beside()
 }
 
 /// The run in a folder of results that was written last.

@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 use wingbeat_case::{IoError, LoadedCase};
 use wingbeat_flight::{FlightError, Simulation};
 
-use crate::checkpoint::Header;
+use crate::common::checkpoint::Header;
 use crate::{Manifest, Outcome, ResultDir, RunWriter, Summary};
 
 /// A flight that is written while it is flown; its newest step is written already.

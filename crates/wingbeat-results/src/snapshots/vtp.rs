@@ -14,16 +14,16 @@ use base64::engine::general_purpose::STANDARD;
 use wingbeat_flight::Snapshot;
 use wingbeat_math::DVec3;
 
-use super::manifest::sha256;
-use super::poses::picture;
-use super::whole::target_name;
+use crate::common::manifest::sha256;
+use crate::common::whole::target_name;
+use crate::snapshots::poses::picture;
 
 /// What a frame says of its circulations; one that does not is of another build.
 pub(super) const RIGHT_HANDED: &str = "circulations right-handed about the corners";
 
 /// The array of circulations that rings which have become particles still have in the filaments that they share
 /// with rings; in wakes of flights with particles.
-pub(super) const SHARED: &str = "shared_circulation_m2_per_s";
+pub(crate) const SHARED: &str = "shared_circulation_m2_per_s";
 
 /// Begins the last line of a frame, which holds the hash of everything before it.
 pub(super) const CHECKSUM: &str = "<!-- SHA-256 of the lines above: ";
@@ -218,7 +218,7 @@ pub fn indexed(text: &str) -> Result<Vec<&str>, String> {
 ///
 /// # Errors
 /// It is cut, or the hash is another.
-pub(super) fn check_sum(text: &str, what: &str) -> Result<(), String> {
+pub(crate) fn check_sum(text: &str, what: &str) -> Result<(), String> {
     let cut = || format!("this {what} is cut or no {what} of wingbeat");
     let (body, last) = text.split_at(text.rfind(CHECKSUM).ok_or_else(cut)?);
     let sum = last[CHECKSUM.len()..].strip_suffix(" -->\n");

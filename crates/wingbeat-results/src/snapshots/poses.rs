@@ -7,7 +7,7 @@ use wingbeat_math::{DMat3, DVec3, EulerSequence};
 use wingbeat_model::{Animal, BodyPart, DeformingMesh, Wing, WingMotion};
 
 use self::bent::Bent;
-use super::columns::column_stems;
+use crate::series::columns::column_stems;
 
 /// Column of the time.
 const TIME: usize = 1;

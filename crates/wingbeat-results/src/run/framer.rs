@@ -10,9 +10,9 @@ use std::thread::JoinHandle;
 
 use wingbeat_flight::Snapshot;
 
-use super::directory::write_whole;
-use super::particles::Cloud;
-use super::vtp::{PolyData, frame_name};
+use crate::run::directory::write_whole;
+use crate::snapshots::particles::Cloud;
+use crate::snapshots::vtp::{PolyData, frame_name};
 use wingbeat_case::IoError;
 
 /// Writes frames one after the other.

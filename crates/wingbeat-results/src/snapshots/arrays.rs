@@ -7,7 +7,7 @@ use base64::engine::general_purpose::STANDARD;
 
 use wingbeat_case::IoError;
 
-use crate::vtp::check_sum;
+use crate::snapshots::vtp::check_sum;
 
 /// What a file of a frame holds, by `parse`.
 ///

@@ -10,10 +10,10 @@ use std::time::Duration;
 use sha2::{Digest, Sha256};
 use wingbeat_flight::{FlightSetup, Record};
 
-use super::checkpoint::Header;
-use super::columns::Columns;
-use super::manifest::hexadecimal;
-use super::rows::Rows;
+use crate::common::checkpoint::Header;
+use crate::common::manifest::hexadecimal;
+use crate::series::columns::Columns;
+use crate::series::rows::Rows;
 use wingbeat_case::IoError;
 
 /// Appends rows, a record after the other; every row is on disk before the next step begins.

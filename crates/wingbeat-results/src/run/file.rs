@@ -9,8 +9,8 @@ use tempfile::NamedTempFile;
 
 use wingbeat_case::IoError;
 
-use crate::directory::{belongs_to_run, is_of_run};
-use crate::whole::{folder_of, half_written, remove_left_behind, short};
+use crate::common::whole::{folder_of, half_written, remove_left_behind, short};
+use crate::run::directory::{belongs_to_run, is_of_run};
 
 /// What becomes of a file that is there already.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

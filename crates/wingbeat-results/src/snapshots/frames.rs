@@ -4,10 +4,10 @@ use std::collections::BTreeMap;
 use std::io::Read as _;
 use std::path::{Path, PathBuf};
 
-use super::arrays::{self, arrays, groups};
-use super::other_build::refusal;
-use super::particles::Cloud;
-use super::vtp::{RIGHT_HANDED, frame_name, indexed};
+use crate::common::other_build::refusal;
+use crate::snapshots::arrays::{self, arrays, groups};
+use crate::snapshots::particles::Cloud;
+use crate::snapshots::vtp::{RIGHT_HANDED, frame_name, indexed};
 use wingbeat_case::IoError;
 use wingbeat_flight::{AirModel, FlightSetup};
 
@@ -379,8 +379,8 @@ impl Sheet {
 
 #[cfg(test)]
 mod tests {
-    use super::super::vtp::{CHECKSUM, PolyData, summed};
     use super::*;
+    use crate::snapshots::vtp::{CHECKSUM, PolyData, summed};
 
     #[test]
     fn refuses_frames_that_do_not_say_how_circulations_turn() {

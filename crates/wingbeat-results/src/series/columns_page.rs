@@ -1,8 +1,8 @@
 //! The page of the columns of a history, docs/columns.md.
 
-use crate::columns::Subject;
-use crate::quantity::{Kind, Of, Unit};
-use crate::table::GROUPS;
+use crate::series::columns::Subject;
+use crate::series::quantity::{Kind, Of, Unit};
+use crate::series::table::GROUPS;
 
 /// What stands above the table on the page of columns.
 const PAGE_HEAD: &str = "# The columns of history.csv

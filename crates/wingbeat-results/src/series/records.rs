@@ -4,8 +4,8 @@ use std::path::Path;
 
 use wingbeat_flight::{FlightSetup, Record};
 
-use crate::columns::Columns;
-use crate::rows::Rows;
+use crate::series::columns::Columns;
+use crate::series::rows::Rows;
 use wingbeat_case::IoError;
 
 /// The records of an open history.

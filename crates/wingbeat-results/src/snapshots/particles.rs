@@ -6,9 +6,9 @@ use std::path::Path;
 use wingbeat_flight::Snapshot;
 use wingbeat_math::DVec3;
 
-use super::arrays::{self, arrays, groups};
-use super::poses::picture;
-use super::vtp::{array, begin, end};
+use crate::snapshots::arrays::{self, arrays, groups};
+use crate::snapshots::poses::picture;
+use crate::snapshots::vtp::{array, begin, end};
 use wingbeat_case::IoError;
 
 /// Names of the numbers of a particle and how many there are of each.
@@ -170,7 +170,7 @@ mod tests {
 
     #[test]
     fn refuses_other_frames() {
-        let wakes = crate::vtp::PolyData::wakes(&snapshot()).to_vtp();
+        let wakes = crate::snapshots::vtp::PolyData::wakes(&snapshot()).to_vtp();
         assert!(
             Cloud::parse(&wakes)
                 .unwrap_err()

@@ -286,7 +286,7 @@ pub(crate) enum Of {
 
 /// A quantity of a record.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Quantity {
+pub(crate) struct HistoryQuantity {
     /// Name of its columns without the unit: {s} is the subject, {c} the component.
     pub name: &'static str,
     pub unit: Unit,
@@ -305,29 +305,10 @@ pub(crate) struct Quantity {
 #[derive(Debug)]
 pub(crate) struct Group {
     pub of: Of,
-    pub quantities: &'static [Quantity],
+    pub quantities: &'static [HistoryQuantity],
 }
 
-impl Quantity {
-    /// A number for each subject.
-    pub const fn scalar(
-        name: &'static str,
-        unit: Unit,
-        about: &'static str,
-        entry: fn(&mut Record, usize, usize) -> Entry<'_>,
-    ) -> Self {
-        Self {
-            name,
-            unit,
-            components: Components::Scalar,
-            frame: Frame::Scalar,
-            symbol: "",
-            about,
-            fold: Fold::Last,
-            entry,
-        }
-    }
-
+impl HistoryQuantity {
     /// With components in a frame.
     pub const fn along(self, components: Components, frame: Frame) -> Self {
         Self {
@@ -359,8 +340,17 @@ pub(crate) const fn scalar(
     unit: Unit,
     about: &'static str,
     entry: fn(&mut Record, usize, usize) -> Entry<'_>,
-) -> Quantity {
-    Quantity::scalar(name, unit, about, entry)
+) -> HistoryQuantity {
+    HistoryQuantity {
+        name,
+        unit,
+        components: Components::Scalar,
+        frame: Frame::Scalar,
+        symbol: "",
+        about,
+        fold: Fold::Last,
+        entry,
+    }
 }
 
 #[cfg(test)]

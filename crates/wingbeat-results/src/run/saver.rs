@@ -8,12 +8,12 @@ use std::time::{Duration, Instant};
 use sha2::Digest;
 use wingbeat_flight::FlightState;
 
-use super::checkpoint::{self, FILE, Header};
-use super::history::hash_start;
-use super::manifest::{Manifest, Outcome, hexadecimal, sha256};
-use super::other_build::{AGAIN, check_manifest};
-use super::vtp::{check_sum, frame_name, is_frame};
-use super::whole::{remove_file, write_safely};
+use crate::common::checkpoint::{self, FILE, Header};
+use crate::common::manifest::{Manifest, Outcome, hexadecimal, sha256};
+use crate::common::other_build::{AGAIN, check_manifest};
+use crate::common::whole::{remove_file, write_safely};
+use crate::series::history::hash_start;
+use crate::snapshots::vtp::{check_sum, frame_name, is_frame};
 use wingbeat_case::{IoError, SaveSettings};
 
 /// The first checkpoint by time comes sooner; a run that was killed before it is flown from its start.

@@ -13,9 +13,9 @@ use wingbeat_dynamics::{DynamicsError, JointType};
 use wingbeat_flight::{FlightSetup, JointCoordinate, Record, joint_coordinates, loop_names};
 use wingbeat_model::Animal;
 
-use crate::other_build::check_columns;
-use crate::quantity::{Entry, Fold, Group, Kind, Of, Quantity, Unit};
-use crate::table::GROUPS;
+use crate::common::other_build::check_columns;
+use crate::series::quantity::{Entry, Fold, Group, HistoryQuantity, Kind, Of, Unit};
+use crate::series::table::GROUPS;
 use wingbeat_case::{IoError, column_name};
 
 /// Number of the column of the step.
@@ -41,7 +41,7 @@ pub struct Column {
     /// Whether it holds whole numbers.
     pub is_count: bool,
     of: Of,
-    quantity: &'static Quantity,
+    quantity: &'static HistoryQuantity,
     subject: usize,
     component: usize,
 }
@@ -383,7 +383,7 @@ impl Subject {
     pub(crate) fn column(
         &self,
         of: Of,
-        q: &'static Quantity,
+        q: &'static HistoryQuantity,
         component: usize,
         letter: &str,
     ) -> Column {

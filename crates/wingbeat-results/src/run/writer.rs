@@ -4,15 +4,15 @@ use std::time::{Duration, Instant};
 
 use wingbeat_flight::{AirModel, FlightState, Record, Snapshot};
 
-use super::checkpoint::Header;
-use super::framer::Framer;
-use super::history::HistoryWriter;
-use super::manifest::{Manifest, Outcome, sha256};
-use super::other_build::FORMAT;
-use super::saver::{self, Schedule};
-use super::summary::EachStep;
-use super::vtp::pvd;
-use super::{ResultDir, Summary};
+use crate::common::checkpoint::Header;
+use crate::common::manifest::{Manifest, Outcome, sha256};
+use crate::common::other_build::FORMAT;
+use crate::run::framer::Framer;
+use crate::run::saver::{self, Schedule};
+use crate::series::history::HistoryWriter;
+use crate::snapshots::vtp::pvd;
+use crate::summary::EachStep;
+use crate::{ResultDir, Summary};
 use wingbeat_case::IoError;
 use wingbeat_case::LoadedCase;
 

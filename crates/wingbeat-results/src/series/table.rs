@@ -12,9 +12,9 @@ use self::loads::{
     ORIENTATIONS, PASSIVE, TETHER,
 };
 use self::motion::{ACCELERATIONS, POSES, PRESCRIBED, RATES, ROOT, TIME};
-use crate::quantity::{Group, Of, Quantity};
+use crate::series::quantity::{Group, HistoryQuantity, Of};
 
-const fn group(of: Of, quantities: &'static [Quantity]) -> Group {
+const fn group(of: Of, quantities: &'static [HistoryQuantity]) -> Group {
     Group { of, quantities }
 }
 
