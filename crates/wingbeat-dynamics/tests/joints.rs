@@ -119,9 +119,7 @@ fn fly_on(form: &dyn Formulation, loads: Loads, beats: f64, tol: f64) -> Vec<f64
     for k in 0..pieces {
         let at = |k: usize| k as f64 * BEAT / 20.0;
         let rates = |t: f64, y: &[f64], dy: &mut [f64]| flight.rates(t, y, dy);
-        method
-            .integrate((at(k), at(k + 1)), &mut y, rates)
-            .unwrap();
+        method.integrate((at(k), at(k + 1)), &mut y, rates).unwrap();
         form.normalise(at(k + 1), &mut y, &mut ws).unwrap();
     }
     y
