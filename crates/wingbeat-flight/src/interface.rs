@@ -304,8 +304,15 @@ pub trait Air: fmt::Debug + Send + Sync {
     }
 
     /// Velocity of the air [m/s] at `points` [m], N components; none where the model has none.
-    fn velocity(&self, _memory: Option<&AirMemory>, _points: &Points) -> Option<Points> {
-        None
+    ///
+    /// # Errors
+    /// What the model reports.
+    fn velocity(
+        &self,
+        _memory: Option<&AirMemory>,
+        _points: &Points,
+    ) -> Result<Option<Points>, FlightError> {
+        Ok(None)
     }
 }
 
