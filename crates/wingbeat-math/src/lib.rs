@@ -54,4 +54,4 @@ pub use small_lu::{SingularMatrix, SmallLu, solve_small};
 pub use smoothstep::{smoothstep, smoothstep7};
 pub use spatial::{BodyAcceleration, BodyMotion, Wrench};
 pub use split_mix::SplitMix64;
-pub use statistics::{median, root_mean_square, to_twelve_digits};
+pub use statistics::{median, root_mean_square, to_digits};
