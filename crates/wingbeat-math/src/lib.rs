@@ -42,7 +42,7 @@ pub use iterative::{BiCgStab, Product};
 pub use lu::{DenseLu, LuError};
 pub use mass::{MassError, MassProperties};
 pub use matrix::{outer, trace};
-pub use mirror::{mirrored, mirrored_axial};
+pub use mirror::{mirrored, mirrored_axial, reflected};
 pub use rotation::{
     MovingRotation, RotationLaw, r1, r2, r3, rotation_about, rotation_vector,
     rotation_vector_of_matrix, tilde, untilde,
