@@ -2,7 +2,7 @@
 //!
 //! A generalized speed u_j of a hinge moves every body behind the hinge: the origin of body i at
 //! `V_ij u_j` and its axes at `omega_j u_j`. With f_j, n_j the momenta of the whole for u_j = 1
-//! (n about the mass centre), and the demand d of every body (rate of momentum at zero u' and zero
+//! (n about the mass centre), and the bias d of every body (rate of momentum at zero u' and zero
 //! acceleration of the root, less loads and weight), Kane's equations with the root eliminated by
 //! the momenta of the whole are
 //!
@@ -11,7 +11,7 @@
 //! M_jk = sum_i V_ij.f_ik + omega_j.n_ik      D_j = sum_i V_ij.d_i + omega_j.(moment of d_i)
 //! ```
 //!
-//! F, N the sum of all demands and of their moments about the mass centre. All in root components.
+//! F, N the sum of all biases and of their moments about the mass centre. All in root components.
 
 use wingbeat_math::{DMat3, DQuat, DVec3, SingularMatrix, Wrench, rotation_vector, solve_small};
 
@@ -20,8 +20,8 @@ use crate::system::placement::Placement;
 use crate::{JointModel, JointType, System};
 
 /// Rates of a joint's coordinates.
-pub(crate) fn coordinate_rates(freedom: JointType, q: &[f64], u: &[f64], out: &mut [f64]) {
-    if freedom == JointType::Spherical {
+pub(crate) fn coordinate_rates(kind: JointType, q: &[f64], u: &[f64], out: &mut [f64]) {
+    if kind == JointType::Spherical {
         let rate = DQuat::from_slice(q) * DQuat::from_xyzw(u[0], u[1], u[2], 0.0) * 0.5;
         rate.write_to_slice(out);
     } else {
@@ -98,7 +98,7 @@ impl FreeScratch {
         self.find_directions(system, placements, q);
         self.find_terms(system, placements, r, bias_force);
         let inverse = whole.inertia.inverse();
-        let total = self.total_demand(placements, whole.c);
+        let total = self.total_bias(placements, whole.c);
         for j in 0..self.u_dot.len() {
             self.momenta[j] = self.momentum(system, placements, j, whole);
         }
@@ -195,7 +195,7 @@ impl FreeScratch {
         sum
     }
 
-    fn total_demand(&self, placements: &[Placement], c: DVec3) -> [DVec3; 2] {
+    fn total_bias(&self, placements: &[Placement], c: DVec3) -> [DVec3; 2] {
         let mut sum = [DVec3::ZERO; 2];
         for (p, at) in self.terms.iter().zip(placements) {
             let [f, n] = p.bias_force;

@@ -83,7 +83,7 @@ impl AbsoluteForm {
     pub fn scratch(&self) -> AbsoluteScratch {
         let (bodies, joints) = (self.mechanism.bodies().len(), self.mechanism.joints());
         let motions = vec![BodyMotion::REST; bodies];
-        let joints = link_kinematics(joints, 0.0, &motions);
+        let joints = joint_kinematics(joints, 0.0, &motions);
         let mut rows = vec![];
         for (k, l) in joints.iter().enumerate() {
             l.rows(|r| rows.push((k, r)));
@@ -303,6 +303,6 @@ impl AbsoluteForm {
 /// Steps of Newton's iteration in a projection: a step's drift is small, two reach round-off.
 const NEWTON_STEPS: usize = 2;
 
-fn link_kinematics(joints: &[Joint], t: f64, motions: &[BodyMotion]) -> Vec<JointKinematics> {
+fn joint_kinematics(joints: &[Joint], t: f64, motions: &[BodyMotion]) -> Vec<JointKinematics> {
     joints.iter().map(|l| kinematics(l, t, motions)).collect()
 }
