@@ -15,7 +15,9 @@ pub(crate) mod periodic;
 use std::ops::Range;
 use std::sync::Arc;
 
-use wingbeat_dynamics::{BodyMotion, Composite, Configuration, Formulation, Joint, JointOffsets};
+use wingbeat_dynamics::{
+    BodyMotion, Composite, Configuration, Formulation, Joint, JointOffsets, MomentumState,
+};
 use wingbeat_flight::{
     AirModel, FlightSetup, FreeFlight, FreeFlightScratch, MotionBlend, MotionMode, is_driven,
 };
@@ -31,7 +33,7 @@ use periodic::check_periodic;
 pub type State = Vec<f64>;
 
 /// Where the coordinates of the joints begin in a [`State`].
-pub(crate) const JOINTS: usize = 13;
+pub(crate) const JOINTS: usize = MomentumState::NUMBERS;
 
 /// Free flight over one wingbeat in equal steps.
 #[derive(Clone, Debug)]
@@ -212,12 +214,14 @@ impl Beat {
     pub fn state_at(&self, time: f64, centre: &BodyMotion, joints: &[f64]) -> State {
         let whole = self.whole(time, joints);
         let h = centre.r * (whole.inertia * centre.w + whole.h);
+        let state = MomentumState {
+            centre: centre.p,
+            attitude: DQuat::from_mat3(&centre.r).normalize(),
+            momentum: self.mass * centre.v,
+            angular: h,
+        };
         let mut y = vec![0.0; JOINTS];
-        centre.p.write_to_slice(&mut y);
-        let q = DQuat::from_mat3(&centre.r).normalize();
-        q.write_to_slice(&mut y[3..]);
-        (self.mass * centre.v).write_to_slice(&mut y[7..]);
-        h.write_to_slice(&mut y[10..]);
+        state.write(&mut y);
         y.extend_from_slice(joints);
         y
     }
@@ -230,16 +234,22 @@ impl Beat {
     /// The same at `time` [s] within the beat.
     pub fn root_at(&self, time: f64, y: &[f64]) -> BodyMotion {
         let whole = self.whole(time, &y[JOINTS..]);
-        let r = DMat3::from_quat(DQuat::from_slice(&y[3..7]).normalize());
+        let state = MomentumState::of(y);
+        let r = state.rotation();
         let back = r.transpose();
-        let w = whole.inertia.inverse() * (back * DVec3::from_slice(&y[10..]) - whole.h);
-        let v = back * (DVec3::from_slice(&y[7..]) / self.mass) - w.cross(whole.c) - whole.c_dot;
+        let w = whole.inertia.inverse() * (back * state.angular - whole.h);
+        let v = back * (state.momentum / self.mass) - w.cross(whole.c) - whole.c_dot;
         BodyMotion {
-            p: DVec3::from_slice(y) - r * whole.c,
+            p: state.centre - r * whole.c,
             r,
             v: r * v,
             w,
         }
+    }
+
+    /// Velocity of the mass centre in the state `y`, N components [m/s].
+    pub fn velocity(&self, y: &[f64]) -> DVec3 {
+        MomentumState::of(y).momentum / self.mass
     }
 
     /// Coordinates and rates of every free joint in the state `y`, by the joint's name; of
@@ -280,10 +290,10 @@ impl Beat {
     pub fn mean_attitude(&self, y: &[f64]) -> Result<DMat3, AnalysisError> {
         let mut integration = Integration::new(self);
         let mut y = y.to_vec();
-        let first = DQuat::from_slice(&y[3..7]);
+        let first = MomentumState::of(&y).attitude;
         let mut sum = DQuat::from_xyzw(0.0, 0.0, 0.0, 0.0);
         for step in 0..self.steps {
-            let q = DQuat::from_slice(&y[3..7]);
+            let q = MomentumState::of(&y).attitude;
             sum = if q.dot(first) < 0.0 { sum - q } else { sum + q };
             integration.step(self, step, &mut y)?;
         }

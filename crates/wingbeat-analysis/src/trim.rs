@@ -15,7 +15,7 @@ pub(crate) mod root;
 pub(crate) mod solution;
 pub(crate) mod unknown;
 
-use wingbeat_dynamics::BodyMotion;
+use wingbeat_dynamics::{BodyMotion, MomentumState};
 use wingbeat_flight::{
     AirModel, FlightSetup, FormulationChoice, IntegratorChoice, MotionMode, PrescribedMotion,
     StabilizationChoice, StartState, TimeGrid, closes_loop,
@@ -265,11 +265,14 @@ fn evaluate(setup: &FlightSetup, problem: &TrimProblem, x: &[f64]) -> Result<Tri
         period,
         weight: beat.mass() * beat.gravity().length(),
     };
-    let seen = |y: &[f64]| FlyerMotion {
-        centre: DVec3::from_slice(y),
-        momentum: DVec3::from_slice(&y[7..]),
-        spin: DVec3::from_slice(&y[10..]),
-        rotation: beat.root(y).r,
+    let seen = |y: &[f64]| {
+        let state = MomentumState::of(y);
+        FlyerMotion {
+            centre: state.centre,
+            momentum: state.momentum,
+            spin: state.angular,
+            rotation: beat.root(y).r,
+        }
     };
     (solution.residual, solution.lateral) =
         residuals.between(problem, &size, &[seen(&state), seen(&end)]);

@@ -16,8 +16,8 @@
 //! error of C over C for k from 0.05 to 1: Jones 2.3 %; Peters 3.8, 4.3, 1.7 and 1.1 % with 4, 5, 6 and 8
 //! states. Beyond 8 it grows again (5 % at 12).
 
-use faer::Mat;
 use faer::linalg::solvers::Solve;
+use faer::{Mat, c64};
 
 use crate::error::{BladeError, require};
 
@@ -69,16 +69,16 @@ impl Unsteady {
 /// A part `Re r exp(-p s)` of an indicial function.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pole {
-    /// Real and imaginary part of p \[1\], the latter 0 or more: of a conjugate pair one stands for both.
-    pub rate: [f64; 2],
-    /// Real and imaginary part of r \[1\]; of a pair, of both together.
-    pub weight: [f64; 2],
+    /// p \[1\], its imaginary part 0 or more: of a conjugate pair one stands for both.
+    pub rate: c64,
+    /// r \[1\]; of a pair, of both together.
+    pub weight: c64,
 }
 
 impl Pole {
     /// Numbers that its state has.
     pub(crate) fn numbers(&self) -> usize {
-        1 + usize::from(self.rate[1] > 0.0)
+        1 + usize::from(self.rate.im > 0.0)
     }
 }
 
@@ -92,8 +92,8 @@ impl Indicial {
     /// Exponentials: rates and weights.
     fn of(parts: &[(f64, f64)]) -> Self {
         let pole = |(rate, weight): &(f64, f64)| Pole {
-            rate: [*rate, 0.0],
-            weight: [*weight, 0.0],
+            rate: c64::from(*rate),
+            weight: c64::from(*weight),
         };
         Self {
             poles: parts.iter().map(pole).collect(),
@@ -118,19 +118,19 @@ impl Indicial {
         let driven = lu.solve(&column);
         let parted = inverse.eigen().expect("Peters' matrix has eigenvectors");
         let (u, p) = (parted.U(), parted.S().column_vector());
-        let driven = Mat::from_fn(n, 1, |i, _| faer::c64::new(driven[(i, 0)], 0.0));
+        let driven = Mat::from_fn(n, 1, |i, _| c64::from(driven[(i, 0)]));
         let share = u.partial_piv_lu().solve(&driven);
         let pole = |j: usize| {
-            let seen: faer::c64 = (0..n).map(|i| u[(i, j)] * (0.5 * b[i])).sum();
+            let seen: c64 = (0..n).map(|i| u[(i, j)] * (0.5 * b[i])).sum();
             let (rate, weight) = (p[j], seen * share[(j, 0)]);
             let both = if rate.im == 0.0 { 1.0 } else { 2.0 };
             Pole {
-                rate: [rate.re, rate.im],
-                weight: [both * weight.re, both * weight.im],
+                rate,
+                weight: both * weight,
             }
         };
-        let mut poles: Vec<Pole> = (0..n).map(pole).filter(|p| p.rate[1] >= 0.0).collect();
-        poles.sort_by(|a, b| a.rate[0].total_cmp(&b.rate[0]));
+        let mut poles: Vec<Pole> = (0..n).map(pole).filter(|p| p.rate.im >= 0.0).collect();
+        poles.sort_by(|a, b| a.rate.re.total_cmp(&b.rate.re));
         Self { poles }
     }
 
@@ -146,7 +146,7 @@ impl Indicial {
 
     /// phi(s) \[1\] after a way of `s` half chords.
     pub fn at(&self, s: f64) -> f64 {
-        let parts = (self.poles.iter()).map(|p| product(p.weight, passed(p.rate, s).0)[0]);
+        let parts = (self.poles.iter()).map(|p| (p.weight * passed(p.rate, s).0).re);
         1.0 - parts.sum::<f64>()
     }
 
@@ -154,21 +154,17 @@ impl Indicial {
     /// Wagner's function that is Theodorsen's.
     pub fn answer(&self, k: f64) -> [f64; 2] {
         let conjugate = |p: &Pole| Pole {
-            rate: [p.rate[0], -p.rate[1]],
-            weight: [p.weight[0], -p.weight[1]],
+            rate: p.rate.conj(),
+            weight: p.weight.conj(),
         };
-        let mut sum = [1.0, 0.0];
+        let mut sum = c64::ONE;
         for p in &self.poles {
             // Re r exp(-p s) is half of each of a pair.
             for q in [*p, conjugate(p)] {
-                let part = quotient(
-                    product(q.weight, [0.0, 0.5 * k]),
-                    [q.rate[0], q.rate[1] + k],
-                );
-                sum = [sum[0] - part[0], sum[1] - part[1]];
+                sum -= q.weight * c64::new(0.0, 0.5 * k) / (q.rate + c64::new(0.0, k));
             }
         }
-        sum
+        [sum.re, sum.im]
     }
 }
 
@@ -199,35 +195,22 @@ fn induced(b: &[f64], c: &[f64]) -> Mat<f64> {
 }
 
 /// `exp(-p s)` and `(1 - exp(-p s)) / (p s)`.
-pub(crate) fn passed([re, im]: [f64; 2], s: f64) -> ([f64; 2], [f64; 2]) {
+pub(crate) fn passed(rate: c64, s: f64) -> (c64, c64) {
     /// Ways below which the quotient is its series: its next term is x^5 / 720.
     const SHORT: f64 = 1e-2;
-    let (x, y) = (re * s, im * s);
-    let size = (-x).exp();
-    let left = match im == 0.0 {
-        true => [size, 0.0],
-        false => [size * y.cos(), -size * y.sin()],
+    let x = rate * s;
+    let size = (-x.re).exp();
+    let left = match x.im == 0.0 {
+        true => c64::from(size),
+        false => c64::new(size * x.im.cos(), -size * x.im.sin()),
     };
-    if x.abs() + y.abs() > SHORT {
-        return (left, quotient([1.0 - left[0], -left[1]], [x, y]));
+    if x.re.abs() + x.im.abs() > SHORT {
+        return (left, (1.0 - left) / x);
     }
     // 1 - x/2 (1 - x/3 (1 - x/4 (1 - x/5))).
-    let mut sum = [1.0, 0.0];
+    let mut sum = c64::ONE;
     for k in [5.0, 4.0, 3.0, 2.0] {
-        let next = product(sum, [x / k, y / k]);
-        sum = [1.0 - next[0], -next[1]];
+        sum = 1.0 - sum * (x / k);
     }
     (left, sum)
-}
-
-/// Product of complex numbers.
-pub(crate) fn product(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
-    [a[0] * b[0] - a[1] * b[1], a[0] * b[1] + a[1] * b[0]]
-}
-
-/// Quotient of complex numbers.
-pub(crate) fn quotient(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
-    let size = b[0] * b[0] + b[1] * b[1];
-    let [re, im] = product(a, [b[0], -b[1]]);
-    [re / size, im / size]
 }

@@ -20,9 +20,10 @@
 //! | s | `way` | way through the air in half chords | 1 |
 //! | z | `wake`, `gust` | states of the wake | m/s |
 
+use faer::c64;
 use wingbeat_math::DVec3;
 
-use crate::indicial::{Indicial, Pole, Unsteady, passed, product, quotient};
+use crate::indicial::{Indicial, Pole, Unsteady, passed};
 
 /// What a strip remembers of its wake.
 #[derive(Clone, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
@@ -184,7 +185,7 @@ impl Lags {
             for pole in law.poles() {
                 let (own, rest) = states.split_at_mut(pole.numbers());
                 let z = next(pole.rate, complex(own), change, way);
-                own.copy_from_slice(&z[..own.len()]);
+                keep(z, own);
                 states = rest;
             }
         }
@@ -200,7 +201,7 @@ impl Lags {
             let part = |pole: &Pole| {
                 let (own, rest) = states.split_at(pole.numbers());
                 states = rest;
-                product(pole.weight, next(pole.rate, complex(own), change, way))[0]
+                (pole.weight * next(pole.rate, complex(own), change, way)).re
             };
             law.poles().iter().map(part).sum()
         };
@@ -266,13 +267,11 @@ impl Lags {
                 let range = from..from + pole.numbers();
                 from = range.end;
                 let left = passed(pole.rate, way).0;
-                let lost = [1.0 - left[0], -left[1]];
-                if lost[0].hypot(lost[1]) > FELT {
-                    let kept = product(left, complex(&b.wake[range.clone()]));
+                let lost = 1.0 - left;
+                if lost.norm() > FELT {
+                    let kept = left * complex(&b.wake[range.clone()]);
                     let own = &mut a.wake[range];
-                    let z = complex(own);
-                    let z = quotient([z[0] - kept[0], z[1] - kept[1]], lost);
-                    own.copy_from_slice(&z[..own.len()]);
+                    keep((complex(own) - kept) / lost, own);
                 }
             }
         }
@@ -280,15 +279,20 @@ impl Lags {
 }
 
 /// One or two numbers as a complex one.
-fn complex(numbers: &[f64]) -> [f64; 2] {
-    [numbers[0], numbers.get(1).copied().unwrap_or(0.0)]
+fn complex(numbers: &[f64]) -> c64 {
+    c64::new(numbers[0], numbers.get(1).copied().unwrap_or(0.0))
+}
+
+/// A complex number as one or two.
+fn keep(z: c64, numbers: &mut [f64]) {
+    let count = numbers.len();
+    numbers.copy_from_slice(&[z.re, z.im][..count]);
 }
 
 /// A state after its downwash has changed by `change` over a `way`.
-fn next(rate: [f64; 2], z: [f64; 2], change: f64, way: f64) -> [f64; 2] {
+fn next(rate: c64, z: c64, change: f64, way: f64) -> c64 {
     let (left, gained) = passed(rate, way);
-    let kept = product(left, z);
-    [kept[0] + gained[0] * change, kept[1] + gained[1] * change]
+    left * z + gained * change
 }
 
 impl StripMemory {

@@ -2,7 +2,7 @@
 //!
 //! A generalized speed u_j of a hinge moves every body behind the hinge: the origin of body i at
 //! `V_ij u_j` and its axes at `omega_j u_j`. With f_j, n_j the momenta of the whole for u_j = 1
-//! (n about the mass centre), and the demand d of every body (rate of momentum at zero u' and zero
+//! (n about the mass centre), and the bias d of every body (rate of momentum at zero u' and zero
 //! acceleration of the root, less loads and weight), Kane's equations with the root eliminated by
 //! the momenta of the whole are
 //!
@@ -11,22 +11,34 @@
 //! M_jk = sum_i V_ij.f_ik + omega_j.n_ik      D_j = sum_i V_ij.d_i + omega_j.(moment of d_i)
 //! ```
 //!
-//! F, N the sum of all demands and of their moments about the mass centre. All in root components.
+//! F, N the sum of all biases and of their moments about the mass centre. All in root components.
 
 use wingbeat_math::{DMat3, DQuat, DVec3, SingularMatrix, Wrench, rotation_vector, solve_small};
 
 use crate::configuration::Composite;
 use crate::system::placement::Placement;
-use crate::{JointType, System};
+use crate::{JointModel, JointType, System};
 
 /// Rates of a joint's coordinates.
-pub(crate) fn coordinate_rates(freedom: JointType, q: &[f64], u: &[f64], out: &mut [f64]) {
-    if freedom == JointType::Spherical {
+pub(crate) fn coordinate_rates(kind: JointType, q: &[f64], u: &[f64], out: &mut [f64]) {
+    if kind == JointType::Spherical {
         let rate = DQuat::from_slice(q) * DQuat::from_xyzw(u[0], u[1], u[2], 0.0) * 0.5;
         rate.write_to_slice(out);
     } else {
         out.copy_from_slice(u);
     }
+}
+
+/// Efforts of a joint's elements along its directions at its coordinates and speeds.
+fn effort(joint: &JointModel, t: f64, q: &[f64], u: &[f64]) -> [f64; 3] {
+    let mut motion = [[0.0; 2]; 3];
+    if joint.kind == JointType::Spherical {
+        let theta = rotation_vector(DQuat::from_slice(q).normalize());
+        (0..3).for_each(|k| motion[k] = [theta[k], u[k]]);
+    } else {
+        (0..u.len()).for_each(|k| motion[k] = [q[k], u[k]]);
+    }
+    joint.efforts(t, &motion, |_| true)
 }
 
 /// A free direction: velocity of the child's joint point and angular velocity for unit speed, and
@@ -86,14 +98,15 @@ impl FreeScratch {
         self.find_directions(system, placements, q);
         self.find_terms(system, placements, r, bias_force);
         let inverse = whole.inertia.inverse();
-        let total = self.total_demand(placements, whole.c);
+        let total = self.total_bias(placements, whole.c);
         for j in 0..self.u_dot.len() {
             self.momenta[j] = self.momentum(system, placements, j, whole);
         }
+        self.put_efforts(system, t, q, u);
         for j in 0..self.u_dot.len() {
             self.put_row(system, placements, j, whole.mass, inverse);
             let [f, n] = self.momenta[j];
-            let drive = self.effort(system, j, t, q, u) - self.work(system, placements, j);
+            let drive = self.u_dot[j] - self.work(system, placements, j);
             self.u_dot[j] = drive + f.dot(total[0]) / whole.mass + n.dot(inverse * total[1]);
         }
         self.eliminate()
@@ -182,7 +195,7 @@ impl FreeScratch {
         sum
     }
 
-    fn total_demand(&self, placements: &[Placement], c: DVec3) -> [DVec3; 2] {
+    fn total_bias(&self, placements: &[Placement], c: DVec3) -> [DVec3; 2] {
         let mut sum = [DVec3::ZERO; 2];
         for (p, at) in self.terms.iter().zip(placements) {
             let [f, n] = p.bias_force;
@@ -201,23 +214,16 @@ impl FreeScratch {
         self.moved(system, j).map(one).sum()
     }
 
-    /// Q_j, the effort of the joint's elements.
-    fn effort(&self, system: &System, j: usize, t: f64, q: &[f64], u: &[f64]) -> f64 {
-        let hinge = self.directions[j].hinge;
-        let (joint, offsets) = (&system.hinges()[hinge].model, system.offsets()[hinge]);
-        if joint.elements.is_empty() {
-            return 0.0;
+    /// Q_j, the efforts of the elements of all joints, into `u_dot`.
+    fn put_efforts(&mut self, system: &System, t: f64, q: &[f64], u: &[f64]) {
+        for (hinge, offsets) in system.hinges().iter().zip(system.offsets()) {
+            let (joint, speeds) = (&hinge.model, offsets.u..offsets.u + offsets.speeds);
+            let efforts = match joint.elements.is_empty() {
+                true => [0.0; 3],
+                false => effort(joint, t, &q[offsets.q..], &u[speeds.clone()]),
+            };
+            self.u_dot[speeds.clone()].copy_from_slice(&efforts[..speeds.len()]);
         }
-        let mut motion = [[0.0; 2]; 3];
-        let (q, u) = (&q[offsets.q..], &u[offsets.u..]);
-        if joint.kind == JointType::Spherical {
-            let turn = DQuat::from_slice(q).normalize();
-            let theta = rotation_vector(turn);
-            (0..3).for_each(|k| motion[k] = [theta[k], u[k]]);
-        } else {
-            (0..offsets.speeds).for_each(|k| motion[k] = [q[k], u[k]]);
-        }
-        joint.efforts(t, &motion, |_| true)[j - offsets.u]
     }
 
     /// Row j of the matrix.

@@ -68,7 +68,7 @@ pub use error::DynamicsError;
 pub use formulation::euler;
 pub use formulation::euler_form::EulerForm;
 pub use formulation::mobility::mobilities;
-pub use formulation::momentum::MomentumForm;
+pub use formulation::momentum::{MomentumForm, MomentumState};
 pub use formulation::quaternion::QuaternionForm;
 pub use formulation::tether::{RootMotion, tethered, tethered_motions};
 pub use formulation::workspace::Workspace;

@@ -1,8 +1,9 @@
 //! What depends on time alone where no joint is free: evaluated once, asked for by every state at that time.
 
+use wingbeat_math::six_by_six::Ldlt;
 use wingbeat_math::{DMat3, DVec3, Six, SixBySix};
 
-use crate::added_mass::{AddedMass, Factors};
+use crate::added_mass::AddedMass;
 use crate::error::DynamicsError;
 
 /// The inverse of the inertia I of the whole, by Cramer's rule.
@@ -51,7 +52,7 @@ pub(crate) struct Carried {
     /// where nothing is felt.
     pub rows: Vec<SixBySix>,
     /// `diag(m, I) + sum J^T A J`.
-    pub inertia: Factors,
+    pub inertia: Ldlt,
     /// s0 of the bodies in the state last asked for.
     pub at_rest: Vec<Six>,
 }

@@ -9,7 +9,7 @@ pub(crate) mod offsets;
 pub(crate) mod placement;
 pub(crate) mod shape;
 
-use wingbeat_math::DVec3;
+use wingbeat_math::{DVec3, to_digits};
 
 use crate::error::DynamicsError;
 use crate::system::body::{Body, NaturalUnits};
@@ -175,8 +175,8 @@ impl System {
         if !(0.1..1e5).contains(&density) {
             out.push(format!(
                 "total mass {} kg with wing length {} m: mass over length cubed is {density:.1e} kg/m3, flying animals have 1 to 10000; check the units of mass and length",
-                rounded(mass),
-                rounded(length)
+                to_digits(mass, 4),
+                to_digits(length, 4)
             ));
         }
         let g = self.gravity.length();
@@ -248,11 +248,6 @@ fn check_carrying(hinge: &Joint) -> Result<(), DynamicsError> {
         });
     }
     check_numbers_of(hinge)
-}
-
-/// A number to four digits.
-fn rounded(x: f64) -> f64 {
-    format!("{x:.3e}").parse().unwrap_or(x)
 }
 
 /// Where the coordinates of the hinges lie.

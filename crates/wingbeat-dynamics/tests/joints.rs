@@ -119,9 +119,7 @@ fn fly_on(form: &dyn Formulation, loads: Loads, beats: f64, tol: f64) -> Vec<f64
     for k in 0..pieces {
         let at = |k: usize| k as f64 * BEAT / 20.0;
         let rates = |t: f64, y: &[f64], dy: &mut [f64]| flight.rates(t, y, dy);
-        method
-            .integrate((at(k), at(k + 1)), &mut y, rates, |_| {})
-            .unwrap();
+        method.integrate((at(k), at(k + 1)), &mut y, rates).unwrap();
         form.normalise(at(k + 1), &mut y, &mut ws).unwrap();
     }
     y
@@ -192,7 +190,7 @@ fn balances_energy_of_free_joints_and_their_elements() {
         Ok::<(), wingbeat_dynamics::DynamicsError>(())
     };
     Dop853::new(tolerance, scales)
-        .integrate((0.0, 3.0 * BEAT), &mut y, rates, |_| {})
+        .integrate((0.0, 3.0 * BEAT), &mut y, rates)
         .unwrap();
     let mut flight = Flight::new(&form, applied);
     let s = flight.solve(3.0 * BEAT, &y[..n]).unwrap();
@@ -286,7 +284,7 @@ fn exact_free_rigid_body_in_jacobi_elliptic_functions() {
             for k in 0..40 {
                 let (t0, t1) = (f64::from(k) * BEAT, f64::from(k + 1) * BEAT);
                 let rates = |t: f64, y: &[f64], dy: &mut [f64]| flight.rates(t, y, dy);
-                method.integrate((t0, t1), &mut y, rates, |_| {}).unwrap();
+                method.integrate((t0, t1), &mut y, rates).unwrap();
                 let w = flight.motions(t1, &y)[0].w;
                 worst = worst.max((w - at(tau0 + rate * t1)).length() / w0.length());
             }
@@ -317,7 +315,7 @@ fn agrees_relative_energy_with_its_rate_and_a_fixed_root() {
         if dt != 0.0 {
             let rates = |t: f64, y: &[f64], dy: &mut [f64]| flight.rates(t, y, dy);
             let mut method = Dop853::new(tolerance, form.scales());
-            (method.integrate((t0, t0 + dt), &mut y, rates, |_| {})).unwrap();
+            (method.integrate((t0, t0 + dt), &mut y, rates)).unwrap();
         }
         let s = flight.solve(t0 + dt, &y).unwrap().clone();
         relative_energy(form.system(), &flight.motions, &s.bodies)

@@ -51,7 +51,7 @@ fn energies(form: &dyn Formulation, duration: f64) -> Vec<f64> {
     for k in 0..10 {
         let [from, to] = [k, k + 1].map(|k| duration * f64::from(k) / 10.0);
         let rates = |t: f64, y: &[f64], dy: &mut [f64]| flight.rates(t, y, dy);
-        (method.integrate((from, to), &mut y, rates, |_| {})).unwrap();
+        (method.integrate((from, to), &mut y, rates)).unwrap();
         out.push(energy(&mut flight, to, &y));
     }
     out

@@ -167,12 +167,12 @@ impl CarriedAir {
             s.held.push(held.unwrap_or_default());
         }
         for &[a, b] in &self.pairs {
-            let image = reflected(&s.held[b], at.motions[0].r.y_axis);
+            let image = s.held[b].reflected(at.motions[0].r.y_axis);
             let mean = Wrench {
                 force: 0.5 * (s.held[a].force + image.force),
                 moment: 0.5 * (s.held[a].moment + image.moment),
             };
-            (s.held[a], s.held[b]) = (mean, reflected(&mean, at.motions[0].r.y_axis));
+            (s.held[a], s.held[b]) = (mean, mean.reflected(at.motions[0].r.y_axis));
         }
         for (w, held) in self.wings.iter().zip(&s.held) {
             loads[w + 1] = loads[w + 1] - *held;
@@ -232,15 +232,6 @@ impl CarriedAir {
             state.angular = [m.w, state.angular[0]];
             state.wind = [wind, state.wind[0]];
         }
-    }
-}
-
-/// The mirror image of a load in the plane across `normal`.
-fn reflected(load: &Wrench, normal: DVec3) -> Wrench {
-    let image = |x: DVec3| x - 2.0 * normal.dot(x) * normal;
-    Wrench {
-        force: image(load.force),
-        moment: -image(load.moment),
     }
 }
 

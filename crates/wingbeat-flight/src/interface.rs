@@ -9,7 +9,7 @@ pub mod record;
 use std::fmt;
 
 use wingbeat_air::{AirLoads, AirWorkspace, NodeMotion, Points};
-use wingbeat_blade::{SectionAnswer, SectionState, StripTrial};
+use wingbeat_blade::{SectionAnswer, SectionMotion, SectionState, StripTrial};
 use wingbeat_dynamics::{AddedMass, BodyAcceleration, BodyMotion, Wrench};
 use wingbeat_math::DVec3;
 
@@ -114,11 +114,13 @@ pub(crate) struct BentScratch {
     pub forces: Vec<Vec<DVec3>>,
 }
 
-/// Room for blade elements whose wakes are remembered: the strips at the time last asked for \[s\], wing by wing.
+/// Room for blade elements: the strips at the time last asked for \[s\], wing by wing where their wakes are remembered.
 #[derive(Debug, Default)]
 pub(crate) struct StripScratch {
     pub time: f64,
     pub trials: Vec<Vec<StripTrial>>,
+    /// How the strips of the wing last looked at lie and move.
+    pub sections: Vec<SectionMotion>,
     /// Those of a wing that is asked how it answers.
     pub asked: Vec<StripTrial>,
 }
@@ -302,8 +304,15 @@ pub trait Air: fmt::Debug + Send + Sync {
     }
 
     /// Velocity of the air [m/s] at `points` [m], N components; none where the model has none.
-    fn velocity(&self, _memory: Option<&AirMemory>, _points: &Points) -> Option<Points> {
-        None
+    ///
+    /// # Errors
+    /// What the model reports.
+    fn velocity(
+        &self,
+        _memory: Option<&AirMemory>,
+        _points: &Points,
+    ) -> Result<Option<Points>, FlightError> {
+        Ok(None)
     }
 }
 

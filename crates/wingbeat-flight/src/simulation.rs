@@ -138,9 +138,10 @@ impl Simulation {
     /// # Errors
     /// As [`Self::new`]; the state does not fit the setup.
     pub fn resume(setup: FlightSetup, state: FlightState) -> Result<Self, FlightError> {
-        if !setup.air.is_saved() {
+        if !setup.air.is_saved(state.air.as_ref()) {
             return Err(FlightError::External(
-                "the partner's memory is not in the saved state; fly from the start".into(),
+                "the memory of what computes it is not in the saved state; fly from the start"
+                    .into(),
             ));
         }
         let mut flight = Self::new(setup)?;

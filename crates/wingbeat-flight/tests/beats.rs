@@ -52,6 +52,26 @@ impl Air for Remembering {
     }
 }
 
+/// Nothing of what it remembers is in the state of the flight.
+#[test]
+fn refuses_to_resume_air_that_keeps_its_memory_to_itself() {
+    let setup = setup();
+    let air = BladeAir::new(&setup.animal, &options()).expect("blade elements");
+    let own = FlightSetup {
+        air: AirModel::Own(Arc::new(Remembering(air))),
+        ..setup
+    };
+    let mut flight = Simulation::new(own.clone()).expect("a flight");
+    flight.step().expect("a step");
+    let state = flight.state().clone();
+    assert!(!own.air.is_saved(state.air.as_ref()));
+    let refused = Simulation::resume(own, state)
+        .map(drop)
+        .unwrap_err()
+        .to_string();
+    assert!(refused.contains("memory"), "{refused}");
+}
+
 #[test]
 fn invariant_wings_of_all_beats_after_the_start_are_the_same_to_the_bit() {
     let setup = setup();

@@ -1,4 +1,4 @@
-//! Euler-angle sequences: rotation, the matrix G of seed eq. 15, its time derivative, inverse.
+//! Euler-angle sequences: rotation, the matrix G of seed eq. 15 and its derivatives, inverse.
 
 use crate::rotation::rotation_about;
 use glam::{DMat3, DVec3};
@@ -40,38 +40,7 @@ impl EulerSequence {
     /// The matrix G of seed eq. 15: angular velocity in body components `w = G eta'`.
     /// `det G = +-cos(eta_1)`.
     pub fn g(&self, eta: DVec3) -> DMat3 {
-        let [i, j, k] = self.axes;
-        let rk_t = rotation_about(k, -eta.z);
-        let rj_t = rotation_about(j, -eta.y);
-        DMat3::from_cols(
-            rk_t * (rj_t * DVec3::AXES[i]),
-            rk_t * DVec3::AXES[j],
-            DVec3::AXES[k],
-        )
-    }
-
-    /// Time derivative of [`Self::g`] along the rates `eta_dot` [rad/s].
-    pub fn g_dot(&self, eta: DVec3, eta_dot: DVec3) -> DMat3 {
-        let [dy, dz] = self.g_partials(eta);
-        dy * eta_dot.y + dz * eta_dot.z
-    }
-
-    /// Partial derivatives of G with respect to the second and third angle (G does not depend
-    /// on the first).
-    pub fn g_partials(&self, eta: DVec3) -> [DMat3; 2] {
-        let [i, j, k] = self.axes;
-        let rk_t = rotation_about(k, -eta.z);
-        let rj_t = rotation_about(j, -eta.y);
-        let first = rj_t * DVec3::AXES[i];
-        let d_first = -DVec3::AXES[j].cross(first);
-        let ek = DVec3::AXES[k];
-        let d_eta1 = DMat3::from_cols(rk_t * d_first, DVec3::ZERO, DVec3::ZERO);
-        let d_eta2 = DMat3::from_cols(
-            -ek.cross(rk_t * first),
-            -ek.cross(rk_t * DVec3::AXES[j]),
-            DVec3::ZERO,
-        );
-        [d_eta1, d_eta2]
+        self.matrices(eta).g
     }
 
     /// Rotation, G and its partial derivatives at once, from three sines and cosines.
@@ -154,14 +123,41 @@ mod tests {
         }
     }
 
+    /// G by rotations of the axes, each into the frame after it.
+    fn g_by_rotations(s: EulerSequence, eta: DVec3) -> DMat3 {
+        let [i, j, k] = s.axes;
+        let (rk_t, rj_t) = (rotation_about(k, -eta.z), rotation_about(j, -eta.y));
+        DMat3::from_cols(
+            rk_t * (rj_t * DVec3::AXES[i]),
+            rk_t * DVec3::AXES[j],
+            DVec3::AXES[k],
+        )
+    }
+
+    /// Its partial derivatives by the angular velocities of these rotations.
+    fn g_partials_by_rotations(s: EulerSequence, eta: DVec3) -> [DMat3; 2] {
+        let [i, j, k] = s.axes;
+        let (rk_t, rj_t) = (rotation_about(k, -eta.z), rotation_about(j, -eta.y));
+        let first = rj_t * DVec3::AXES[i];
+        let d_first = -DVec3::AXES[j].cross(first);
+        let ek = DVec3::AXES[k];
+        let d_eta1 = DMat3::from_cols(rk_t * d_first, DVec3::ZERO, DVec3::ZERO);
+        let d_eta2 = DMat3::from_cols(
+            -ek.cross(rk_t * first),
+            -ek.cross(rk_t * DVec3::AXES[j]),
+            DVec3::ZERO,
+        );
+        [d_eta1, d_eta2]
+    }
+
     #[test]
-    fn agrees_all_matrices_at_once_with_one_by_one() {
+    fn agrees_matrices_with_those_by_rotations_of_the_axes() {
         let same = |a: DMat3, b: DMat3| (a - b).to_cols_array().iter().all(|e| e.abs() < 1e-15);
         let eta = DVec3::new(2.1, -0.7, -1.3);
         for s in BOTH {
             let m = s.matrices(eta);
-            assert!(same(m.r, s.rotation(eta)) && same(m.g, s.g(eta))); // a few roundings
-            let [b, c] = s.g_partials(eta);
+            assert!(same(m.r, s.rotation(eta)) && same(m.g, g_by_rotations(s, eta))); // a few roundings
+            let [b, c] = g_partials_by_rotations(s, eta);
             assert!(same(m.g_partials[0], b) && same(m.g_partials[1], c));
         }
     }
@@ -177,8 +173,10 @@ mod tests {
             let w = untilde(r.transpose() * r_dot);
             // Second-order differences at h = 1e-5: truncation 1e-10, rounding 1e-11.
             assert!((w - s.g(at(t)) * rate(t)).length() < 1e-9);
-            let g_dot = (s.g(at(t + h)) - s.g(at(t - h))) * (0.5 / h) - s.g_dot(at(t), rate(t));
-            assert!(g_dot.to_cols_array().iter().all(|e| e.abs() < 1e-9));
+            let [dy, dz] = s.matrices(at(t)).g_partials;
+            let g_dot = dy * rate(t).y + dz * rate(t).z;
+            let gap = (s.g(at(t + h)) - s.g(at(t - h))) * (0.5 / h) - g_dot;
+            assert!(gap.to_cols_array().iter().all(|e| e.abs() < 1e-9));
             assert!((s.g(at(t)).determinant().abs() - s.regularity(at(t))).abs() < 1e-14);
         }
     }

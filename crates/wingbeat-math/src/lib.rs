@@ -42,7 +42,7 @@ pub use iterative::{BiCgStab, Product};
 pub use lu::{DenseLu, LuError};
 pub use mass::{MassError, MassProperties};
 pub use matrix::{outer, trace};
-pub use mirror::{mirrored, mirrored_axial};
+pub use mirror::{mirrored, mirrored_axial, reflected};
 pub use rotation::{
     MovingRotation, RotationLaw, r1, r2, r3, rotation_about, rotation_vector,
     rotation_vector_of_matrix, tilde, untilde,
@@ -54,4 +54,4 @@ pub use small_lu::{SingularMatrix, SmallLu, solve_small};
 pub use smoothstep::{smoothstep, smoothstep7};
 pub use spatial::{BodyAcceleration, BodyMotion, Wrench};
 pub use split_mix::SplitMix64;
-pub use statistics::{median, root_mean_square, to_twelve_digits};
+pub use statistics::{median, root_mean_square, to_digits};

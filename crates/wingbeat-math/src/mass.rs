@@ -2,6 +2,7 @@
 
 use crate::matrix::outer;
 use crate::rotation::{rotation_about, tilde};
+use crate::six_by_six::{SixBySix, from_quarters};
 use glam::{DMat3, DVec3};
 
 /// Mass, first and second moment of mass of a rigid body about its frame origin, in body
@@ -94,6 +95,21 @@ impl MassProperties {
             first_moment: s + self.mass * p,
             inertia: r * self.inertia * r.transpose() - ts * tp - tp * ts - tp * tp * self.mass,
         }
+    }
+
+    /// Force (N components) and moment about the origin (body components) by the acceleration of the origin (N) and
+    /// the angular acceleration (body), of a body of the attitude `r`, R_NB \[kg, kg m, kg m2\]: symmetric.
+    ///
+    /// ```
+    /// use wingbeat_math::{DMat3, DVec3, MassProperties};
+    /// let body = MassProperties::point(2.0, DVec3::X);
+    /// let m = body.matrix(DMat3::IDENTITY);
+    /// assert_eq!([m[0][0], m[1][5], m[5][1], m[5][5]], [2.0; 4]); // it turns about axis 3: force along axis 2
+    /// ```
+    pub fn matrix(&self, r: DMat3) -> SixBySix {
+        let s = tilde(self.first_moment);
+        let mass = DMat3::from_diagonal(DVec3::splat(self.mass));
+        from_quarters([[mass, -(r * s)], [s * r.transpose(), self.inertia]])
     }
 
     /// All mass multiplied by `factor`.

@@ -13,6 +13,17 @@ pub fn mirrored(v: DVec3) -> DVec3 {
     DVec3::new(v.x, -v.y, v.z)
 }
 
+/// Mirror image of a polar vector in the plane across `normal`, a unit vector in the same components \[1\].
+///
+/// ```
+/// use wingbeat_math::{DVec3, mirrored, reflected};
+/// let v = DVec3::new(1.0, 2.0, 3.0);
+/// assert_eq!(reflected(v, DVec3::Y), mirrored(v));
+/// ```
+pub fn reflected(v: DVec3, normal: DVec3) -> DVec3 {
+    v - 2.0 * normal.dot(v) * normal
+}
+
 /// Mirror image of an axial vector: an angular velocity or acceleration, a moment, an axis of rotation.
 pub fn mirrored_axial(v: DVec3) -> DVec3 {
     DVec3::new(-v.x, v.y, -v.z)

@@ -38,6 +38,24 @@ impl DriftingFourier {
         }
     }
 
+    /// Whether its harmonics move it: those of a frequency of 0 stand still, and so do amplitudes of 0.
+    ///
+    /// ```
+    /// use wingbeat_math::DriftingFourier;
+    /// let series = |frequency, a| DriftingFourier::periodic(0.3, frequency, [vec![a], vec![]]);
+    /// assert!(series(2.0, 0.1).oscillates());
+    /// assert!(!series(0.0, 0.1).oscillates() && !series(2.0, 0.0).oscillates());
+    /// ```
+    pub fn oscillates(&self) -> bool {
+        let mut amplitudes = self.cosine.iter().chain(&self.sine);
+        self.frequency != 0.0 && amplitudes.any(|a| *a != 0.0)
+    }
+
+    /// Whether it has the same value at all times.
+    pub fn is_constant(&self) -> bool {
+        self.rate == 0.0 && !self.oscillates()
+    }
+
     /// Value and first two time derivatives at `t` [s].
     ///
     /// ```

@@ -71,3 +71,85 @@ pub fn scaled(a: &SixBySix, factor: f64) -> SixBySix {
 pub fn symmetric_part(a: &SixBySix) -> SixBySix {
     from_entries(|i, j| 0.5 * (a[i][j] + a[j][i]))
 }
+
+/// A symmetric matrix as `L D L^T`, without pivoting: for positive definite ones.
+///
+/// ```
+/// use wingbeat_math::six_by_six::{Ldlt, from_entries, times};
+/// let a = from_entries(|i, j| 1.0 / (1 + i + j) as f64); // Hilbert's matrix
+/// let factors = Ldlt::new(a);
+/// assert!(factors.is_positive());
+/// let mut x = times(&a, &[1.0, 2.0, 3.0, 4.0, 5.0, 6.0]);
+/// factors.solve(&mut x);
+/// assert!((x[5] - 6.0).abs() < 1e-8); // of a condition number of 1e7
+/// ```
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Ldlt {
+    /// Row k of the upper half: column k of L.
+    columns: SixBySix,
+    /// 1 / D.
+    inverse: Six,
+}
+
+impl Ldlt {
+    /// Of the matrix `a`, of which only the lower half is read.
+    pub fn new(mut a: SixBySix) -> Self {
+        let mut inverse = [0.0; 6];
+        for k in 0..6 {
+            inverse[k] = 1.0 / a[k][k];
+            for i in k + 1..6 {
+                a[k][i] = a[i][k] * inverse[k];
+            }
+            for i in k + 1..6 {
+                let entry = a[i][k];
+                for j in k + 1..=i {
+                    a[i][j] -= entry * a[k][j];
+                }
+            }
+        }
+        Self {
+            columns: a,
+            inverse,
+        }
+    }
+
+    /// Solves for the right-hand side `x`, in its place.
+    pub fn solve(&self, x: &mut Six) {
+        let l = &self.columns;
+        for k in 0..6 {
+            for i in k + 1..6 {
+                x[i] -= l[k][i] * x[k];
+            }
+        }
+        for k in (0..6).rev() {
+            x[k] *= self.inverse[k];
+            for i in k + 1..6 {
+                x[k] -= l[k][i] * x[i];
+            }
+        }
+    }
+
+    /// Whether the matrix is positive definite: all of D is.
+    pub fn is_positive(&self) -> bool {
+        self.inverse.iter().all(|d| *d > 0.0 && d.is_finite())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// `A = Q D Q^T` of a reflection Q is positive definite where D is, whatever a diagonal shows.
+    #[test]
+    fn exact_positive_where_eigenvalues_are() {
+        let v: Six = [0.5, -0.25, 0.5, 0.25, -0.5, 0.125];
+        let square: f64 = v.iter().map(|x| x * x).sum();
+        let q = from_entries(|i, j| f64::from(u8::from(i == j)) - 2.0 * v[i] * v[j] / square);
+        let of = |least: f64| {
+            let d = from_entries(|i, j| if i == j { least + i as f64 } else { 0.0 });
+            Ldlt::new(product(&product(&q, &d), &q)).is_positive()
+        };
+        assert!(of(1e-6) && !of(-1e-6) && !of(-2.5));
+        assert!(!Ldlt::new(ZERO).is_positive());
+    }
+}

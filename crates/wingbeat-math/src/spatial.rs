@@ -2,6 +2,8 @@
 
 use glam::{DMat3, DVec3};
 
+use crate::mirror::{mirrored, mirrored_axial, reflected};
+
 /// Where a body is and how it moves.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BodyMotion {
@@ -76,6 +78,31 @@ impl Wrench {
         Self {
             force: r * self.force,
             moment: r * self.moment,
+        }
+    }
+
+    /// Its mirror image in the plane across `normal`, a unit vector in the same components \[1\]: the moment is an
+    /// axial vector.
+    #[must_use]
+    pub fn reflected(&self, normal: DVec3) -> Self {
+        Self {
+            force: reflected(self.force, normal),
+            moment: -reflected(self.moment, normal),
+        }
+    }
+
+    /// Its mirror image in the 1-3 plane of its components.
+    ///
+    /// ```
+    /// use wingbeat_math::{DVec3, Wrench};
+    /// let load = Wrench::at(DVec3::new(1.0, 2.0, 3.0), DVec3::new(-4.0, 5.0, 6.0));
+    /// assert_eq!(load.mirrored(), load.reflected(DVec3::Y));
+    /// ```
+    #[must_use]
+    pub fn mirrored(&self) -> Self {
+        Self {
+            force: mirrored(self.force),
+            moment: mirrored_axial(self.moment),
         }
     }
 

@@ -28,11 +28,15 @@ pub fn median(mut numbers: Vec<f64>) -> Option<f64> {
     (n > 0).then(|| 0.5 * (numbers[(n - 1) / 2] + numbers[n / 2]))
 }
 
-/// To 12 significant digits: 0.1, not 0.1 and the rounding of a sum.
+/// To `digits` significant digits, at least one: 0.1, not 0.1 and the rounding of a sum. What is not finite stays.
 ///
 /// ```
-/// assert_eq!(wingbeat_math::to_twelve_digits(0.1 + 0.2), 0.3);
+/// use wingbeat_math::to_digits;
+/// assert_eq!(to_digits(0.1 + 0.2, 12), 0.3);
+/// assert_eq!(to_digits(-123456.0, 2), -120000.0);
+/// assert_eq!(to_digits(f64::INFINITY, 2), f64::INFINITY);
 /// ```
-pub fn to_twelve_digits(x: f64) -> f64 {
-    format!("{x:.11e}").parse().unwrap_or(x)
+pub fn to_digits(x: f64, digits: usize) -> f64 {
+    let decimals = digits.saturating_sub(1);
+    format!("{x:.decimals$e}").parse().unwrap_or(x)
 }

@@ -28,7 +28,7 @@ use wingbeat::model::Wing;
 use wingbeat::model::motion::Adjustment;
 
 use crate::arrays::{array, points, rows, vector};
-use crate::errors::{no_lattice, refused};
+use crate::errors::{no_lattice, raised, refused};
 use crate::threads::detached;
 
 /// The exception of a part that failed.
@@ -130,7 +130,7 @@ impl Sensed {
     ) -> PyResult<Bound<'py, PyAny>> {
         let at = points(points_m)?;
         let air = self.lattice(py)?;
-        let velocity = detached(py, || air.velocity(&at))?;
+        let velocity = detached(py, || air.velocity(&at))?.map_err(|e| raised(py, &e.into()))?;
         rows(py, &velocity.ok_or_else(|| no_lattice(py))?)
     }
 

@@ -205,6 +205,7 @@ impl Stepper {
     ) -> PyResult<Bound<'py, PyAny>> {
         let at = points(at)?;
         let velocity = self.with(py, |course| course.flight.air_velocity(&at))?;
+        let velocity = velocity.map_err(|e| raised(py, &e.into()))?;
         rows(py, &velocity.ok_or_else(|| no_lattice(py))?)
     }
 

@@ -67,6 +67,20 @@ fn behaves_reynolds_numbers_at_which_friction_rules_are_told() {
     assert!(!says(&own, low), "{:?}", own.warnings);
 }
 
+/// A frequency below 0 turns the phase alone; an amplitude of 0 moves nothing.
+#[test]
+fn behaves_what_a_period_of_the_tether_sheds_is_told_where_it_oscillates() {
+    let says_so = |frequency: f64, amplitude: f64| {
+        let tether = format!(
+            "flight.tether.z={{ frequency_hz = {frequency:?}, cosine_m = [{amplitude:?}] }}"
+        );
+        let summary = flown(&preset("benchmark-1", &[&tether, "time.steps=4"]));
+        says(&summary, "what is shed in a period")
+    };
+    assert!(says_so(50.0, 1e-3) && says_so(-50.0, 1e-3));
+    assert!(!says_so(50.0, 0.0));
+}
+
 /// A smooth start takes half of its length, here half a beat, from the strokes alone.
 #[test]
 fn exact_tethers_out_of_step_with_the_strokes_are_told_by_how_much() {

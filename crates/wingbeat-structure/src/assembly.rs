@@ -28,7 +28,7 @@ pub(crate) struct Assembly {
     /// Power that went into it at the last internal forces \[W\].
     pub power: f64,
     element: ElementForces,
-    viscous: ElementForces,
+    dissipation: Dissipation,
     /// Increments of the numbers of an element.
     numbers: Vec<f64>,
 }
@@ -40,7 +40,7 @@ impl Assembly {
             energy: 0.0,
             power: 0.0,
             element: ElementForces::default(),
-            viscous: ElementForces::default(),
+            dissipation: Dissipation::default(),
             numbers: vec![],
         }
     }
@@ -73,10 +73,13 @@ impl Assembly {
         velocity: &[f64],
         out: &mut [f64],
     ) {
+        self.dissipation.place(structure, at);
+        let mut matrices = &self.dissipation.matrices[..];
         for e in &structure.elements {
-            e.dissipation(at, &mut self.viscous);
             let (nodes, width) = (e.nodes(), NODE * e.nodes().len());
-            for (i, row) in self.viscous.tangent.chunks_exact(width).enumerate() {
+            let (own, others) = matrices.split_at(width * width);
+            matrices = others;
+            for (i, row) in own.chunks_exact(width).enumerate() {
                 let part = |k: usize| row[k] * velocity[NODE * nodes[k / NODE] + k % NODE];
                 out[NODE * nodes[i / NODE] + i % NODE] += (0..width).map(part).sum::<f64>();
             }
@@ -93,6 +96,10 @@ impl Assembly {
         damping: Option<&Viscous<'_>>,
         turn: &dyn Fn(usize) -> DMat3,
     ) {
+        if damping.is_some() {
+            self.dissipation.place(structure, at);
+        }
+        let mut matrices = &self.dissipation.matrices[..];
         for e in &structure.elements {
             match ahead {
                 None => {
@@ -118,8 +125,9 @@ impl Assembly {
                 }
             }
             if let Some(d) = damping {
-                e.dissipation(at, &mut self.viscous);
-                let both = self.element.tangent.iter_mut().zip(&self.viscous.tangent);
+                let (own, others) = matrices.split_at(width * width);
+                matrices = others;
+                let both = self.element.tangent.iter_mut().zip(own);
                 both.for_each(|(k, c)| *k += d.time * d.rate * c);
             }
             scatter(
@@ -162,6 +170,32 @@ impl Assembly {
             let (node, direction) = structure.direction(unknown);
             StructureError::Singular { node, direction }
         })
+    }
+}
+
+/// The matrices that strain-rate damping multiplies ([`crate::Element::dissipation`]): the forces of a trial and its
+/// tangent ask for those of the same configuration.
+#[derive(Debug, Default)]
+struct Dissipation {
+    /// Where they are known.
+    at: Configuration,
+    /// Element by element, by rows.
+    matrices: Vec<f64>,
+    element: ElementForces,
+}
+
+impl Dissipation {
+    /// Those in the configuration `at`.
+    fn place(&mut self, structure: &Structure, at: &Configuration) {
+        if self.at == *at {
+            return;
+        }
+        self.matrices.clear();
+        for e in &structure.elements {
+            e.dissipation(at, &mut self.element);
+            self.matrices.extend_from_slice(&self.element.tangent);
+        }
+        self.at.clone_from(at);
     }
 }
 

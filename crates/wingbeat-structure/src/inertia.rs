@@ -170,15 +170,8 @@ pub(crate) fn tangents(m: &MassProperties, frame: &FrameMotion, n: &NodeMotion) 
     Tangents {
         position,
         velocity,
-        acceleration: mass_matrix(m, n.r),
+        acceleration: m.matrix(n.r),
     }
-}
-
-/// Derivative of the inertial force and moment by (v', Omega').
-pub(crate) fn mass_matrix(m: &MassProperties, r: DMat3) -> SixBySix {
-    let s = tilde(m.first_moment);
-    let unit = DMat3::from_diagonal(DVec3::splat(m.mass));
-    from_quarters([[unit, -(r * s)], [s * r.transpose(), m.inertia]])
 }
 
 /// Derivative of the inertial force and moment by the acceleration and angular acceleration of W.

@@ -11,7 +11,6 @@ use crate::assembly::Assembly;
 use crate::configuration::{Configuration, NODE};
 use crate::error::StructureError;
 use crate::frame::FrameMotion;
-use crate::inertia::mass_matrix;
 use crate::slowest::{below, slowest};
 use crate::statics::steady_tangent;
 use crate::structure::{HELD, Structure};
@@ -295,7 +294,7 @@ fn weighed(structure: &Structure, shape: &[f64], turns: bool) -> Vec<f64> {
                 ..MassProperties::ZERO
             },
         };
-        let block = mass_matrix(&m, DMat3::from_quat(structure.rest.rotation[node]));
+        let block = m.matrix(DMat3::from_quat(structure.rest.rotation[node]));
         let own = |i: usize| structure.unknown[NODE * node + i];
         for (i, j) in (0..NODE * NODE).map(|k| (own(k / NODE), k)) {
             let (row, col) = (j / NODE, own(j % NODE));
@@ -339,12 +338,12 @@ fn matrices(
     let k = symmetric(n, assembly.matrix.rows());
     assembly.matrix.clear(true);
     for (node, m) in structure.masses.iter().enumerate() {
-        let block = mass_matrix(m, DMat3::from_quat(at.rotation[node]));
+        let block = m.matrix(DMat3::from_quat(at.rotation[node]));
         assembly.add(structure, [node, node], &block);
     }
     for m in &structure.between {
         let point = m.point();
-        assembly.add_between(structure, m.nodes, &mass_matrix(&point, DMat3::IDENTITY));
+        assembly.add_between(structure, m.nodes, &point.matrix(DMat3::IDENTITY));
     }
     if let Some(added) = added {
         let width = NODE * structure.nodes();

@@ -247,7 +247,7 @@ fn agrees_velocity_of_the_air_with_the_flight_and_refuses_damage() {
     }
     let place = wingbeat::math::DVec3::new(0.002, 0.001, 0.0);
     let places = [place].into_iter().collect();
-    let velocity = flight.air_velocity(&places).unwrap().get(0);
+    let velocity = flight.air_velocity(&places).unwrap().unwrap().get(0);
     let out = wingbeat(dir, &VELOCITY);
     let table = String::from_utf8(out.stdout).unwrap();
     let row = table.lines().nth(1).unwrap();

@@ -156,8 +156,7 @@ impl Perturbation {
     /// What the state at `time` [s] within a beat looks like.
     pub fn at(beat: &Beat, time: f64, level: &Level, y: &[f64]) -> Self {
         let root = beat.root_at(time, y);
-        let velocity = DVec3::from_slice(&y[7..]) / beat.mass();
-        Self::seen(level, root.r, velocity, root.w)
+        Self::seen(level, root.r, beat.velocity(y), root.w)
     }
 
     /// What an attitude (root to N), a velocity of the mass centre (N components) and an angular
@@ -168,6 +167,19 @@ impl Perturbation {
             velocity: turned.transpose() * velocity,
             rate: level.to_root.transpose() * rate,
             tilt: rotation_vector(DQuat::from_mat3(&(level.to_n.transpose() * turned))),
+        }
+    }
+}
+
+impl std::ops::Sub for Perturbation {
+    type Output = Self;
+
+    /// Number by number.
+    fn sub(self, o: Self) -> Self {
+        Self {
+            velocity: self.velocity - o.velocity,
+            rate: self.rate - o.rate,
+            tilt: self.tilt - o.tilt,
         }
     }
 }

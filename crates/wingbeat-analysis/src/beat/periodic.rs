@@ -24,8 +24,7 @@ pub(crate) fn check_periodic(system: &System, period: f64) -> Result<(), Analysi
         });
         let driven = joint.elements.iter().filter_map(|e| e.law.drive());
         let drifts = driven.clone().any(|series| series.rate != 0.0);
-        let varying =
-            driven.filter(|series| series.cosine.iter().chain(&series.sine).any(|x| *x != 0.0));
+        let varying = driven.filter(|series| series.oscillates());
         let mut phases = varying.map(|series| series.frequency * period);
         let off = phases.any(|x| (x - x.round()).abs() > CLOSE * x.abs());
         if turned || spun || travelled || drifts || off {

@@ -7,12 +7,9 @@
 
 use std::collections::VecDeque;
 
-use wingbeat_math::DVec3;
-
 use crate::AnalysisError;
 use crate::beat::JOINTS;
-use crate::beat::level::Perturbation;
-use crate::control::departure::{CONTROLS, Controls, Departure};
+use crate::control::departure::{CONTROLS, Controls, Departure, pass_on};
 use crate::control::regulator::plant::{STATES, natural_sizes};
 use crate::control::regulator::{Regulator, Timing};
 use crate::stability::eigen::{Eigenpair, eigen};
@@ -96,17 +93,10 @@ impl ClosedLoop<'_> {
         let mut queue: VecDeque<Controls> = commands.as_chunks().0.iter().copied().collect();
         let share = self.timing.share();
         for (look, plant) in self.regulator.plants().iter().enumerate() {
-            let d = Departure {
-                look,
-                position: DVec3::from_slice(&x),
-                state: Perturbation::from_array(std::array::from_fn(|k| x[3 + k])),
-            };
+            let d = Departure::from_states(look, &x);
             let u = regulator.controls(&d);
             regulator.remember(&d, u, false);
-            queue.push_back(u);
-            let now = queue.pop_front().unwrap_or(u);
-            let due = queue[0];
-            queue[0] = std::array::from_fn(|c| now[c] + share * (due[c] - now[c]));
+            let now = pass_on(&mut queue, u, share);
             x = plant.advance(&x, &now, &queue[0]);
         }
         let commands = queue.iter().flatten().copied();

@@ -1,6 +1,8 @@
 //! What a controller makes of what it sees: the departure from a reference flight, and what it
 //! answers, four controls of the strokes.
 
+use std::collections::VecDeque;
+
 use wingbeat_flight::{Aim, FlightSetup, Sensed};
 use wingbeat_math::{DMat3, DQuat, DVec3};
 use wingbeat_model::Wing;
@@ -17,6 +19,18 @@ pub const CONTROLS: usize = 4;
 /// differences of relative amplitude \[1\] and of stroke plane \[rad\].
 pub type Controls = [f64; CONTROLS];
 
+/// A wingbeat or a part of it goes by: the command `u` joins the `commands`, of which the first is in force and the
+/// others are under way; actuators go this `share` of the way to the one that is due. What was in force until now.
+pub(super) fn pass_on(commands: &mut VecDeque<Controls>, u: Controls, share: f64) -> Controls {
+    commands.push_back(u);
+    let now = commands.pop_front().unwrap_or(u);
+    if share < 1.0 {
+        let due = commands[0];
+        commands[0] = std::array::from_fn(|c| now[c] + share * (due[c] - now[c]));
+    }
+    now
+}
+
 /// The departure from the reference flight at the start of a wingbeat.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Departure {
@@ -30,13 +44,22 @@ pub struct Departure {
 }
 
 impl Departure {
+    /// Of what is seen at the look number `look`, in natural order: place of the mass centre, then the nine numbers of
+    /// its state (SI).
+    pub(crate) fn from_states(look: usize, x: &[f64]) -> Self {
+        Self {
+            look,
+            position: DVec3::from_slice(x),
+            state: Perturbation::from_array(std::array::from_fn(|k| x[3 + k])),
+        }
+    }
+
     /// What is left of it less `other`.
     pub fn less(&self, other: &Self) -> Self {
-        let (state, other_state) = (self.state.to_array(), other.state.to_array());
         Self {
             look: self.look,
             position: self.position - other.position,
-            state: Perturbation::from_array(std::array::from_fn(|i| state[i] - other_state[i])),
+            state: self.state - other.state,
         }
     }
 }
@@ -89,16 +112,15 @@ impl Reference {
     pub fn departure_on(&self, aim: &Aim, sensed: &Sensed, origin: DVec3) -> Departure {
         let level = self.level.turned(aim.heading);
         let (root, own) = (&sensed.root, sensed.velocity - self.velocity);
-        let seen = Perturbation::seen(&level, root.r, own, root.w).to_array();
+        let seen = Perturbation::seen(&level, root.r, own, root.w);
         let mut state = self.state;
         state.velocity += level.to_n.transpose() * aim.velocity;
         state.rate.z += aim.heading_rate;
-        let state = state.to_array();
         let way = sensed.centre - origin - sensed.time * self.velocity - aim.position;
         Departure {
             look: sensed.look,
             position: level.to_n.transpose() * way,
-            state: Perturbation::from_array(std::array::from_fn(|i| seen[i] - state[i])),
+            state: seen - state,
         }
     }
 

@@ -97,7 +97,7 @@ impl Orbit {
         let velocity = trim.mean_velocity()?;
         let mut y: State = trim.state.clone();
         let start = Perturbation::of(beat, &level, &y);
-        let start = start.relative_to(&level, trim.velocity).to_array();
+        let start = start.relative_to(&level, trim.velocity);
         let mut orbit = Self {
             points: vec![],
             seen: vec![],
@@ -108,11 +108,10 @@ impl Orbit {
             let seen = Perturbation::at(beat, time, &level, &y);
             let seen = seen.relative_to(&level, trim.velocity);
             let way = DVec3::from_slice(&y) - DVec3::from_slice(&trim.state) - time * velocity;
-            let state = seen.to_array();
             orbit.points.push(Departure {
                 look: 0,
                 position: level.to_n.transpose() * way,
-                state: Perturbation::from_array(std::array::from_fn(|i| state[i] - start[i])),
+                state: seen - start,
             });
             orbit.seen.push(seen);
             orbit.joints.push(y[JOINTS..].to_vec());

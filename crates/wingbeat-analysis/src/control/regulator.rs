@@ -22,11 +22,9 @@ mod riccati;
 use std::collections::VecDeque;
 
 use wingbeat_flight::control::fits;
-use wingbeat_math::DVec3;
 
 use crate::AnalysisError;
-use crate::beat::level::Perturbation;
-use crate::control::departure::{CONTROLS, Controls, Departure, sides};
+use crate::control::departure::{CONTROLS, Controls, Departure, pass_on, sides};
 use crate::control::part::Orbit;
 use crate::control::sensors::Channels;
 use crate::trim::Trim;
@@ -191,11 +189,7 @@ impl Regulator {
         };
         let x = observer.estimate(seen.look, &states(seen));
         self.joints.copy_from_slice(&x[STATES..]);
-        Departure {
-            look: seen.look,
-            position: DVec3::from_slice(&x),
-            state: Perturbation::from_array(std::array::from_fn(|k| x[3 + k])),
-        }
+        Departure::from_states(seen.look, &x)
     }
 
     /// Feedback gains of every look of a wingbeat, `CONTROLS` rows; columns: position, velocity, rate, tilt
@@ -223,12 +217,7 @@ impl Regulator {
     /// A beat goes by: the command `u` joins those under way, the departure the sums, unless the
     /// command is `limited`.
     pub fn remember(&mut self, departure: &Departure, u: Controls, limited: bool) {
-        self.commands.push_back(u);
-        let now = self.commands.pop_front().unwrap_or(u);
-        if self.share < 1.0 {
-            let due = self.commands[0];
-            self.commands[0] = std::array::from_fn(|c| now[c] + self.share * (due[c] - now[c]));
-        }
+        let now = pass_on(&mut self.commands, u, self.share);
         let (x, next) = (self.states(departure), &self.commands[0]);
         let plant = &self.plants[departure.look % self.plants.len()];
         if let Some(observer) = &mut self.observer {

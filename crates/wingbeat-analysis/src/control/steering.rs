@@ -366,6 +366,6 @@ fn seen(beat: &Beat, y: &[f64], look: usize, part: Part) -> Sensed {
         time: look as f64 * beat.period() / part.of as f64,
         root: beat.root_at(part.start(beat.period()), y),
         centre: DVec3::from_slice(y),
-        velocity: DVec3::from_slice(&y[7..]) / beat.mass(),
+        velocity: beat.velocity(y),
     }
 }

@@ -238,7 +238,7 @@ impl Flyer {
             time: self.time(trim),
             root: self.root,
             centre: DVec3::from_slice(&self.y),
-            velocity: DVec3::from_slice(&self.y[7..]) / trim.beat.mass(),
+            velocity: trim.beat.velocity(&self.y),
         }
     }
 }

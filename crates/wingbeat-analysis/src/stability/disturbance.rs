@@ -76,7 +76,7 @@ pub fn disturbed(trim: &Trim, by: &Perturbation) -> State {
     let root = trim.beat.root(&trim.state);
     let level = Level::new(root.r, trim.beat.gravity());
     let with = Disturbance::new(&level, by);
-    let v = DVec3::from_slice(&trim.state[7..]) / trim.beat.mass();
+    let v = trim.beat.velocity(&trim.state);
     let centre = BodyMotion {
         p: DVec3::ZERO,
         r: with.turned * level.to_root.transpose(),

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use wingbeat_case::{CaseError, Document};
-use wingbeat_math::to_twelve_digits;
+use wingbeat_math::to_digits;
 
 use crate::plan::raw::{Ends, Normal, Range, RawCampaign, Variation};
 use crate::plan::sample::{MAX_SOBOL, MAX_SOBOL_KEYS, Sampler, cumulative};
@@ -201,7 +201,7 @@ impl Reader<'_> {
             k => from + (to - from) * k as f64 / last as f64,
         };
         Ok((0..=last)
-            .map(|k| Value::Number(to_twelve_digits(at(k))))
+            .map(|k| Value::Number(to_digits(at(k), 12)))
             .collect())
     }
 

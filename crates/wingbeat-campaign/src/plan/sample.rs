@@ -7,7 +7,7 @@
 
 use sha2::{Digest, Sha256};
 use statrs::function::erf::erfc_inv;
-use wingbeat_math::to_twelve_digits;
+use wingbeat_math::to_digits;
 
 use crate::plan::raw::{Ends, Normal, Variation};
 
@@ -70,7 +70,7 @@ impl Sampler {
     /// Sample number `s`.
     pub fn value(&self, s: usize) -> f64 {
         let u = || fraction(random(self.seed, &self.key, "value", s));
-        to_twelve_digits(match &self.law {
+        let value = match &self.law {
             Law::Uniform(ends) => between(ends, u()),
             Law::LogUniform(ends) => (ends.from.ln() + u() * (ends.to / ends.from).ln()).exp(),
             Law::Normal(normal) => quantile(normal, u()),
@@ -81,7 +81,8 @@ impl Sampler {
                 ends,
                 f64::from(sobol_burley::sample(s as u32, *dimension, self.seed as u32)),
             ),
-        })
+        };
+        to_digits(value, 12)
     }
 }
 

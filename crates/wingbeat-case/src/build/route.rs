@@ -1,7 +1,7 @@
 //! `[[control.waypoint]]`.
 
 use wingbeat_analysis::control::{Route, Waypoint};
-use wingbeat_math::to_twelve_digits;
+use wingbeat_math::to_digits;
 
 use super::fault::Built;
 use super::numbers::vector;
@@ -48,7 +48,7 @@ fn check(k: usize, control: &ControlCase, from: &Waypoint, to: &Waypoint, beat: 
         return Err(Fault::new(
             format!("control.waypoint[{k}].time_s"),
             "waypoints come one after the other, and a way takes a wingbeat or more",
-            format!("a number >= {}", to_twelve_digits(from.time + beat)),
+            format!("a number >= {}", to_digits(from.time + beat, 12)),
             "put them in the order of their times; a way of one wingbeat is a step",
         ));
     }

@@ -5,6 +5,7 @@ use serde_json::{Value, json};
 use super::scene::Scene;
 use crate::figures::{self, Chart, TimeWindow};
 use wingbeat_case::IoError;
+use wingbeat_math::to_digits;
 use wingbeat_results::rows::Rows;
 use wingbeat_results::summary::ordinal;
 use wingbeat_results::{Outcome, ResultDir, Summary};
@@ -95,8 +96,7 @@ fn reason(outcome: &Outcome) -> &str {
 
 /// Five digits are more than a screen shows.
 fn short(value: f64) -> Value {
-    let rounded = format!("{value:.4e}").parse::<f64>();
-    rounded.map_or(Value::Null, |v| json!(v)) // not finite: null
+    json!(to_digits(value, 5)) // not finite: null
 }
 
 fn chart(name: &str, chart: &Chart) -> Value {

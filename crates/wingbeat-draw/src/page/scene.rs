@@ -4,7 +4,7 @@ use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
 use serde::Serialize;
 use serde_json::{Value, json};
-use wingbeat_math::{DMat3, DQuat, DVec3};
+use wingbeat_math::{DMat3, DQuat, DVec3, to_digits};
 
 use super::pack::{Blob, Packed, Surfaces};
 use super::plan::Plan;
@@ -384,7 +384,7 @@ fn pose((place, rotation): (DVec3, DMat3)) -> [f64; 7] {
 
 /// Eight digits, as many as single precision has.
 fn digits(x: f64) -> f64 {
-    format!("{x:.7e}").parse().unwrap_or(0.0)
+    to_digits(x, 8)
 }
 
 /// Size of the sum.

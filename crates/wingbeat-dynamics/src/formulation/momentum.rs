@@ -25,7 +25,8 @@ use std::sync::Arc;
 use wingbeat_math::{BodyAcceleration, BodyMotion, DMat3, DQuat, DVec3, Wrench};
 
 use self::joints::{move_joints, write_joint_rates};
-use self::state::{State, component};
+pub use self::state::MomentumState;
+use self::state::component;
 use self::whole::{momentum_rate, total_load, whole_load};
 use crate::budget::{budget, load_power};
 use crate::configuration::{Configuration, ConfigurationTable};
@@ -112,7 +113,7 @@ impl MomentumForm {
         configuration.update_free(&self.system, t, (&q, &u));
         let whole = configuration.composite(&self.system);
         Turning::of(whole.inertia).solve(t, DVec3::ZERO)?;
-        let state = State::moving_like(root, &whole);
+        let state = MomentumState::moving_like(root, &whole);
         let mut y = vec![0.0; DIM];
         state.write(&mut y);
         y.extend(q);
@@ -133,7 +134,11 @@ impl MomentumForm {
     }
 
     /// Rotation of the root, and its angular velocity from the angular momentum, `w = I^-1 (R^T H - h)` [rad/s].
-    fn root_turn(t: f64, state: &State, ws: &Workspace) -> Result<(DMat3, DVec3), DynamicsError> {
+    fn root_turn(
+        t: f64,
+        state: &MomentumState,
+        ws: &Workspace,
+    ) -> Result<(DMat3, DVec3), DynamicsError> {
         let r = state.rotation();
         let (whole, turning) = ws.moving();
         let w = turning.solve(t, r.transpose() * state.angular - whole.h)?;
@@ -141,7 +146,11 @@ impl MomentumForm {
     }
 
     /// Motion of the root in the whole of `ws`.
-    fn root_motion(t: f64, state: &State, ws: &Workspace) -> Result<BodyMotion, DynamicsError> {
+    fn root_motion(
+        t: f64,
+        state: &MomentumState,
+        ws: &Workspace,
+    ) -> Result<BodyMotion, DynamicsError> {
         let (r, w) = Self::root_turn(t, state, ws)?;
         let (whole, _) = ws.moving();
         Ok(BodyMotion {
@@ -153,11 +162,16 @@ impl MomentumForm {
     }
 
     /// Motions of all bodies into `ws.motions`, the whole into `ws.whole`; returns the state.
-    fn unfold(&self, t: f64, y: &[f64], ws: &mut Workspace) -> Result<State, DynamicsError> {
+    fn unfold(
+        &self,
+        t: f64,
+        y: &[f64],
+        ws: &mut Workspace,
+    ) -> Result<MomentumState, DynamicsError> {
         if ws.knows(t, y) {
-            return Ok(State::of(y));
+            return Ok(MomentumState::of(y));
         }
-        let state = State::read(t, y)?;
+        let state = MomentumState::read(t, y)?;
         self.lay(t, y, ws);
         let root = Self::root_motion(t, &state, ws)?;
         ws.configuration.motions(&root, &mut ws.motions);
@@ -212,7 +226,7 @@ impl Formulation for MomentumForm {
             let mut configuration = Configuration::new(&self.system);
             configuration.update(&self.system, t);
             let whole = configuration.composite_of(&self.system, shapes);
-            State::moving_like(&motions[0], &whole).write(&mut y);
+            MomentumState::moving_like(&motions[0], &whole).write(&mut y);
         }
         Ok(y)
     }
@@ -260,9 +274,9 @@ impl Formulation for MomentumForm {
             return Ok(());
         }
         let (state, (r, w)) = match ws.knows(t, y) {
-            true => (State::of(y), (ws.motions[0].r, ws.motions[0].w)),
+            true => (MomentumState::of(y), (ws.motions[0].r, ws.motions[0].w)),
             false => {
-                let state = State::read(t, y)?;
+                let state = MomentumState::read(t, y)?;
                 self.lay(t, y, ws);
                 let turn = Self::root_turn(t, &state, ws)?;
                 (state, turn)
@@ -321,8 +335,8 @@ impl Formulation for MomentumForm {
     }
 
     fn symmetrise(&self, mirror: &MirrorSymmetry, _y: &[f64], dy: &mut [f64]) {
-        let rates = State::of(dy);
-        State {
+        let rates = MomentumState::of(dy);
+        MomentumState {
             centre: mirror.kept(rates.centre),
             attitude: mirror.kept_attitude(rates.attitude),
             momentum: mirror.kept(rates.momentum),
@@ -360,7 +374,7 @@ impl Formulation for MomentumForm {
         s.extend([p; 3]);
         s.extend([p * u.length; 3]);
         let joints = || self.system.joints().zip(self.system.offsets());
-        let size = |freedom| match freedom {
+        let size = |kind| match kind {
             JointType::Prismatic { .. } => u.length,
             _ => 1.0,
         };

@@ -40,7 +40,7 @@ impl QuaternionForm {
             ..Joint::new("support of the root", None, 0, JointType::Weld)
         };
         joint.model.travel = Some(path);
-        let mechanism = Mechanism::of(&self.system).with_link(joint);
+        let mechanism = Mechanism::of(&self.system).with_joint(joint);
         Self {
             form: AbsoluteForm::new(mechanism, self.form.stabilization()),
             ..self

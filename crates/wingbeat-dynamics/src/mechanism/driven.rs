@@ -143,12 +143,12 @@ fn closed_positions(
 fn held(system: &System, on_loops: &[bool]) -> Result<System, DynamicsError> {
     let mut held = system.clone();
     for (k, joint) in system.joints().enumerate() {
-        let freedom = match on_loops[k] {
+        let kind = match on_loops[k] {
             true => joint.kind,
             false => JointType::Weld,
         };
         let joint = JointModel {
-            kind: freedom,
+            kind,
             elements: vec![],
             ..joint.clone()
         };

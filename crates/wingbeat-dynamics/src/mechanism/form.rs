@@ -11,7 +11,7 @@
 //! `1/sqrt(M_ii)`, multipliers by `1/sqrt((B M^-1 B^T)_kk)`.
 
 use wingbeat_math::{
-    BodyAcceleration, BodyMotion, DMat3, DQuat, DVec3, Wrench, larger, mirrored_axial,
+    BodyAcceleration, BodyMotion, DMat3, DQuat, DVec3, Wrench, larger, mirrored_axial, reflected,
 };
 
 pub use super::equations::AbsoluteScratch;
@@ -83,7 +83,7 @@ impl AbsoluteForm {
     pub fn scratch(&self) -> AbsoluteScratch {
         let (bodies, joints) = (self.mechanism.bodies().len(), self.mechanism.joints());
         let motions = vec![BodyMotion::REST; bodies];
-        let joints = link_kinematics(joints, 0.0, &motions);
+        let joints = joint_kinematics(joints, 0.0, &motions);
         let mut rows = vec![];
         for (k, l) in joints.iter().enumerate() {
             l.rows(|r| rows.push((k, r)));
@@ -204,7 +204,7 @@ impl AbsoluteForm {
         for [a, b] in mirror.pairs.iter().map(|p| p.map(|k| STATE_NUMBERS * k)) {
             let attitude = |of: &[f64], k: usize| DQuat::from_slice(&of[k + 3..]);
             let sign = mirror.attitude(attitude(y, a)).dot(attitude(y, b)).signum();
-            let [p, v] = [0, 7].map(|k| mirror.vector(vector(dy, a + k)));
+            let [p, v] = [0, 7].map(|k| reflected(vector(dy, a + k), mirror.normal));
             let turn = mirror.attitude(attitude(dy, a)) * sign;
             let w = mirrored_axial(vector(dy, a + 10));
             p.write_to_slice(&mut dy[b..]);
@@ -303,6 +303,6 @@ impl AbsoluteForm {
 /// Steps of Newton's iteration in a projection: a step's drift is small, two reach round-off.
 const NEWTON_STEPS: usize = 2;
 
-fn link_kinematics(joints: &[Joint], t: f64, motions: &[BodyMotion]) -> Vec<JointKinematics> {
+fn joint_kinematics(joints: &[Joint], t: f64, motions: &[BodyMotion]) -> Vec<JointKinematics> {
     joints.iter().map(|l| kinematics(l, t, motions)).collect()
 }

@@ -1,6 +1,6 @@
 //! Whether joints start as they are told, where loops have been closed.
 
-use wingbeat_math::BodyMotion;
+use wingbeat_math::{BodyMotion, to_digits};
 
 use std::f64::consts::TAU;
 
@@ -78,8 +78,5 @@ fn not_the_start(joint: &Joint, is_rate: bool, given: &[f64], asked: &[f64]) -> 
 
 /// Seven digits.
 fn rounded(x: f64) -> String {
-    let digits: f64 = format!("{x:.6e}")
-        .parse()
-        .expect("a number as it is written");
-    format!("{}", digits + 0.0)
+    format!("{}", to_digits(x, 7) + 0.0)
 }

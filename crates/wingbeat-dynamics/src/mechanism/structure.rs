@@ -69,7 +69,7 @@ impl Mechanism {
     }
 
     /// The same mechanism with one more joint.
-    pub(crate) fn with_link(mut self, joint: Joint) -> Self {
+    pub(crate) fn with_joint(mut self, joint: Joint) -> Self {
         self.joints.push(joint);
         self
     }

@@ -41,7 +41,7 @@ impl Joint {
     }
 
     /// A joint between `parent` and `child` with frames parallel at zero coordinates.
-    pub fn new(name: &str, parent: Option<usize>, child: usize, freedom: JointType) -> Self {
+    pub fn new(name: &str, parent: Option<usize>, child: usize, kind: JointType) -> Self {
         Self {
             name: name.into(),
             parent,
@@ -49,7 +49,7 @@ impl Joint {
             anchor_parent: DVec3::ZERO,
             anchor_child: DVec3::ZERO,
             law: None,
-            model: JointModel::new(freedom),
+            model: JointModel::new(kind),
         }
     }
 

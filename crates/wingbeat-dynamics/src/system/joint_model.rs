@@ -261,10 +261,10 @@ impl JointModel {
         })
     }
 
-    /// A joint with `freedom`, nothing acting on it, at rest at zero coordinates.
-    pub fn new(freedom: JointType) -> Self {
+    /// A joint of this `kind`, nothing acting on it, at rest at zero coordinates.
+    pub fn new(kind: JointType) -> Self {
         Self {
-            kind: freedom,
+            kind,
             travel: None,
             elements: vec![],
             coordinates: vec![],

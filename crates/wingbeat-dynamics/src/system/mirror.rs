@@ -44,11 +44,6 @@ impl MirrorSymmetry {
         Self { normal, pairs }
     }
 
-    /// The image of a vector, N components.
-    pub(crate) fn vector(&self, v: DVec3) -> DVec3 {
-        v - 2.0 * self.normal.dot(v) * self.normal
-    }
-
     /// What the mirror leaves of a vector.
     pub(crate) fn kept(&self, v: DVec3) -> DVec3 {
         v - self.normal.dot(v) * self.normal

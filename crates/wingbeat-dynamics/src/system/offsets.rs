@@ -19,8 +19,8 @@ pub struct JointOffsets {
 
 impl JointOffsets {
     /// The offsets of a joint behind `before`.
-    pub(crate) fn after(before: &Self, freedom: JointType) -> Self {
-        let (coordinates, speeds) = match freedom {
+    pub(crate) fn after(before: &Self, kind: JointType) -> Self {
+        let (coordinates, speeds) = match kind {
             JointType::Weld | JointType::PointOnLine { .. } => (0, 0),
             JointType::Revolute { .. } | JointType::Prismatic { .. } => (1, 1),
             JointType::Universal { .. } => (2, 2),

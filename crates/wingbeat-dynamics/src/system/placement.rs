@@ -76,7 +76,7 @@ impl Placement {
 /// The child's frame at the joint point, from the joint's frame `k`, for coordinates `q`, speeds `u` and their
 /// rates; none: constant speeds.
 pub(crate) fn carry(
-    freedom: JointType,
+    kind: JointType,
     k: Placement,
     q: &[f64],
     u: &[f64],
@@ -90,7 +90,7 @@ pub(crate) fn carry(
             w_dot: rate(a, i),
         })
     };
-    match freedom {
+    match kind {
         JointType::Weld | JointType::PointOnLine { .. } => k,
         JointType::Revolute { axis } => about(k, axis, 0),
         JointType::Universal { axes: [a, b] } => about(about(k, a, 0), b, 1),

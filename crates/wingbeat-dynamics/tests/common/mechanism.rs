@@ -45,7 +45,7 @@ pub fn fly(
             loads(&motions, &mut wrenches);
             form.rates(t, y, &wrenches, &mut s, dy)
         };
-        (method.integrate((w[0], w[1]), &mut y, rates, |_| {})).expect("a smooth motion");
+        (method.integrate((w[0], w[1]), &mut y, rates)).expect("a smooth motion");
         out.push(y.clone());
     }
     out

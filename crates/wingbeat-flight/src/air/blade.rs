@@ -6,7 +6,7 @@
 
 use wingbeat_air::Wind;
 use wingbeat_blade::{
-    BladeError, BladeWing, BodyDrag, Calm, Lag, LocalWind, StripTrial, WingMemory,
+    BladeError, BladeWing, BodyDrag, Calm, Lag, LocalWind, SectionMotion, StripTrial, WingMemory,
 };
 use wingbeat_dynamics::{AddedMass, BodyAcceleration, BodyMotion, Wrench};
 use wingbeat_math::six_by_six::{from_entries, symmetric_part, unit};
@@ -86,11 +86,19 @@ impl BladeAir {
             .is_some_and(MovingStrips::is_deformed)
     }
 
-    /// Force and moment of the added mass of a wing that moves like `m` and accelerates like `acc`, wing
-    /// components.
+    /// How the strips of wing `i` lie and move at time `t` \[s\], into `out`; nothing of a flat wing.
+    fn put_sections(&self, i: usize, t: f64, out: &mut Vec<SectionMotion>) {
+        out.clear();
+        if let Some(moving) = &self.moving[i] {
+            out.extend(moving.sections(t));
+        }
+    }
+
+    /// Force and moment of the added mass of wing `i` with its `sections`, wing components, and the power that deforms
+    /// it; it moves like `m` and accelerates like `acc`.
     fn acceleration_load(
         &self,
-        i: usize,
+        (i, sections): (usize, &[SectionMotion]),
         t: f64,
         m: &BodyMotion,
         acc: &BodyAcceleration,
@@ -98,20 +106,18 @@ impl BladeAir {
         let (wing, wind) = (&self.wings[i], self.wind_on(m, t, None));
         match &self.moving[i] {
             None => (wing.acceleration_load_in(m, acc, wind), 0.0),
-            Some(d) => {
-                let phase = d.phase_at(t);
-                let section = |k| d.section(k, phase);
-                let sum = wing.deforming_acceleration_load(m, acc, section, wind);
+            Some(_) => {
+                let sum = wing.deforming_acceleration_load(m, acc, |k| sections[k], wind);
                 (sum.load, sum.power)
             }
         }
     }
 
-    /// Force and moment on a wing by its velocities and the wakes that `lag` tells of, wing components, and the
-    /// power that deforms it.
+    /// Force and moment on wing `i` with its `sections` by its velocities and the wakes that `lag` tells of, wing
+    /// components, and the power that deforms it.
     fn velocity_load(
         &self,
-        i: usize,
+        (i, sections): (usize, &[SectionMotion]),
         t: f64,
         m: &BodyMotion,
         lag: Option<Lag<'_>>,
@@ -120,10 +126,8 @@ impl BladeAir {
         match &self.moving[i] {
             None if self.wind.is_none() => (wing.lagging_load(m, Calm, lag), 0.0),
             None => (wing.lagging_load(m, wind, lag), 0.0),
-            Some(d) => {
-                let phase = d.phase_at(t);
-                let section = |k| d.section(k, phase);
-                let sum = wing.deforming_velocity_load(m, section, wind, lag);
+            Some(_) => {
+                let sum = wing.deforming_velocity_load(m, |k| sections[k], wind, lag);
                 (sum.load, sum.power)
             }
         }
@@ -164,9 +168,12 @@ impl BladeAir {
 
     /// The added mass of wing `i`, read off its loads under unit accelerations; none if it has none.
     fn added_to(&self, i: usize, t: f64) -> Option<AddedMass> {
+        let mut sections = vec![];
+        self.put_sections(i, t, &mut sections);
         let load = |[linear, angular]: [DVec3; 2]| {
             let acc = BodyAcceleration { linear, angular };
-            let (load, _) = self.acceleration_load(i, t, &BodyMotion::REST, &acc);
+            let wing = (i, &sections[..]);
+            let (load, _) = self.acceleration_load(wing, t, &BodyMotion::REST, &acc);
             six(load.force, load.moment)
         };
         let still = load([DVec3::ZERO; 2]);
@@ -196,7 +203,10 @@ impl Air for BladeAir {
         }
         for (i, m) in (0..self.wings.len()).zip(&at.motions[1..]) {
             let bent = self.bent[i].as_ref();
-            let trial = &mut scratch.strips.trials[i];
+            let StripScratch {
+                trials, sections, ..
+            } = &mut scratch.strips;
+            let trial = &mut trials[i];
             if let Some(load) = bent.and_then(|b| {
                 let lag = lag(wakes, i, t, trial);
                 let wind = self.wind_on(m, t, lag.as_ref());
@@ -205,9 +215,11 @@ impl Air for BladeAir {
                 out[i + 1] = load;
                 continue;
             }
-            out[i + 1] = (self.velocity_load(i, t, m, lag(wakes, i, t, trial)).0).turned(m.r);
+            self.put_sections(i, t, sections);
+            let wing = (i, &sections[..]);
+            out[i + 1] = (self.velocity_load(wing, t, m, lag(wakes, i, t, trial)).0).turned(m.r);
             if self.wings[i].has_added_mass() {
-                out[i + 1] += self.acceleration_load(i, t, m, &still).0.turned(m.r);
+                out[i + 1] += (self.acceleration_load(wing, t, m, &still).0).turned(m.r);
             }
         }
         Ok(())
@@ -309,12 +321,15 @@ impl Air for BladeAir {
         out: &mut [f64],
     ) {
         out.fill(0.0);
+        let mut sections = vec![];
         for i in (0..self.wings.len()).filter(|&i| self.is_deformed(i)) {
             let (m, a) = (&at.motions[i + 1], &accelerations[i + 1]);
             let known = scratch.strips.trials.get(i).map(|t| Lag::Known(t));
+            self.put_sections(i, at.time, &mut sections);
+            let wing = (i, &sections[..]);
             let [by_velocity, by_mass] = [
-                self.velocity_load(i, at.time, m, known).1,
-                self.acceleration_load(i, at.time, m, a).1,
+                self.velocity_load(wing, at.time, m, known).1,
+                self.acceleration_load(wing, at.time, m, a).1,
             ];
             out[i + 1] = by_velocity + by_mass;
         }

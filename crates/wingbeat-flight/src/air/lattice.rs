@@ -363,10 +363,17 @@ impl Air for LatticeAir {
         }
     }
 
-    fn velocity(&self, memory: Option<&AirMemory>, points: &Points) -> Option<Points> {
+    fn velocity(
+        &self,
+        memory: Option<&AirMemory>,
+        points: &Points,
+    ) -> Result<Option<Points>, FlightError> {
+        let Some(wakes) = wakes_of(memory) else {
+            return Ok(None);
+        };
         let (mut ws, mut velocity) = (self.lattice.workspace(), Points::default());
-        let sampled = (self.lattice).velocity(wakes_of(memory)?, points, &mut ws, &mut velocity);
-        sampled.ok().map(|()| velocity)
+        (self.lattice).velocity(wakes, points, &mut ws, &mut velocity)?;
+        Ok(Some(velocity))
     }
 }
 

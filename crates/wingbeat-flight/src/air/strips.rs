@@ -93,13 +93,14 @@ impl MovingStrips {
         self.deformed.is_some()
     }
 
-    /// Phase of the beat with its rates at time `t` \[s\]; nothing where the shape stays.
-    pub fn phase_at(&self, t: f64) -> [f64; 3] {
-        (self.deformed.as_ref()).map_or([0.0; 3], |d| d.motion.phase_at(t))
+    /// All strips at time `t` \[s\].
+    pub fn sections(&self, t: f64) -> impl Iterator<Item = SectionMotion> {
+        let phase = (self.deformed.as_ref()).map_or([0.0; 3], |d| d.motion.phase_at(t));
+        (0..self.placed.len()).map(move |k| self.section(k, phase))
     }
 
     /// Strip `k` in the phase `[x, x', x'']` of the beat.
-    pub fn section(&self, k: usize, phase: [f64; 3]) -> SectionMotion {
+    fn section(&self, k: usize, phase: [f64; 3]) -> SectionMotion {
         let placed = &self.placed[k];
         let Some(deformed) = &self.deformed else {
             return SectionMotion::fixed(placed);

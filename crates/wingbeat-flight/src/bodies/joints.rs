@@ -17,12 +17,8 @@ pub fn closes_loop(joints: &[Joint], k: usize) -> bool {
 /// Whether anything at the joint follows a law of time: rotation, travel, actuators.
 pub fn is_driven(joint: &Joint) -> bool {
     let model = &joint.model;
-    let varying = |s: &DriftingFourier| {
-        let mut numbers = s.cosine.iter().chain(&s.sine);
-        s.rate != 0.0 || numbers.any(|x| *x != 0.0)
-    };
     let mut drives = model.elements.iter().filter_map(|e| e.law.drive());
-    joint.law.is_some() || model.travel.is_some() || drives.any(varying)
+    joint.law.is_some() || model.travel.is_some() || drives.any(|s| !s.is_constant())
 }
 
 /// The same joint with everything that is prescribed there `factor` times as fast: rotation, travel and

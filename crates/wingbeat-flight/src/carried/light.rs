@@ -9,8 +9,8 @@
 //! wings that bend as they are at rest.
 
 use wingbeat_dynamics::{BodyMotion, System, Workspace, Wrench, tethered_motions};
-use wingbeat_math::six_by_six::{ZERO, from_quarters, unit};
-use wingbeat_math::{DMat3, DVec3, MassProperties, SixBySix, six, tilde};
+use wingbeat_math::six_by_six::{Ldlt, ZERO, from_entries, unit};
+use wingbeat_math::{DMat3, SixBySix, six};
 use wingbeat_model::WingMotion;
 
 use crate::error::FlightError;
@@ -78,7 +78,8 @@ fn is_light_at(
     air.loads(&at, memory.as_ref(), &mut s, &mut loads)?;
     let mut left = ZERO;
     for (body, m) in system.bodies().iter().zip(&motions) {
-        add_moved(&rigid_mass(&body.mass), LIMIT, [m, &motions[0]], &mut left);
+        let mass = body.mass.matrix(DMat3::IDENTITY);
+        add_moved(&mass, LIMIT, [m, &motions[0]], &mut left);
     }
     for w in 0..setup.animal.wings.len() {
         if let Some(answer) = air.wing_inertia(w, &at, memory.as_ref(), &s)? {
@@ -91,17 +92,18 @@ fn is_light_at(
         }
     }
     let directions = if is_symmetric { SYMMETRIC } else { ALL };
-    Ok(!is_positive(directions.len(), |i, j| {
-        left[directions[i]][directions[j]]
-    }))
+    Ok(!is_positive(&left, directions))
 }
 
-/// Force and moment about the origin of a body by accelerations of the origin and angular accelerations, body
-/// components.
-pub fn rigid_mass(of: &MassProperties) -> SixBySix {
-    let s = tilde(of.first_moment);
-    let mass = DMat3::from_diagonal(DVec3::splat(of.mass));
-    from_quarters([[mass, -s], [s, of.inertia]])
+/// Whether the rows and columns of a symmetric matrix that `directions` name are those of a positive definite one.
+fn is_positive(of: &SixBySix, directions: &[usize]) -> bool {
+    // A direction that is left out stands alone, with one.
+    let counts = |k: usize| directions.contains(&k);
+    let entry = |i: usize, j: usize| match counts(i) && counts(j) {
+        true => of[i][j],
+        false => f64::from(u8::from(i == j)),
+    };
+    Ldlt::new(from_entries(entry)).is_positive()
 }
 
 /// Adds `factor J^T A J` to `out`: `of` in components of the body that moves like `m`, `out` in those of the root.
@@ -121,22 +123,4 @@ fn add_moved(of: &SixBySix, factor: f64, [m, root]: [&BodyMotion; 2], out: &mut 
         let sum = entries.map(|(i, j)| columns[k][i] * of[i][j] * columns[l][j]);
         out[k][l] += factor * sum.sum::<f64>();
     }
-}
-
-/// Whether a symmetric matrix of order `n`, at most 6, is positive definite: its pivots are.
-pub fn is_positive(n: usize, entry: impl Fn(usize, usize) -> f64) -> bool {
-    let mut a = ZERO;
-    for (i, row) in a.iter_mut().enumerate().take(n) {
-        (0..n).for_each(|j| row[j] = entry(i, j));
-    }
-    for k in 0..n {
-        if a[k][k] <= 0.0 {
-            return false;
-        }
-        for i in k + 1..n {
-            let factor = a[i][k] / a[k][k];
-            (k..n).for_each(|j| a[i][j] -= factor * a[k][j]);
-        }
-    }
-    true
 }

@@ -47,10 +47,9 @@ fn late(start: &Start) -> f64 {
 /// Part of its period, -1/2 to 1/2, by which an oscillation at the frequency `beat` \[Hz\] or a multiple of it is
 /// ahead after `time` \[s\] \[1\]; none of what is in step, or oscillates otherwise.
 fn apart(law: &DriftingFourier, beat: f64, time: f64) -> Option<f64> {
-    let mut waves = law.cosine.iter().chain(&law.sine);
     let ratio = law.frequency / beat;
     let is_multiple = ratio.round() >= 1.0 && (ratio - ratio.round()).abs() < ROUNDING * ratio;
     let turns = law.frequency * time;
     let apart = turns - turns.round();
-    (waves.any(|a| *a != 0.0) && is_multiple && apart.abs() > ROUNDING).then_some(apart)
+    (law.oscillates() && is_multiple && apart.abs() > ROUNDING).then_some(apart)
 }

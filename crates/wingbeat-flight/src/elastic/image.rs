@@ -66,11 +66,7 @@ impl Image {
 
 /// The image of a load on a wing of the attitude `from` on one of the attitude `to`, both in N components.
 pub(super) fn reflected(load: &Wrench, from: DMat3, to: DMat3) -> Wrench {
-    let back = from.transpose();
-    Wrench {
-        force: to * mirrored(back * load.force),
-        moment: to * mirrored_axial(back * load.moment),
-    }
+    load.turned(from.transpose()).mirrored().turned(to)
 }
 
 /// The image of an added mass as that of another `body`.

@@ -1,7 +1,7 @@
 //! One elastic wing: its body, its nodes, and what it does to the frame that carries it.
 
 use wingbeat_dynamics::{AddedMass, BodyAcceleration, BodyMotion};
-use wingbeat_math::six_by_six::{from_entries, scaled, symmetric_part};
+use wingbeat_math::six_by_six::{Ldlt, from_entries, scaled, symmetric_part};
 use wingbeat_math::{DMat3, DVec3, MassProperties, SixBySix};
 use wingbeat_model::{Members, Wing};
 use wingbeat_structure::{
@@ -10,7 +10,6 @@ use wingbeat_structure::{
 
 use super::span::Station;
 use super::tangent::added_mass;
-use crate::carried::light::{is_positive, rigid_mass};
 use crate::error::FlightError;
 use crate::interface::{BentShape, WingResponse};
 
@@ -169,12 +168,13 @@ impl ElasticWing {
     /// the rigid wing has. Of its symmetric part so much that both together are positive definite, as masses
     /// are; the answer of the air to places and velocities within a step need not be.
     pub(super) fn carried(&self, response: &SixBySix) -> AddedMass {
-        let rigid = rigid_mass(&self.rigid);
+        let rigid = self.rigid.matrix(DMat3::IDENTITY);
         let all = scaled(&symmetric_part(response), -1.0);
         let beside = from_entries(|i, j| all[i][j] - rigid[i][j]);
+        let both = |part: f64| Ldlt::new(from_entries(|i, j| rigid[i][j] + part * beside[i][j]));
         let part = [1.0, 0.5, 0.25, 0.0]
             .into_iter()
-            .find(|part| is_positive(6, |i, j| rigid[i][j] + part * beside[i][j]));
+            .find(|part| both(*part).is_positive());
         AddedMass::new(self.wing + 1, scaled(&beside, part.unwrap_or(0.0)))
     }
 

@@ -138,7 +138,7 @@ impl Solver {
                 let rates =
                     |t: f64, y: &[f64], dy: &mut [f64]| equations.evaluate(t, y, memory, s, dy);
                 let report = method
-                    .integrate((t, end), &mut b.y, rates, |_| {})
+                    .integrate((t, end), &mut b.y, rates)
                     .map_err(|e| StepError::Rates(adaptive(e, equations, &b.y, s)))?;
                 b.accept(end, past, (equations, memory), s)
                     .map_err(StepError::Rates)?;

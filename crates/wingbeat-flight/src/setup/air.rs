@@ -6,6 +6,7 @@ use wingbeat_air::{AirSettings, CoreModel, LeadingEdge, LoadMethod, SheddingKind
 use wingbeat_blade::{BladeSettings, BodyDrag, DerivativeTable, Unsteady};
 use wingbeat_math::DVec3;
 
+use crate::interface::memory::AirMemory;
 use crate::interface::{Air, ExternalAir};
 
 /// The air and its model: from none to the unsteady lattice.
@@ -91,9 +92,14 @@ impl AirModel {
         }
     }
 
-    /// Whether all of its memory is in the state of a flight, which can then go on from there; that of a program is not.
-    pub fn is_saved(&self) -> bool {
-        !matches!(self, Self::External(_))
+    /// Whether all of its memory is in the state of a flight, whose `memory` this is, so that the flight can go on from
+    /// there: that of a program is not, nor that of a model of your own which keeps it to itself.
+    pub fn is_saved(&self, memory: Option<&AirMemory>) -> bool {
+        match self {
+            Self::External(_) => false,
+            Self::Own(air) => memory.is_some() || !air.has_memory(),
+            _ => true,
+        }
     }
 
     /// Whether half of the air stands for the whole.

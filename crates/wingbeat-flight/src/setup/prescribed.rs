@@ -19,10 +19,8 @@ impl PrescribedMotion {
     /// Period of the slowest of its oscillations [s]; none where nothing oscillates.
     pub fn period(&self) -> Option<f64> {
         let all = self.position.iter().chain(&self.angles);
-        let oscillating = all.filter(|q| !q.cosine.is_empty() || !q.sine.is_empty());
-        let periods = oscillating
-            .filter(|q| q.frequency > 0.0)
-            .map(|q| 1.0 / q.frequency);
+        let oscillating = all.filter(|q| q.oscillates());
+        let periods = oscillating.map(|q| 1.0 / q.frequency.abs());
         periods.reduce(f64::max)
     }
 
@@ -46,11 +44,8 @@ impl PrescribedMotion {
 
     /// Whether nothing moves.
     pub fn rests(&self) -> bool {
-        let still = |law: &DriftingFourier| {
-            let mut waves = law.cosine.iter().chain(&law.sine);
-            law.rate == 0.0 && (law.frequency == 0.0 || waves.all(|a| *a == 0.0))
-        };
-        self.position.iter().chain(&self.angles).all(still)
+        let mut all = self.position.iter().chain(&self.angles);
+        all.all(DriftingFourier::is_constant)
     }
 
     /// A coordinate at time `t` [s] with its first two derivatives.

@@ -32,7 +32,10 @@ impl Simulation {
 
     /// Velocity of the air [m/s] at `points` [m], N, at the newest step; none where the air is no
     /// vortex lattice.
-    pub fn air_velocity(&self, points: &Points) -> Option<Points> {
+    ///
+    /// # Errors
+    /// What the air reports.
+    pub fn air_velocity(&self, points: &Points) -> Result<Option<Points>, FlightError> {
         (self.equations().air).velocity(self.state.air.as_ref(), points)
     }
 

@@ -1,10 +1,10 @@
 //! The Runge-Kutta method of order eight of Dormand and Prince with an error estimate of orders
-//! five and three, step control, and dense output of order seven [Hairer, Norsett & Wanner 1993,
-//! Solving ODEs I, sec. II.5 and II.6; coefficients as published with it].
+//! five and three and step control [Hairer, Norsett & Wanner 1993, Solving ODEs I, sec. II.5; coefficients as
+//! published with it].
 //!
 //! For dynamics alone: its steps are long, so the right-hand side must be smooth.
 
-use super::dop853_table::{A, B, B_THIRD, C, D, E_FIFTH};
+use super::dop853_table::{A, B, B_THIRD, C, E_FIFTH};
 
 /// Accuracy asked for.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -54,29 +54,6 @@ pub struct Dop853 {
     k: Vec<Vec<f64>>,
     stage: Vec<f64>,
     next: Vec<f64>,
-    dense: [Vec<f64>; 8],
-}
-
-/// The accepted step as a function of time.
-#[derive(Clone, Copy, Debug)]
-pub struct Dense<'a> {
-    /// Start of the step \[s\].
-    pub t: f64,
-    /// Length of the step \[s\].
-    pub h: f64,
-    coefficients: &'a [Vec<f64>; 8],
-}
-
-impl Dense<'_> {
-    /// The state at `t` \[s\] inside the step.
-    pub fn at(&self, t: f64, y: &mut [f64]) {
-        let (s, r) = ((t - self.t) / self.h, 1.0 - (t - self.t) / self.h);
-        let c = self.coefficients;
-        for (i, y) in y.iter_mut().enumerate() {
-            let inner = c[4][i] + s * (c[5][i] + r * (c[6][i] + s * c[7][i]));
-            *y = c[0][i] + s * (c[1][i] + r * (c[2][i] + s * (c[3][i] + r * inner)));
-        }
-    }
 }
 
 impl Dop853 {
@@ -85,10 +62,9 @@ impl Dop853 {
         let zero = vec![0.0; scales.len()];
         Self {
             tolerance,
-            k: vec![zero.clone(); 16],
+            k: vec![zero.clone(); 13],
             stage: zero.clone(),
-            next: zero.clone(),
-            dense: std::array::from_fn(|_| zero.clone()),
+            next: zero,
             scales,
             first: 1e-3,
         }
@@ -102,8 +78,8 @@ impl Dop853 {
         }
     }
 
-    /// From `t0` to `t1` \[s\]; `y` moves on; `each` sees every accepted step. Where the right-hand
-    /// side fails in a trial state the step is made shorter.
+    /// From `t0` to `t1` \[s\]; `y` moves on. Where the right-hand side fails in a trial state the step is made
+    /// shorter.
     ///
     /// # Errors
     /// [`AdaptiveError`]; `y` then holds the last accepted state.
@@ -112,7 +88,6 @@ impl Dop853 {
         (t0, t1): (f64, f64),
         y: &mut [f64],
         mut f: impl FnMut(f64, &[f64], &mut [f64]) -> Result<(), E>,
-        mut each: impl FnMut(Dense),
     ) -> Result<AdaptiveReport, AdaptiveError<E>> {
         let mut report = AdaptiveReport::default();
         let (mut t, mut h) = (t0, self.first * (t1 - t0));
@@ -130,11 +105,6 @@ impl Dop853 {
             h = if last { t1 - t } else { h };
             match self.attempt(t, h, y, &mut f) {
                 Ok(error) if error <= 1.0 => {
-                    each(Dense {
-                        t,
-                        h,
-                        coefficients: &self.dense,
-                    });
                     y.copy_from_slice(&self.next);
                     self.k.swap(0, 12);
                     (t, report.accepted) = (if last { t1 } else { t + h }, report.accepted + 1);
@@ -156,7 +126,8 @@ impl Dop853 {
         Ok(report)
     }
 
-    /// Tries a step of length `h`, and finishes it where its error, which is returned, is at most 1.
+    /// Tries a step of length `h`: the new state in `next`, and where its error, which is returned, is at most 1
+    /// the rates there, with which the next step begins.
     fn attempt<E>(
         &mut self,
         t: f64,
@@ -167,26 +138,9 @@ impl Dop853 {
         self.stages(t, h, y, f)?;
         let error = self.error(h, y);
         if error <= 1.0 {
-            self.finish(t, h, y, f)?;
+            f(t + h, &self.next, &mut self.k[12])?;
         }
         Ok(error)
-    }
-
-    /// One step of length `h` without control.
-    ///
-    /// # Errors
-    /// The right-hand side fails.
-    pub fn advance<E>(
-        &mut self,
-        t: f64,
-        h: f64,
-        y: &mut [f64],
-        mut f: impl FnMut(f64, &[f64], &mut [f64]) -> Result<(), E>,
-    ) -> Result<(), E> {
-        f(t, y, &mut self.k[0])?;
-        self.stages(t, h, y, &mut f)?;
-        y.copy_from_slice(&self.next);
-        Ok(())
     }
 
     /// The twelve stages and the new state in `next`.
@@ -202,33 +156,6 @@ impl Dop853 {
             f(t + C[s] * h, &self.stage, &mut self.k[s])?;
         }
         combine(&self.k, B, h, y, &mut self.next);
-        Ok(())
-    }
-
-    /// Rates at the end, the extra stages, and the coefficients of the dense output.
-    fn finish<E>(
-        &mut self,
-        t: f64,
-        h: f64,
-        y: &[f64],
-        f: &mut impl FnMut(f64, &[f64], &mut [f64]) -> Result<(), E>,
-    ) -> Result<(), E> {
-        f(t + h, &self.next, &mut self.k[12])?;
-        for s in 13..16 {
-            combine(&self.k, A[s], h, y, &mut self.stage);
-            f(t + C[s] * h, &self.stage, &mut self.k[s])?;
-        }
-        for i in 0..y.len() {
-            let rise = self.next[i] - y[i];
-            let bend = h * self.k[0][i] - rise;
-            self.dense[0][i] = y[i];
-            self.dense[1][i] = rise;
-            self.dense[2][i] = bend;
-            self.dense[3][i] = rise - h * self.k[12][i] - bend;
-            for (row, d) in D.iter().enumerate() {
-                self.dense[4 + row][i] = h * weighted(&self.k, d, i);
-            }
-        }
         Ok(())
     }
 

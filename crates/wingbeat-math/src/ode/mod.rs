@@ -5,7 +5,7 @@
 //! as a vortex wake does; so does [`bdf`], for those that hold a difference quotient of the state.
 //! [`start`] finds their first values at the same order. [`runge_kutta`] is for right-hand sides
 //! without history, as are [`adams`] (multistep, order four) and [`dop853`] (order eight, its own
-//! steps, dense output).
+//! steps).
 
 pub mod adams;
 pub mod bdf;
@@ -20,7 +20,7 @@ pub mod start;
 pub use adams::AdamsBashforthMoulton;
 pub use bdf::{Bdf, order_two_start};
 pub use corrector::{Asked, Convergence, StepError, StepReport, scaled_difference};
-pub use dop853::{AdaptiveError, AdaptiveReport, Dense, Dop853, Tolerance};
+pub use dop853::{AdaptiveError, AdaptiveReport, Dop853, Tolerance};
 pub use hamming::{Hamming, Multistep};
 pub use runge_kutta::Rk4;
 pub use stability::EqualSteps;

@@ -13,7 +13,7 @@
 //!
 //! Correctors are repeated until they agree, but for that of Adams, which is evaluated once.
 
-use std::ops::{Add, Mul, Neg, Sub};
+use faer::c64;
 
 /// A method of equal steps.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -39,26 +39,26 @@ impl EqualSteps {
             true => {
                 let far = -half - under.sqrt();
                 let near = if far == 0.0 { 0.0 } else { square / far };
-                [Complex(far, 0.0), Complex(near, 0.0)]
+                [c64::new(far, 0.0), c64::new(near, 0.0)]
             }
-            false => [1.0, -1.0].map(|sign| Complex(-half, sign * (-under).sqrt())),
+            false => [1.0, -1.0].map(|sign| c64::new(-half, sign * (-under).sqrt())),
         };
         crate::largest(roots.map(|z| self.root(z)))
     }
 
     /// Size of the largest root at `z` \[1\].
-    fn root(self, z: Complex) -> f64 {
-        let real = |x: f64| Complex(x, 0.0);
+    fn root(self, z: c64) -> f64 {
+        let real = |x: f64| c64::new(x, 0.0);
         let [one, zero] = [real(1.0), real(0.0)];
         match self {
             Self::RungeKutta => {
                 let inner = one + z * real(0.25);
                 let inner = one + z * inner * real(1.0 / 3.0);
-                (one + z * (one + z * inner * real(0.5))).size()
+                (one + z * (one + z * inner * real(0.5))).norm()
             }
             Self::Bdf => {
                 let lead = real(25.0) - real(12.0) * z;
-                largest_root([48.0, -36.0, 16.0, -3.0].map(|a| real(a) * lead.inverse()))
+                largest_root([48.0, -36.0, 16.0, -3.0].map(|a| real(a) * lead.inv()))
             }
             Self::Adams => {
                 let part = z * real(1.0 / 24.0);
@@ -71,7 +71,7 @@ impl EqualSteps {
                 }))
             }
             Self::Hamming => {
-                let lead = (real(8.0) - real(3.0) * z).inverse() * real(112.0 / 121.0);
+                let lead = (real(8.0) - real(3.0) * z).inv() * real(112.0 / 121.0);
                 let corrected = [real(9.0) + real(6.0) * z, -(real(3.0) * z), -one, zero];
                 let ahead = z * real(4.0 / 3.0 * 9.0 / 121.0);
                 let predicted = [
@@ -90,70 +90,28 @@ impl EqualSteps {
 const PASSES: usize = 200;
 
 /// Size of the largest root of `r^4 = a[0] r^3 + a[1] r^2 + a[2] r + a[3]` [Durand 1960; Kerner 1966].
-fn largest_root(a: [Complex; 4]) -> f64 {
-    let residual = |r: Complex| {
-        let known = (a.iter()).fold(Complex(0.0, 0.0), |sum, coefficient| sum * r + *coefficient);
+fn largest_root(a: [c64; 4]) -> f64 {
+    let residual = |r: c64| {
+        let known = (a.iter()).fold(c64::new(0.0, 0.0), |sum, coefficient| {
+            sum * r + *coefficient
+        });
         r * r * r * r - known
     };
-    let bound = 1.0 + crate::largest(a.map(Complex::size));
-    let mut roots: [Complex; 4] = std::array::from_fn(|k| {
+    let bound = 1.0 + crate::largest(a.map(c64::norm));
+    let mut roots: [c64; 4] = std::array::from_fn(|k| {
         let angle = 0.4 + 1.6 * k as f64;
-        Complex(bound * angle.cos(), bound * angle.sin())
+        c64::new(bound * angle.cos(), bound * angle.sin())
     });
     for _ in 0..PASSES {
         for k in 0..4 {
             let others = (0..4).filter(|j| *j != k);
-            let apart = others.fold(Complex(1.0, 0.0), |p, j| p * (roots[k] - roots[j]));
-            if apart.size() > 0.0 {
-                roots[k] = roots[k] - residual(roots[k]) * apart.inverse();
+            let apart = others.fold(c64::new(1.0, 0.0), |p, j| p * (roots[k] - roots[j]));
+            if apart.norm() > 0.0 {
+                roots[k] = roots[k] - residual(roots[k]) * apart.inv();
             }
         }
     }
-    crate::largest(roots.map(Complex::size))
-}
-
-/// Real and imaginary part.
-#[derive(Clone, Copy, Debug)]
-struct Complex(f64, f64);
-
-impl Complex {
-    fn size(self) -> f64 {
-        self.0.hypot(self.1)
-    }
-
-    fn inverse(self) -> Self {
-        let square = self.0 * self.0 + self.1 * self.1;
-        Self(self.0 / square, -self.1 / square)
-    }
-}
-
-impl Add for Complex {
-    type Output = Self;
-    fn add(self, other: Self) -> Self {
-        Self(self.0 + other.0, self.1 + other.1)
-    }
-}
-
-impl Sub for Complex {
-    type Output = Self;
-    fn sub(self, other: Self) -> Self {
-        Self(self.0 - other.0, self.1 - other.1)
-    }
-}
-
-impl Neg for Complex {
-    type Output = Self;
-    fn neg(self) -> Self {
-        Self(-self.0, -self.1)
-    }
-}
-
-impl Mul for Complex {
-    type Output = Self;
-    fn mul(self, other: Self) -> Self {
-        let real = self.0 * other.0 - self.1 * other.1;
-        Self(real, self.0 * other.1 + self.1 * other.0)
-    }
+    crate::largest(roots.map(c64::norm))
 }
 
 #[cfg(test)]

@@ -78,7 +78,7 @@ impl RecordedFlight {
                 writer.write(flight.record(), || flight.snapshot())?;
             }
             let next = each(flight)?;
-            if flight.setup().air.is_saved() {
+            if flight.setup().air.is_saved(flight.state().air.as_ref()) {
                 match next {
                     ControlFlow::Break(()) => writer.save(flight.state())?,
                     ControlFlow::Continue(()) => writer.save_if_due(flight.state())?,

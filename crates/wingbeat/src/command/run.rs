@@ -165,7 +165,7 @@ fn go_back(
     }
     let case = dir.case()?;
     let Some((header, state)) = saved.checkpoint else {
-        let why = match case.setup.air.is_saved() {
+        let why = match case.setup.air.is_saved(None) {
             true if saved.manifest.steps > 0 => Some("its checkpoint (checkpoint.bin) is missing"),
             true => None,
             false => Some("the memory of the program that computes its air is not saved"),

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 use indicatif::ProgressBar;
 use serde_json::{Value, json};
+use wingbeat::Error;
 use wingbeat::air::Points;
 use wingbeat::case::IoError;
 use wingbeat::flight::{AirModel, Simulation};
@@ -138,7 +139,7 @@ fn velocities(flight: &Simulation, places: &[DVec3]) -> Result<Vec<DVec3>, Failu
     let mut all = Vec::with_capacity(places.len());
     for block in places.chunks(BLOCK) {
         let points: Points = block.iter().copied().collect();
-        let sampled = flight.air_velocity(&points);
+        let sampled = flight.air_velocity(&points).map_err(Error::from)?;
         all.extend(sampled.iter().flat_map(|v| v.iter()));
         bar.set_position(all.len() as u64);
     }

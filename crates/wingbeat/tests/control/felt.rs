@@ -26,7 +26,7 @@ impl Controller for Feeling {
     }
 
     fn feel(&mut self, air: Option<AirProbe>) {
-        let velocity = air.and_then(|air| air.velocity(&point()));
+        let velocity = air.and_then(|air| air.velocity(&point()).unwrap());
         self.0.lock().unwrap().push(velocity.map(|v| v.get(0)));
     }
 
@@ -60,7 +60,7 @@ fn agrees_the_air_at_a_look_with_that_after_its_step() {
     let mut flight = Simulation::new(setup).unwrap();
     while !flight.finished() {
         if felt.lock().unwrap().len() > after.len() {
-            after.push(flight.air_velocity(&point()).map(|v| v.get(0)));
+            after.push(flight.air_velocity(&point()).unwrap().map(|v| v.get(0)));
         }
         flight.step().unwrap();
     }

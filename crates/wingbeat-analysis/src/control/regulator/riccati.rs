@@ -1,6 +1,6 @@
 //! The discrete Riccati equation of the regulator.
 
-use wingbeat_math::{larger, solve_small};
+use wingbeat_math::{SmallLu, larger};
 
 use crate::AnalysisError;
 use crate::control::departure::CONTROLS;
@@ -106,11 +106,12 @@ pub(super) fn solve_columns(
     m: usize,
     n: usize,
 ) -> Result<Vec<f64>, AnalysisError> {
-    let mut out = vec![0.0; m * n];
+    let factors = SmallLu::new(s.to_vec(), m)
+        .map_err(|e| AnalysisError::Numbers(format!("Riccati's iteration: {e}")))?;
+    let (mut out, mut column) = (vec![0.0; m * n], vec![0.0; m]);
     for j in 0..n {
-        let mut column: Vec<f64> = (0..m).map(|i| y[i * n + j]).collect();
-        solve_small(&mut s.to_vec(), &mut column)
-            .map_err(|e| AnalysisError::Numbers(format!("Riccati's iteration: {e}")))?;
+        (0..m).for_each(|i| column[i] = y[i * n + j]);
+        factors.solve(&mut column);
         (0..m).for_each(|i| out[i * n + j] = column[i]);
     }
     Ok(out)

@@ -8,7 +8,7 @@
 use std::collections::VecDeque;
 
 use wingbeat_flight::{FlightSetup, FlightState, Simulation};
-use wingbeat_math::{DVec3, larger, rotation_vector};
+use wingbeat_math::{DVec3, larger};
 use wingbeat_structure::{Configuration, NODE};
 
 use crate::AnalysisError;
@@ -172,15 +172,7 @@ fn shapes_of(state: &FlightState) -> Vec<Configuration> {
 
 /// Six numbers of every node, wing by wing, by which `b` is `a` moved ([`Configuration::moved`]).
 fn increments(a: &[Configuration], b: &[Configuration]) -> Vec<Vec<f64>> {
-    let of = |(a, b): (&Configuration, &Configuration)| {
-        let node = |n: usize| {
-            let shift = b.position[n] - a.position[n];
-            let turn = rotation_vector(a.rotation[n].inverse() * b.rotation[n]);
-            [shift.to_array(), turn.to_array()].concat()
-        };
-        (0..a.len()).flat_map(node).collect()
-    };
-    a.iter().zip(b).map(of).collect()
+    a.iter().zip(b).map(|(a, b)| a.increment_to(b)).collect()
 }
 
 /// `state` with its wings moved, at rest.

@@ -5,11 +5,11 @@
 //! body's origin and axes accelerate at while both are zero, `g = I' w + h' + w x (I w + h)` the rate
 //! of the angular momentum meanwhile. All in root components, J to body components.
 
-use wingbeat_math::six_by_six::from_quarters;
+use wingbeat_math::six_by_six::{Ldlt, from_quarters};
 use wingbeat_math::{DMat3, DVec3, Six, SixBySix, Wrench, six};
 
 use super::whole::whole_load;
-use crate::added_mass::{AddedMass, Factors, wrench};
+use crate::added_mass::{AddedMass, wrench};
 use crate::configuration::Composite;
 use crate::formulation::workspace::Workspace;
 use crate::prescribed::Carried;
@@ -122,7 +122,7 @@ fn carry(
         put_added(a, &rows, &mut matrix);
         out.rows.push(rows);
     }
-    out.inertia = Factors::of(matrix);
+    out.inertia = Ldlt::new(matrix);
 }
 
 /// `diag(m, I)`, root components.

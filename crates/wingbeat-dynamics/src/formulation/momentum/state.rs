@@ -7,17 +7,25 @@ use crate::error::DynamicsError;
 use crate::formulation::workspace::MOMENTUM_STATE;
 use crate::system::check::check_state;
 
-/// The state vector, taken apart.
-pub(super) struct State {
+/// The first numbers of the state vector of the momentum form, taken apart; free joints follow.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MomentumState {
+    /// Mass centre, N components \[m\].
     pub centre: DVec3,
+    /// Attitude of the root, root to N, of unit length but for rounding \[1\].
     pub attitude: DQuat,
+    /// Linear momentum, N components \[kg m/s\].
     pub momentum: DVec3,
+    /// Angular momentum about the mass centre, N components \[kg m2/s\].
     pub angular: DVec3,
 }
 
-impl State {
+impl MomentumState {
+    /// As many numbers.
+    pub const NUMBERS: usize = MOMENTUM_STATE;
+
     /// Of the `whole` whose root moves like `root`.
-    pub fn moving_like(root: &BodyMotion, whole: &Composite) -> Self {
+    pub(super) fn moving_like(root: &BodyMotion, whole: &Composite) -> Self {
         Self {
             centre: root.p + root.r * whole.c,
             attitude: DQuat::from_mat3(&root.r).normalize(),
@@ -30,12 +38,15 @@ impl State {
     ///
     /// # Errors
     /// Numbers that are not finite.
-    pub fn read(t: f64, y: &[f64]) -> Result<Self, DynamicsError> {
+    pub(super) fn read(t: f64, y: &[f64]) -> Result<Self, DynamicsError> {
         check_state(t, y, component)?;
         Ok(Self::of(y))
     }
 
     /// Of a state vector whose numbers are known to be finite.
+    ///
+    /// # Panics
+    /// If there are fewer than [`Self::NUMBERS`].
     pub fn of(y: &[f64]) -> Self {
         let v = |i: usize| DVec3::new(y[i], y[i + 1], y[i + 2]);
         Self {
@@ -46,6 +57,10 @@ impl State {
         }
     }
 
+    /// Into the first numbers of a state vector.
+    ///
+    /// # Panics
+    /// If there are fewer than [`Self::NUMBERS`].
     pub fn write(&self, y: &mut [f64]) {
         self.centre.write_to_slice(&mut y[0..]);
         self.attitude.write_to_slice(&mut y[3..]);
@@ -54,7 +69,7 @@ impl State {
     }
 
     /// Rates of the state when the root turns at `w` under the total `load`.
-    pub fn rates(&self, whole: &Composite, w: DVec3, load: &Wrench) -> Self {
+    pub(super) fn rates(&self, whole: &Composite, w: DVec3, load: &Wrench) -> Self {
         Self {
             centre: self.momentum / whole.mass,
             attitude: self.attitude * DQuat::from_xyzw(w.x, w.y, w.z, 0.0) * 0.5,

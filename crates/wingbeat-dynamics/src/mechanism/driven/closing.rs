@@ -58,7 +58,7 @@ impl<'a> Closing<'a> {
         let mut motions = vec![BodyMotion::REST; system.bodies().len()];
         configuration.motions(&BodyMotion::REST, &mut motions);
         let support = Joint::new("support of the root", None, 0, JointType::Weld);
-        let mechanism = Mechanism::of(system).with_link(support);
+        let mechanism = Mechanism::of(system).with_joint(support);
         let form = AbsoluteForm::new(mechanism, Stabilization::None);
         let y = form.initial(0.0, &motions, &[])?;
         form.motions(0.0, &y, &mut motions)?;
