@@ -20,11 +20,10 @@ const ROUNDING: f64 = 1e-6;
 /// What is held to its end has no release, and its beats count as those of a tethered body.
 ///
 /// ```
-/// # fn main() -> Result<(), wingbeat_case::CaseError> {
-/// let case = wingbeat_case::LoadedCase::find("fruit-fly-blade", &["time.beats=9".into(), "flight.held_beats=3".into()])?;
+/// let set = ["time.beats=9", "flight.held_beats=3"].map(str::to_owned);
+/// let case = wingbeat_case::LoadedCase::find("fruit-fly-blade", &set)?;
 /// assert_eq!(wingbeat_results::summary::left_out(&case.setup), 3);
-/// # Ok(())
-/// # }
+/// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn left_out(setup: &FlightSetup) -> usize {
     let Some(period) = setup.time.period else {
