@@ -355,9 +355,10 @@ impl Integration {
 
 /// An error if a wingbeat of the setup is not like the next.
 pub(crate) fn check_steady(setup: &FlightSetup) -> Result<(), AnalysisError> {
-    if !setup.loads.is_empty() {
+    // Buoyancy and other constant weights are as steady as gravity, and as symmetric about it.
+    if !setup.loads.iter().all(|load| load.is_weight(setup.gravity)) {
         return Err(AnalysisError::not_covered(
-            "the case has applied loads ([[load]])",
+            "the case has applied loads ([[load]]) that are not constant forces along gravity",
             "remove them, or fly the case with `run`",
         ));
     }

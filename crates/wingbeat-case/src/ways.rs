@@ -1,6 +1,7 @@
-//! Ways to waypoints that no flyer covers in their time.
+//! Ways to waypoints that no flyer covers in their time, or that the flight is too short for.
 
 use wingbeat_analysis::Estimate;
+use wingbeat_flight::MotionMode;
 use wingbeat_math::DVec3;
 
 use crate::loaded::LoadedCase;
@@ -13,6 +14,27 @@ const FASTEST: f64 = 35.0 / 16.0;
 const SWIFT: f64 = 3.0;
 
 impl LoadedCase {
+    /// Which waypoints are to be reached only after the end of the flight, in a sentence.
+    pub fn late_waypoints(&self) -> Option<String> {
+        let control = self.raw.control.as_ref()?;
+        self.setup.feedback.as_ref()?;
+        let MotionMode::Free(start) = &self.setup.mode else {
+            return None;
+        };
+        let time = &self.setup.time;
+        let flown = time.steps.saturating_sub(start.held_steps) as f64 * time.step;
+        let is_late = |t: f64| t > flown + 0.5 * time.step;
+        let first = control.waypoint.iter().position(|w| is_late(w.time_s))?;
+        let which = match control.waypoint.len() - first {
+            1 => format!("control.waypoint[{first}] is"),
+            _ => format!("the waypoints from control.waypoint[{first}] on are"),
+        };
+        Some(format!(
+            "{which} to be reached after the end of the flight: time_s = {} and the flight ends {flown:.3} s after the release; fly longer (time), or give an earlier time_s",
+            control.waypoint[first].time_s
+        ))
+    }
+
     /// Which ways to waypoints are too fast for a flyer of these numbers, in sentences.
     pub fn doubtful_ways(&self, estimate: &Estimate) -> Vec<String> {
         let control = self.raw.control.as_ref();

@@ -126,6 +126,15 @@ fn refuses_springs_past_half_a_turn_where_turns_are_not_counted() {
     }
 }
 
+/// A spring of stiffness 0 pulls at no angle: it flies past half a turn as without it.
+#[test]
+fn agrees_joints_with_springs_of_no_stiffness_with_those_without() {
+    let idle = SPRUNG.replace("1e-6", "0.0");
+    let [idle, free] =
+        [[&idle[..], QUATERNION], [FREE, QUATERNION]].map(|set| flown(&set).unwrap());
+    assert_eq!(idle.last().unwrap().joints, free.last().unwrap().joints);
+}
+
 /// The rotation vector of a ball joint goes over into the opposite one at half a turn, and moments of springs with it.
 #[test]
 fn refuses_springs_of_spherical_joints_past_half_a_turn() {

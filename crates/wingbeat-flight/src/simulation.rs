@@ -36,7 +36,7 @@ use crate::equations::{Equations, Memory, Scratch};
 use crate::error::FlightError;
 use crate::interface::memory::{AirMemory, wakes_of};
 use crate::interface::record::Record;
-use crate::setup::{AirModel, FlightSetup};
+use crate::setup::{AirModel, FlightSetup, IntegratorChoice};
 use crate::simulation::control::{FeedbackLoop, feedback};
 use crate::simulation::recorder::Ledger;
 
@@ -413,6 +413,8 @@ fn failure(e: StepError<FlightError>, step: usize, time: f64, setup: &FlightSetu
             tolerance: settings.tolerance,
             relaxation: settings.relaxation,
             in_air: !matches!(setup.air, AirModel::None),
+            by_hamming: setup.air.lattice().is_some()
+                && setup.integrator == IntegratorChoice::Hamming,
             elastic: setup.animal.is_elastic(),
         },
     }

@@ -185,22 +185,24 @@ impl Animal {
         self.body.mass + wings.sum::<f64>() + segments.sum::<f64>()
     }
 
+    /// Volumes that closed parts enclose \[m3\] with their centres \[m\], each in the frame of its body: the index of the
+    /// body (0 the central one, then the wings, then the segments) and both, where there is any.
+    pub fn solids(&self) -> Vec<(usize, f64, DVec3)> {
+        let own = std::iter::once((0, &self.parts));
+        let first = 1 + self.wings.len();
+        let others = self.segments.iter().enumerate();
+        let all = own.chain(others.map(|(k, s)| (first + k, &s.parts)));
+        all.filter_map(|(body, parts)| {
+            let (volume, centre) = solid(parts)?;
+            Some((body, volume, centre))
+        })
+        .collect()
+    }
+
     /// Centre of the volume that the parts of the central body enclose, without parts its mass centre \[m\],
     /// body frame. What is rounding beside the size of the parts is zero.
     pub fn body_centre(&self) -> DVec3 {
-        /// Part of the size of the parts that moving the origin leaves as rounding.
-        const ROUNDING: f64 = 1e-12;
-        let solids = self.parts.iter().map(|p| p.enclosed);
-        let (volume, moment) = solids.fold((0.0, DVec3::ZERO), |(v, s), (volume, centre)| {
-            (v + volume, s + volume * centre)
-        });
-        if volume <= 0.0 {
-            return self.body.centre();
-        }
-        let nodes = self.parts.iter().flat_map(|p| &p.mesh.nodes);
-        let size = nodes.fold(0.0, |most: f64, x| most.max(x.length()));
-        let felt = |x: f64| if x.abs() < ROUNDING * size { 0.0 } else { x };
-        DVec3::from_array((moment / volume).to_array().map(felt))
+        solid(&self.parts).map_or_else(|| self.body.centre(), |(_, centre)| centre)
     }
 
     /// Body length L \[m\]: extent of the parts of body and segments along b1 in the posture of
@@ -249,4 +251,23 @@ impl Animal {
             segments: self.segments.iter().map(segment).collect(),
         })
     }
+}
+
+/// Volume \[m3\] that parts enclose together, and its centre \[m\], what is rounding beside their size zero; none where
+/// they enclose nothing.
+fn solid(parts: &[BodyPart]) -> Option<(f64, DVec3)> {
+    /// Part of the size of the parts that moving the origin leaves as rounding.
+    const ROUNDING: f64 = 1e-12;
+    let solids = parts.iter().map(|p| p.enclosed);
+    let (volume, moment) = solids.fold((0.0, DVec3::ZERO), |(v, s), (volume, centre)| {
+        (v + volume, s + volume * centre)
+    });
+    if volume <= 0.0 {
+        return None;
+    }
+    let nodes = parts.iter().flat_map(|p| &p.mesh.nodes);
+    let size = nodes.fold(0.0, |most: f64, x| most.max(x.length()));
+    let felt = |x: f64| if x.abs() < ROUNDING * size { 0.0 } else { x };
+    let centre = (moment / volume).to_array().map(felt);
+    Some((volume, DVec3::from_array(centre)))
 }

@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use wingbeat_math::{DVec3, MassProperties};
 use wingbeat_structure::NODE;
 
-use crate::animal::{Animal, Wing};
+use crate::animal::{Animal, BodyPart, Wing};
 use crate::error::{ModelError, require};
 use crate::integrate;
 use crate::mesh::{QuadMesh, Side};
@@ -150,16 +150,19 @@ impl Animal {
         Ok(())
     }
 
-    /// A hinge farther from every body surface than half the body length is a mistake of unit
-    /// or sign, but of a wing that another one carries.
+    /// A hinge farther from every surface of body and segments, in the posture of reference, than half the extent of
+    /// them all is a mistake of unit or sign, but of a wing that another one carries.
     fn check_hinge(&self, wing: &Wing, is_carried: bool) -> Result<(), ModelError> {
         for k in 0..3 {
             crate::error::finite(&format!("{}.hinge[{k}]", wing.name), wing.hinge_b[k])?;
         }
-        let to_part = |p: &crate::BodyPart| distance(&p.mesh, wing.hinge_b);
-        let nearest = self.parts.iter().map(to_part).fold(f64::INFINITY, f64::min);
-        let limit = 0.5 * self.body_length();
-        if self.parts.is_empty() || nearest <= limit || is_carried {
+        let own = self.parts.iter().map(|p| (p, DVec3::ZERO));
+        let others = (self.segments.iter()).flat_map(|s| s.parts.iter().map(|p| (p, s.origin_b)));
+        let all = || own.clone().chain(others.clone());
+        let to_part = |(p, origin): (&BodyPart, DVec3)| distance(&p.mesh, wing.hinge_b - origin);
+        let nearest = all().map(to_part).fold(f64::INFINITY, f64::min);
+        let limit = 0.5 * extent(all());
+        if all().next().is_none() || nearest <= limit || is_carried {
             return Ok(());
         }
         Err(ModelError::FarHinge {
@@ -168,6 +171,17 @@ impl Animal {
             limit,
         })
     }
+}
+
+/// Largest extent of parts, each with the origin of its frame, along an axis of the body \[m\].
+fn extent<'a>(parts: impl Iterator<Item = (&'a BodyPart, DVec3)>) -> f64 {
+    let far = DVec3::splat(f64::INFINITY);
+    let grown = |[lo, hi]: [DVec3; 2], (p, origin): (&BodyPart, DVec3)| {
+        let [a, b] = p.mesh.bounds().map(|x| x + origin);
+        [lo.min(a), hi.max(b)]
+    };
+    let [lo, hi] = parts.fold([far, -far], grown);
+    (hi - lo).max_element()
 }
 
 fn check_mass(of: &str, mass: &MassProperties) -> Result<(), ModelError> {

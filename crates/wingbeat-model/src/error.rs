@@ -94,7 +94,7 @@ pub enum ModelError {
     },
     /// A hinge far outside the body.
     #[error(
-        "the hinge of wing `{wing}` lies {distance:.3e} m from the nearest body surface, more than half the body length ({limit:.3e} m); hinges are given in the body frame in metres: check sign and unit"
+        "the hinge of wing `{wing}` lies {distance:.3e} m from the nearest surface of body and segments, more than half their extent ({limit:.3e} m); hinges are given in the body frame in metres: check sign and unit"
     )]
     FarHinge {
         /// Name of the wing.

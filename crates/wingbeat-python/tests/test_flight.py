@@ -96,7 +96,7 @@ def test_behaves_history_has_dims_units_and_the_case(blade):
     assert place.attrs == {
         "units": "m",
         "long_name": "mass centre of the whole animal",
-        "frame": "N: inertial, n3 along gravity",
+        "frame": "N: inertial, n3 along the default gravity",
     }
     assert history["wake_rings_count"].dtype == np.int64
     assert all(v.attrs["units"] and v.attrs["long_name"] for v in history.data_vars.values())

@@ -39,7 +39,7 @@ pub use estimate::Estimate;
 pub use held::{Departure, Departures};
 pub use impulse::ImpulseBudget;
 pub use last_part::LastPart;
-pub use means::{LEFT_OUT, ManyBeats};
+pub use means::{ManyBeats, left_out};
 use momentum_balance::ratio;
 pub use numbers::Summary;
 pub use per_beat::{PerBeat, SummaryQuantity};
@@ -82,12 +82,17 @@ impl Summary {
     ) -> Result<Self, IoError> {
         let knows_all = each.is_some();
         let statistics = Statistics::read(history, &case.setup, each)?;
-        let thinning = |list: &mut Warnings| thinning(case, knows_all, list);
+        let more = |list: &mut Warnings| {
+            if let Some(said) = case.late_waypoints() {
+                list.note(format!("A way that is not flown to its end: {said}."));
+            }
+            thinning(case, knows_all, list);
+        };
         Ok(Self::from_statistics(
             &case.setup,
             statistics,
             outcome,
-            thinning,
+            more,
         ))
     }
 
@@ -116,6 +121,7 @@ impl Summary {
             steps: s.last.step,
             time_s: s.last.time,
             mass_kg: setup.animal.mass(),
+            gravity_direction: down(setup).to_array(),
             final_lift_newton: s.last.lift(down(setup)),
             final_thrust_newton: s.last.air_force().x,
             displacement_m: [0, 1, 2].map(|k| s.change(k)),
@@ -140,7 +146,7 @@ impl Summary {
             elastic_wings: bent::wings(setup, &each.bent),
             departures: each.departures.clone(),
             warnings: vec![],
-            means: ManyBeats::of(&s.beats),
+            means: ManyBeats::of(&s.beats, left_out(setup)),
             last_part: s.bounds.ended_by(&s.last, setup),
             beats: s.beats,
         };

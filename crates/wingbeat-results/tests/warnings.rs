@@ -81,6 +81,7 @@ fn behaves_summaries_say_what_is_doubted_of_the_setup() {
     for (change, kind, is_limit) in [
         (&gap[..], DoubtKind::GapsInAngles, true),
         (gust, DoubtKind::LateGusts, false),
+        ("motion.start=smooth", DoubtKind::LongStart, false),
         (
             "air.blade.rotation=\"sane_dickinson\"",
             DoubtKind::JumpingRotation,

@@ -1,7 +1,7 @@
 //! The same flight many times over.
 
 use wingbeat_analysis::ensemble as analysis;
-use wingbeat_results::summary::{BeatMeans, Ensemble};
+use wingbeat_results::summary::{BeatMeans, Ensemble, left_out};
 
 use crate::batch::fly_all;
 use crate::flown::Run;
@@ -41,7 +41,12 @@ pub fn ensemble(flight: &Flight, members: usize, threads: usize) -> Result<Ensem
     })?;
     let beats = fly_all(&flights, threads, |run: Run| run.summary().beats)?;
     let beats: Vec<Vec<BeatMeans>> = beats.into_iter().collect::<Result<_, Error>>()?;
-    Ensemble::of(&beats, analysis::is_noisy(&flight.setup)).ok_or(Error::Ensemble {
+    Ensemble::of(
+        &beats,
+        analysis::is_noisy(&flight.setup),
+        left_out(&flight.setup),
+    )
+    .ok_or(Error::Ensemble {
         problem: "an ensemble is of two members or more that fly a whole wingbeat",
         remedy: "more members, or time.beats of 1 or more",
     })

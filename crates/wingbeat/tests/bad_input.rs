@@ -217,7 +217,7 @@ fn exact_hinge_far_outside_the_body() {
         "[0, 0.5, 0]",
         &[
             "wing.right.hinge_m = [0, 0.5, 0]: the hinge of wing `left` lies",
-            "within half a body length",
+            "within half the extent",
             "a millimetre is 1e-3",
         ],
     );

@@ -265,6 +265,12 @@ fn drag_of_small_insects(setup: &FlightSetup, e: &Estimate) -> Option<String> {
     })
 }
 
+/// Densities from here on are those of liquids \[kg/m3\].
+const LIQUID: f64 = 100.0;
+
+/// Part of the weight that loads carry, beside which the lift of the wings tells nothing \[1\].
+const BORNE: f64 = 0.5;
+
 /// Weight, lift and inertia of a flyer that nothing holds.
 fn free_flight(setup: &FlightSetup, e: &Estimate, list: &mut Doubts) {
     if setup.mode.is_held_throughout(setup.time.steps) {
@@ -273,13 +279,20 @@ fn free_flight(setup: &FlightSetup, e: &Estimate, list: &mut Doubts) {
                 .to_owned(),
         );
     }
-    list.see(&WING_LOADING, "wing loading", e.wing_loading, " N/m2");
+    // Those that are known are of flyers in air.
+    if setup.air.density().is_none_or(|density| density < LIQUID) {
+        list.see(&WING_LOADING, "wing loading", e.wing_loading, " N/m2");
+    }
     let of_lift = match e.lift_over_weight {
         Some(lift) if lift.abs() < NO_LIFT => &LIFT_NONE,
         Some(lift) if lift < 0.0 => &LIFT_DOWN,
         _ => &LIFT,
     };
-    list.see(of_lift, LIFT_NAME, e.lift_over_weight, "");
+    // What buoyancy or other constant loads carry wings need not.
+    let weight = e.mass * setup.gravity.length();
+    if setup.lift_of_loads() < BORNE * weight || weight == 0.0 {
+        list.see(of_lift, LIFT_NAME, e.lift_over_weight, "");
+    }
     let wings: f64 = e.wings.iter().map(|w| w.report.mass).sum();
     let part = (e.mass > 0.0).then(|| wings / e.mass);
     let mass = "mass of the wings over that of the animal";

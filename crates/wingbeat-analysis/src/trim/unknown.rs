@@ -233,10 +233,14 @@ pub(crate) fn check_unknowns(
         let remedy = "choose other unknowns, or shift at_m of the springs in the case";
         return refused(format!("spring `{}`", spring.name), remedy);
     }
-    let mut loads = setup.loads.iter();
-    if let Some(k) = loads.position(|l| l.body == 0 && l.point != DVec3::ZERO) {
+    let mut all = setup.loads.iter().enumerate();
+    if let Some((k, load)) = all.find(|(_, l)| l.body == 0 && l.point != DVec3::ZERO) {
         let remedy = "choose other unknowns, or load the body at its origin";
-        return refused(format!("the point of load[{k}]"), remedy);
+        let of = match load.is_weight(setup.gravity) {
+            true => format!("the point of load[{k}], or the centre of buoyancy (air.buoyancy)"),
+            false => format!("the point of load[{k}]"),
+        };
+        return refused(of, remedy);
     }
     Ok(())
 }

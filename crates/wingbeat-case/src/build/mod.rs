@@ -5,6 +5,7 @@
 mod air;
 mod blade;
 mod body;
+mod buoyancy;
 mod control;
 mod deformation;
 mod derivatives;
@@ -59,16 +60,19 @@ pub(crate) fn setup(case: &Case, name: &str) -> Built<FlightSetup> {
     let time = time::grid(case)?;
     names::check(&animal)?;
     let joints = joint::build_all(case, &animal)?;
+    let air = air::model(case, &animal)?;
+    let mut loads = flight::loads(case, &animal)?;
+    loads.extend(buoyancy::loads(case, &air, &animal)?);
     let setup = FlightSetup {
         name: name.to_owned(),
         gravity: case.gravity_m_s2.into(),
-        air: air::model(case, &animal)?,
+        air,
         mode: flight::mode(case, &time),
         joints,
         formulation: flight::formulation(&case.dynamics),
         integrator: flight::integrator(case)?,
         corrector: corrector(&case.corrector),
-        loads: flight::loads(case, &animal)?,
+        loads,
         springs: flight::springs(case, &animal)?,
         feedback: control::feedback(case)?,
         animal,
@@ -143,7 +147,7 @@ fn fault_of_animal(case: &Case, error: ModelError) -> Fault {
         ModelError::FarHinge { wing, .. } => Fault::new(
             format!("wing.{}.hinge_m", wing::source_of(case, wing)),
             error.to_string(),
-            "a point within half a body length of the body's surface, metres in body axes",
+            "a point within half the extent of body and segments of their surfaces, metres in body axes",
             "check sign and unit: b1 forward, b2 right, b3 down, a millimetre is 1e-3; where both are right, give the part that carries it, as a slim [body.part.boom] from the body to the hinge of a tail",
         ),
         ModelError::Mass { of, .. } if case.wing.contains_key(of) => Fault::new(

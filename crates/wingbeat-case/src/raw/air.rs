@@ -34,6 +34,13 @@ pub struct AirCase {
     #[default = 1.225]
     #[schemars(extend("exclusiveMinimum" = 0, "with" = FLUID))]
     pub density_kg_m3: f64,
+    /// Whether the closed parts of the body and of segments feel the buoyancy of the fluid that they displace: each its
+    /// weight, against gravity, at the centre of its volume. Wings, which have none, feel nothing of it; a mass weighed
+    /// in the fluid is given as it is there, without this.
+    ///
+    /// Change it to true in water.
+    #[schemars(extend("with" = WIND))]
+    pub buoyancy: bool,
     /// Velocity of the undisturbed air, inertial axes.
     ///
     /// Change it for wind, or for a tunnel: a body at rest in a stream.

@@ -16,7 +16,7 @@ use wingbeat_flight::{FlightSetup, TimeGrid};
 
 use crate::error::IoError;
 use crate::loaded::LoadedCase;
-use crate::raw::{Case, CorrectorCase};
+use crate::raw::{AirCase, Case, CorrectorCase};
 use refusal::{Written, no_keys, same};
 
 /// A case whose setup is `setup` to rounding (angles are degrees in cases, moments of inertia those about
@@ -55,7 +55,10 @@ fn case(setup: &FlightSetup, like: Option<&LoadedCase>) -> Written<Case> {
         animal::write(&mut case, animal, old)?;
     }
     if !(same_animal && old.is_some_and(|old| same(&old.air, air))) {
-        case.air = air::write(air)?;
+        case.air = AirCase {
+            buoyancy: case.air.buoyancy, // of the loads, see `lists`
+            ..air::write(air)?
+        };
         animal::join(&mut case, animal, air);
         // Parts are written as meshes, whose volumes are not those of round bodies.
         let drag = case.air.blade.body_drag.as_mut();
@@ -94,6 +97,7 @@ fn lists(case: &mut Case, setup: &FlightSetup, old: Option<&FlightSetup>) -> Wri
     }
     if !kept("loads", &setup.loads, old.map(|old| &old.loads[..]))? {
         case.load.clear();
+        case.air.buoyancy = false;
     }
     if !kept("springs", &setup.springs, old.map(|old| &old.springs[..]))? {
         case.spring.clear();

@@ -11,7 +11,7 @@ use super::style::Look;
 use super::units::{POWER_FLOOR, force_times_speed, force_unit, prefix, scaled};
 use wingbeat_results::History;
 use wingbeat_results::summary::{
-    BeatMeans, LEFT_OUT, air_force, down, driving_power, driving_power_name,
+    BeatMeans, air_force, down, driving_power, driving_power_name, left_out,
 };
 
 /// What is drawn.
@@ -115,7 +115,8 @@ fn over_phase(
         .map(|m| (m[0], beat(x, values, m[0])))
         .filter(|b| b.1.len() > 2)
         .collect();
-    let counts = |b: &&(f64, Vec<[f64; 2]>)| b.0 > LEFT_OUT as f64;
+    let first = left_out(setup) as f64;
+    let counts = |b: &&(f64, Vec<[f64; 2]>)| b.0 > first;
     let later: Vec<&(f64, Vec<[f64; 2]>)> = beats.iter().filter(counts).collect();
     let (mut curves, mut bands) = (vec![], vec![]);
     if later.len() > 2 {

@@ -18,6 +18,9 @@ impl FlightSetup {
         let of_air = |viscosity: f64| viscosity == AIR_VISCOSITY;
         let [drags, spreads] =
             [of_friction, air.wake_core.viscosity()].map(|v| v.is_some_and(of_air));
+        if self.animal.wings.is_empty() {
+            return None; // neither friction of sections nor wakes
+        }
         let what = match (drags, spreads && air.shedding.any()) {
             (true, true) => "friction and vortex cores of the wake",
             (true, false) => "friction",

@@ -12,6 +12,8 @@ pub enum DoubtKind {
     ShortGusts,
     /// A tether that starts otherwise than the wings.
     StartsApart,
+    /// A smooth start that is not over when the flight is.
+    LongStart,
     /// Blade elements whose force of feathering jumps.
     JumpingRotation,
     /// Masses beside lengths, or a gravity, that no animal has.
@@ -46,6 +48,10 @@ pub enum DoubtKind {
     AttachedStrokes,
     /// A liquid with the viscosity of air.
     ViscosityOfAir,
+    /// Fluid displaced whose weight counts, and is not computed.
+    NoBuoyancy,
+    /// A body that is light beside the fluid that it displaces.
+    LightBody,
     /// Cores of wings that are wide beside the panels.
     WideBoundCore,
     /// Vortex lift of edges that are swept.
@@ -81,6 +87,7 @@ impl FlightSetup {
         add(EdgeAhead, self.trailing_edges_ahead());
         add(RevolvesBackwards, one(self.revolves_backwards()));
         add(StartsApart, one(self.starts_apart()));
+        add(LongStart, self.starts_that_do_not_end());
         add(LateGusts, self.gusts_that_never_arrive());
         add(ShortGusts, self.gusts_between_steps());
         add(JumpingRotation, one(self.jumping_rotation()));
@@ -96,6 +103,8 @@ impl FlightSetup {
         add(AttachedBeyondStall, one(self.attached_beyond_stall()));
         add(AttachedStrokes, one(self.attached_strokes_beyond_stall()));
         add(ViscosityOfAir, one(self.liquid_with_viscosity_of_air()));
+        add(NoBuoyancy, one(self.without_buoyancy()));
+        add(LightBody, one(self.light_beside_fluid()));
         add(WideBoundCore, one(self.wide_bound_core()));
         list
     }

@@ -7,6 +7,7 @@
 //! | roots that meet, tips and roots, edges on planes of images, that are not joined | `unjoined` |
 //! | roots on parts of the body, or a little off them | `on_bodies` |
 //! | tethers that start otherwise than the wings | `starts_apart` |
+//! | smooth starts that last longer than the flight | `long_starts` |
 //! | angles that scatter, jump or have gaps | `scattered` |
 //! | trailing edges ahead, wings that stroke broadside | `edge_ahead` |
 //! | wings that revolve with their body, trailing edge ahead | `revolving` |
@@ -14,6 +15,7 @@
 //! | attached flow beyond stall | `beyond_stall` |
 //! | cores of wings that are wide beside the panels | `bound_core` |
 //! | liquids with the viscosity of air | `fluid` |
+//! | buoyancy that is not computed, bodies light beside the fluid | `displaced` |
 //! | gusts that a flight never meets | `late_gusts` |
 //! | gusts that its steps do not resolve | `short_gusts` |
 //! | forces of blade elements that jump | `jumps` |
@@ -24,12 +26,14 @@
 mod air_past;
 mod beyond_stall;
 mod bound_core;
+mod displaced;
 mod edge_ahead;
 mod fluid;
 mod impossible;
 mod jumps;
 mod late_gusts;
 mod list;
+mod long_starts;
 mod on_bodies;
 mod on_carriers;
 pub(crate) mod pairs;

@@ -29,7 +29,7 @@ impl FlightSetup {
 }
 
 /// What moves the body, for as long as it is held.
-fn tether(mode: &MotionMode) -> Option<&PrescribedMotion> {
+pub(super) fn tether(mode: &MotionMode) -> Option<&PrescribedMotion> {
     match mode {
         MotionMode::Tethered(motion) => Some(motion),
         MotionMode::Free(start) => start.held_motion.as_deref(),

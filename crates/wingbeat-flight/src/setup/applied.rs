@@ -50,6 +50,31 @@ pub struct AppliedLoad {
 }
 
 impl AppliedLoad {
+    /// A constant force \[N\], inertial axes, at a point of a body \[m\], axes of the body.
+    pub fn constant(body: usize, point: DVec3, force: DVec3) -> Self {
+        Self {
+            body,
+            frame: LoadFrame::Inertial,
+            point,
+            force: force.to_array().map(DriftingFourier::constant),
+            couple: [0.0; 3].map(DriftingFourier::constant),
+        }
+    }
+
+    /// Whether it is a constant force along `gravity` \[m/s2\] or against it, as a weight is, and nothing besides.
+    pub fn is_weight(&self, gravity: DVec3) -> bool {
+        let is_constant =
+            |f: &DriftingFourier| f.rate == 0.0 && f.cosine.is_empty() && f.sine.is_empty();
+        let force = vector(&self.force, 0.0);
+        let along = gravity.normalize_or_zero();
+        self.frame == LoadFrame::Inertial
+            && self.force.iter().chain(&self.couple).all(is_constant)
+            && vector(&self.couple, 0.0) == DVec3::ZERO
+            && force.cross(along).length() <= ROUNDING * force.length()
+            && force != DVec3::ZERO
+            && gravity != DVec3::ZERO
+    }
+
     /// The wrench of this load at time `t` [s] about the origin of its body, N components.
     pub fn wrench(&self, t: f64, body: &BodyMotion) -> Wrench {
         let to_n = |v: DVec3| match self.frame {

@@ -94,7 +94,10 @@ fn counts(joint: &Joint) -> bool {
 
 fn knows_angle(law: &ElementLaw) -> bool {
     match law {
-        ElementLaw::Spring { .. } | ElementLaw::Stop { .. } | ElementLaw::Follow { .. } => true,
+        ElementLaw::Spring { stiffness, .. } | ElementLaw::Follow { stiffness, .. } => {
+            *stiffness != 0.0
+        }
+        ElementLaw::Stop { .. } => true,
         ElementLaw::Damper { .. } | ElementLaw::Effort(_) => false,
     }
 }

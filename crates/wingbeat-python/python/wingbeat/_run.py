@@ -65,7 +65,7 @@ class Beats(Mapping[str, "NDArray[Any]"]):
             self._arrays[name] = array
         estimates = {k: v for k, v in (means or {}).items() if isinstance(v, dict)}
         self.means: Mapping[str, Estimate] = MappingProxyType({k: Estimate(**v) for k, v in estimates.items()})
-        """Means over all but the first two wingbeats with their standard errors; empty of fewer than five."""
+        """Means over all but the first wingbeats (two, or those of a start or hold) with their errors; empty of too few."""
         known = (means or {}).get("is_known", True)
         self.is_steady: bool | None = (means or {}).get("is_steady") if known else None
         """Whether lift and thrust stay from the first half of these beats to the second; None of fewer than five, or of beats

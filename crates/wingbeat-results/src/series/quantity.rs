@@ -185,7 +185,7 @@ impl Frame {
     pub fn words(self, kind: Kind) -> &'static str {
         match (self, kind) {
             (Self::Scalar, _) => "none: scalar",
-            (Self::Inertial, _) => "N: inertial, n3 along gravity",
+            (Self::Inertial, _) => "N: inertial, n3 along the default gravity",
             (Self::Own, Kind::Wing) => "W: wing, leading edge, span to the right, normal",
             (Self::Own, Kind::Segment) => {
                 "S: segment, parallel to the body's in the posture of reference"

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use super::beats::BeatMeans;
 use super::estimate::{Estimate, FEWEST, moments};
-use super::means::{LEFT_OUT, ManyBeats};
+use super::means::ManyBeats;
 use super::per_beat::PerBeat;
 use super::words::steadiness;
 
@@ -60,10 +60,10 @@ pub struct Ensemble {
     pub is_noisy: bool,
     /// As what the members count.
     pub members_are: Members,
-    /// The beats after the one in which members have parted (from the third on, if they have not) as one: its number is
-    /// that of the first. None of fewer than three beats.
+    /// The beats after the one in which members have parted (after those left out, if they have not) as one: its number is
+    /// that of the first. None where no beat is left.
     pub means: Option<EnsembleBeat>,
-    /// The means over the members, beat by beat after the second, as those of one flight: whether the beats
+    /// The means over the members, beat by beat after those left out, as those of one flight: whether the beats
     /// still change.
     #[serde(default)]
     pub course: Option<ManyBeats>,
@@ -71,33 +71,36 @@ pub struct Ensemble {
 
 impl Ensemble {
     /// Of the beats of two members or more, whose noise differs if they are `noisy`; none of fewer, or if one
-    /// has no whole beat.
-    pub fn of(members: &[Vec<BeatMeans>], is_noisy: bool) -> Option<Self> {
+    /// has no whole beat. Means leave out the first `left_out` beats ([`super::left_out`]).
+    pub fn of(members: &[Vec<BeatMeans>], is_noisy: bool, left_out: usize) -> Option<Self> {
         let count = members.iter().map(Vec::len).min().filter(|n| *n > 0)?;
         if members.len() < 2 {
             return None;
         }
         let parted = match is_noisy {
             true => Some(0),
-            false => first_parted(members, count),
+            false => first_parted(members, [left_out, count]),
         };
         let members_are = match parted {
             Some(_) => Members::Independent,
-            None if is_deterministic(members, count) => Members::Deterministic,
+            None if is_deterministic(members, [left_out, count]) => Members::Deterministic,
             None => Members::OneFlight,
         };
         let beat = |k: usize| match parted.is_some_and(|p| k >= p) {
             true => over(members, [k, k + 1], Members::Independent),
             false => over(members, [k, k + 1], Members::OneFlight),
         };
-        let from = parted.map_or(LEFT_OUT, |p| p.max(LEFT_OUT));
+        let from = parted.map_or(left_out, |p| p.max(left_out));
         Some(Self {
             members: members.len(),
             beats: (0..count).map(beat).collect(),
             is_noisy,
             members_are,
-            course: ManyBeats::of(&(0..count).map(|k| mean_of(members, k)).collect::<Vec<_>>()),
-            means: (count > LEFT_OUT).then(|| over(members, [from, count], members_are)),
+            course: ManyBeats::of(
+                &(0..count).map(|k| mean_of(members, k)).collect::<Vec<_>>(),
+                left_out,
+            ),
+            means: (count > from).then(|| over(members, [from, count], members_are)),
         })
     }
 
@@ -146,8 +149,8 @@ fn mean(values: &[f64]) -> f64 {
 
 /// Index of the first beat behind the one, after those left out, in which the forces of members scatter as
 /// those of beats do: in that one they still have much in common.
-fn first_parted(members: &[Vec<BeatMeans>], count: usize) -> Option<usize> {
-    let counted = LEFT_OUT..count;
+fn first_parted(members: &[Vec<BeatMeans>], [left_out, count]: [usize; 2]) -> Option<usize> {
+    let counted = left_out..count;
     if counted.len() < FEWEST {
         return None; // how beats scatter is not known
     }
@@ -155,13 +158,13 @@ fn first_parted(members: &[Vec<BeatMeans>], count: usize) -> Option<usize> {
     let among_beats = within.sum::<f64>() / members.len() as f64;
     let has_parted = |k: &usize| scatter(members, *k) >= PARTED * among_beats.sqrt();
     let first = 1 + counted.into_iter().find(has_parted)?;
-    (first < count && !is_deterministic(members, count)).then_some(first)
+    (first < count && !is_deterministic(members, [left_out, count])).then_some(first)
 }
 
 /// Whether the scatter over members neither grows nor has become large before it could be seen to grow.
-fn is_deterministic(members: &[Vec<BeatMeans>], count: usize) -> bool {
+fn is_deterministic(members: &[Vec<BeatMeans>], [left_out, count]: [usize; 2]) -> bool {
     let last = count - 1;
-    count >= LEFT_OUT + FEWEST
+    count >= left_out + FEWEST
         && scatter(members, last) <= NO_GROWTH * scatter(members, 0)
         && scatter(members, last) <= ONE_FLIGHT * size(members, last)
 }
@@ -237,7 +240,7 @@ mod tests {
             member(&[1.0, 1.0, 3.0, 3.0, 5.0]),
             member(&[1.0, 1.0, 1.0, 1.0, 3.0, 9.0]),
         ];
-        let e = Ensemble::of(&members, false).unwrap();
+        let e = Ensemble::of(&members, false, 2).unwrap();
         assert_eq!((e.members, e.beats.len()), (2, 5));
         assert_eq!(
             (e.beats[0].spread, e.beats[0].estimate.lift_newton.mean),
@@ -253,8 +256,8 @@ mod tests {
         assert_eq!((all.beat, all.estimate.lift_newton.mean), (4, 3.0));
         assert_eq!(all.estimate.lift_over_weight.unwrap().mean, 1.5);
         assert!(e.remark().contains("parted by beat 4"), "{}", e.remark());
-        assert_eq!(Ensemble::of(&members[..1], false), None);
-        assert_eq!(Ensemble::of(&[vec![], vec![]], false), None);
+        assert_eq!(Ensemble::of(&members[..1], false, 2), None);
+        assert_eq!(Ensemble::of(&[vec![], vec![]], false, 2), None);
     }
 
     /// Flights that are the same but for 1e-4 are one flight, whose beats scatter by a tenth: the mean is not known to
@@ -267,7 +270,7 @@ mod tests {
                 let lift = |(k, x): (usize, &f64)| x + m * 1e-9 * grown.powi(k as i32);
                 member(&beats.iter().enumerate().map(lift).collect::<Vec<_>>())
             };
-            Ensemble::of(&[of(-1.0), of(1.0), of(0.5)], false).unwrap()
+            Ensemble::of(&[of(-1.0), of(1.0), of(0.5)], false, 2).unwrap()
         };
         let e = apart(10.0);
         assert_eq!(e.members_are, Members::OneFlight);
@@ -308,7 +311,7 @@ mod tests {
             member(&[0.96, 1.05, 0.98, 1.04, 0.95, 1.0]),
             member(&[1.0, 1.01, 0.94, 0.99, 1.05, 0.96]),
         ];
-        let e = Ensemble::of(&members, false).unwrap();
+        let e = Ensemble::of(&members, false, 2).unwrap();
         assert_eq!(e.members_are, Members::Independent, "{}", e.remark());
         assert!(e.beats.iter().all(|b| b.spread > 0.02));
         let error = e
@@ -327,7 +330,7 @@ mod tests {
     fn exact_errors_over_members_with_noise_of_their_own() {
         let of = |m: f64| member(&[1.2, 1.1, 1.0 + m, 0.9 + m, 0.8 + m, 0.7 + m]);
         let members = [of(-1e-3), of(1e-3)];
-        let e = Ensemble::of(&members, true).unwrap();
+        let e = Ensemble::of(&members, true, 2).unwrap();
         assert_eq!(e.members_are, Members::Independent);
         assert!((e.means.as_ref().unwrap().estimate.lift_newton.mean - 0.85).abs() < 1e-12);
         let error = e
@@ -345,7 +348,7 @@ mod tests {
             said.contains("noise of its own") && said.contains("NOT steady"),
             "{said}"
         );
-        let same = Ensemble::of(&members, false).unwrap();
+        let same = Ensemble::of(&members, false, 2).unwrap();
         assert!(same.remark().contains("NOT steady"), "{}", same.remark());
     }
 }

@@ -1,6 +1,7 @@
 //! Means over many wingbeats with their standard errors, and whether the wingbeats still change.
 
 use serde::{Deserialize, Serialize};
+use wingbeat_flight::{FlightSetup, MotionMode};
 
 use super::beats::BeatMeans;
 use super::estimate::{
@@ -8,8 +9,58 @@ use super::estimate::{
 };
 use super::per_beat::PerBeat;
 
-/// Beats at the start that means over wingbeats leave out: the wake comes up.
-pub const LEFT_OUT: usize = 2;
+/// Fewest beats at the start that means over wingbeats leave out: the wake comes up.
+const LEFT_OUT: usize = 2;
+
+/// Part of a wingbeat that is rounding of the steps \[1\].
+const ROUNDING: f64 = 1e-6;
+
+/// Beats at the start of a flight of `setup` that means over wingbeats leave out: the first two, in which the wake comes
+/// up, and all that the smooth starts of strokes and of a moving tether, or the hold before the release, reach into.
+/// What is held to its end has no release, and its beats count as those of a tethered body.
+///
+/// ```
+/// let set = ["time.beats=9", "flight.held_beats=3"].map(str::to_owned);
+/// let case = wingbeat_case::LoadedCase::find("fruit-fly-blade", &set)?;
+/// assert_eq!(wingbeat_results::summary::left_out(&case.setup), 3);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn left_out(setup: &FlightSetup) -> usize {
+    let Some(period) = setup.time.period else {
+        return LEFT_OUT;
+    };
+    let beats = |time: f64| (time / period - ROUNDING).ceil().max(0.0) as usize;
+    let reached = setup.smooth_starts().map(beats);
+    let held = held_steps(setup) as f64 * setup.time.step;
+    reached
+        .into_iter()
+        .chain([beats(held)])
+        .fold(LEFT_OUT, usize::max)
+}
+
+/// Steps before the release; 0 where nothing is held, or held to the end.
+fn held_steps(setup: &FlightSetup) -> usize {
+    match &setup.mode {
+        MotionMode::Free(start) if start.held_steps < setup.time.steps => start.held_steps,
+        _ => 0,
+    }
+}
+
+/// Why a flight whose beats would be enough has no means over them; none where too few were flown, or it has.
+pub(super) fn too_few_left(setup: &FlightSetup, flown: usize) -> Option<String> {
+    let out = left_out(setup);
+    let left = flown.saturating_sub(out);
+    (flown >= LEFT_OUT + FEWEST && left < FEWEST).then(|| {
+        let what = match held_steps(setup) {
+            0 => "smooth starts (motion.start_beats, flight.tether.start_s)",
+            _ => "a smooth start or the hold before the release (motion.start_beats, flight.held_beats)",
+        };
+        format!(
+            "No mean over wingbeats: means leave out the beats that {what} reach into, of {flown} flown {left} are left, and three are needed: time.beats = {} or more.",
+            out + FEWEST
+        )
+    })
+}
 
 /// A change of the force from the first half of the beats to the second, in parts of it, that is none.
 const NO_CHANGE: f64 = 0.01;
@@ -17,7 +68,7 @@ const NO_CHANGE: f64 = 0.01;
 /// A change that must show beside the scatter of the beats if they are to count as steady.
 const MUST_SHOW: f64 = 0.1;
 
-/// Means over the wingbeats after the second one.
+/// Means over the wingbeats after those that are left out ([`left_out`]).
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ManyBeats {
     /// First and last beat, from 1.
@@ -45,9 +96,9 @@ fn yes() -> bool {
 }
 
 impl ManyBeats {
-    /// Of the wingbeats of a flight; none if there are fewer than five.
-    pub fn of(beats: &[BeatMeans]) -> Option<Self> {
-        let beats = beats.get(LEFT_OUT..).filter(|b| b.len() >= FEWEST)?;
+    /// Of the wingbeats of a flight without the first `left_out` ([`left_out`]); none if there are fewer than three more.
+    pub fn of(beats: &[BeatMeans], left_out: usize) -> Option<Self> {
+        let beats = beats.get(left_out..).filter(|b| b.len() >= FEWEST)?;
         let estimate = PerBeat::joined(beats.iter().map(|b| &b.mean), Estimate::of);
         let [lift, thrust] = [estimate.lift_newton, estimate.thrust_newton];
         let size = lift.mean.hypot(thrust.mean).max(f64::MIN_POSITIVE);
@@ -162,7 +213,7 @@ mod tests {
                 lift_by_impulse_newton: Some(lift(k)),
             },
         };
-        ManyBeats::of(&(1..=10).map(beat).collect::<Vec<_>>())
+        ManyBeats::of(&(1..=10).map(beat).collect::<Vec<_>>(), LEFT_OUT)
     }
 
     #[test]
@@ -186,7 +237,41 @@ mod tests {
         // A body that tilts: its lift is what it was, its thrust is not.
         let tilts = flown_with(|_| 10.0, |k| 0.3 * k as f64).unwrap();
         assert!(!tilts.is_steady && tilts.is_known && tilts.change_of_thrust > 0.1);
-        assert_eq!(ManyBeats::of(&[]), None);
+        assert_eq!(ManyBeats::of(&[], LEFT_OUT), None);
+    }
+
+    /// Two beats, or those that a smooth start or a hold reaches into, begun ones as whole ones; what is held to its end, or
+    /// does not move, has none.
+    #[test]
+    fn exact_beats_of_starts_and_holds_are_left_out() {
+        for (set, expected) in [
+            (&["motion.start_beats=4"][..], 4),
+            (&["motion.start_beats=2.1"], 3),
+            (&["motion.start_beats=0.5"], 2),
+            (&["flight.held_beats=1"], 2),
+            (&["flight.held_beats=2"], 2),
+            (&["flight.held_beats=5.5"], 6),
+            (&["flight.held_beats=9"], 2),
+            (&["flight.held_beats=3", "motion.start_beats=4"], 4),
+        ] {
+            let set: Vec<String> = (set.iter().copied())
+                .chain(["motion.start=smooth", "time.beats=9"])
+                .map(str::to_owned)
+                .collect();
+            let case = wingbeat_case::LoadedCase::find("fruit-fly-blade", &set).unwrap();
+            assert_eq!(left_out(&case.setup), expected, "{set:?}");
+        }
+        let short = wingbeat_case::LoadedCase::find(
+            "fruit-fly-blade",
+            &["time.beats=9".to_owned(), "flight.held_beats=7".to_owned()],
+        );
+        let setup = short.unwrap().setup;
+        assert!(
+            too_few_left(&setup, 9)
+                .unwrap()
+                .contains("time.beats = 10 or more")
+        );
+        assert_eq!([4, 10].map(|n| too_few_left(&setup, n)), [None, None]);
     }
 
     /// A drift that is felt may be less than the error of the mean, which counts it as correlation. A drift by a quarter

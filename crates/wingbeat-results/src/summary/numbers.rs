@@ -33,12 +33,16 @@ pub struct Summary {
     pub mass_kg: f64,
     /// Means of each whole wingbeat.
     pub beats: Vec<BeatMeans>,
-    /// Means over all but the first two of them, with standard errors; none of fewer than five.
+    /// Means over all but the first of them ([`super::left_out`]: two or more), with standard errors; none of fewer than
+    /// three besides.
     #[serde(default)]
     pub means: Option<ManyBeats>,
     /// Means over the last fifth of a flight without wingbeats; none of one with them, or that ended early.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub last_part: Option<LastPart>,
+    /// Unit vector of gravity, against which lift counts, N components \[1\]; left out of files where it is n3.
+    #[serde(default = "n3", skip_serializing_if = "is_n3")]
+    pub gravity_direction: [f64; 3],
     /// Air force against gravity at the end \[N\].
     pub final_lift_newton: f64,
     /// Air force along n1 (forward) at the end \[N\].
@@ -103,7 +107,20 @@ pub struct Summary {
     pub warnings: Vec<String>,
 }
 
+fn n3() -> [f64; 3] {
+    [0.0, 0.0, 1.0]
+}
+
+fn is_n3(direction: &[f64; 3]) -> bool {
+    *direction == n3()
+}
+
 impl Summary {
+    /// Whether n3 points down, as frames and words take it.
+    pub(super) fn has_n3_down(&self) -> bool {
+        is_n3(&self.gravity_direction)
+    }
+
     /// The numbers of two runs beside each other: what, this, the other; wingbeats as far as both
     /// have them.
     pub fn beside(&self, other: &Self) -> Vec<(String, f64, f64)> {

@@ -13,6 +13,7 @@ use wingbeat_math::DVec3;
 
 use self::doubts::Place;
 pub(super) use self::motion::flown_crossings;
+use super::means::too_few_left;
 use super::numbers::Summary;
 use super::verdict::Warnings;
 
@@ -133,6 +134,16 @@ fn mode(setup: &FlightSetup, summary: &Summary, list: &mut Warnings) {
     if setup.mode.is_held_throughout(summary.steps) {
         list.note("Held to its end (flight.held_beats): the body has not been released.");
     }
+    if !summary.has_n3_down() {
+        let along = summary
+            .gravity_direction
+            .map(|x| format!("{x:.3}"))
+            .join(", ");
+        list.note(format!("Gravity is along [{along}] in N, not along n3: lift is the force of the air against it, what is called forward is along n1, and Euler angles are those between body and N."));
+    }
+    too_few_left(setup, summary.beats.len())
+        .into_iter()
+        .for_each(|text| list.note(text));
 }
 
 /// Wing lengths by which a flyer passes through the air in a wingbeat below which wings come back into their

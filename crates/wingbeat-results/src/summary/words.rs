@@ -57,13 +57,18 @@ impl Summary {
             }
         );
         let [x, y, z] = self.displacement_m.map(|d| d * 1e3);
-        let _ = writeln!(
-            out,
-            "The body moved {} mm forward (n1), {} mm right (n2), {} mm up;",
-            signed_or_power(x, 3),
-            signed_or_power(y, 3),
-            signed_or_power(-z, 3)
-        );
+        let [x, y, z] =
+            [x, y, if self.has_n3_down() { -z } else { z }].map(|d| signed_or_power(d, 3));
+        let _ = match self.has_n3_down() {
+            true => writeln!(
+                out,
+                "The body moved {x} mm forward (n1), {y} mm right (n2), {z} mm up;"
+            ),
+            false => writeln!(
+                out,
+                "The body moved {x} mm along n1, {y} mm along n2, {z} mm along n3;"
+            ),
+        };
         let [pitch, yaw, roll] = self.turn_deg;
         let _ = writeln!(
             out,

@@ -165,7 +165,7 @@ fn tell_means(report: &mut Report, [first, second]: [&Summary; 2]) {
     let (Some(a), Some(b)) = (&first.means, &second.means) else {
         line!(
             report,
-            "no means of wingbeats with errors to compare: both flights need five whole wingbeats or more"
+            "no means of wingbeats with errors to compare: both flights need five whole wingbeats or more, three of them after smooth starts and holds"
         );
         return;
     };

@@ -59,6 +59,7 @@ fn heard(kind: DoubtKind, is_lattice: bool) -> (Place, Verdict, &'static str, &'
         DoubtKind::Masses => (Motion, Amber, "", ""),
         DoubtKind::EdgeAhead | DoubtKind::RevolvesBackwards => (Motion, Amber, "Wings that fly backwards: ", ""),
         DoubtKind::StartsApart => (Motion, Amber, "Tether and strokes out of step: ", ""),
+        DoubtKind::LongStart => (Motion, Green, "A start that does not end: ", ""),
         DoubtKind::LateGusts => (Motion, Green, "A gust without effect: ", ""),
         DoubtKind::ShortGusts => (Motion, Amber, "Gusts that the steps do not resolve: ", ""),
         DoubtKind::JumpingRotation => (Motion, Green, "No derivatives of the air are known: ", ""),
@@ -69,6 +70,8 @@ fn heard(kind: DoubtKind, is_lattice: bool) -> (Place, Verdict, &'static str, &'
         DoubtKind::OneSidedEdges | DoubtKind::LongSteps | DoubtKind::AttachedTips | DoubtKind::AttachedBeyondStall => (Air, Amber, "By the prescribed motion ", ""),
         DoubtKind::AttachedStrokes => (Air, Green, "By the prescribed motion ", ""),
         DoubtKind::ViscosityOfAir => (Air, Amber, "Two fluids: ", ""),
+        DoubtKind::NoBuoyancy => (Motion, Amber, "No buoyancy: ", ""),
+        DoubtKind::LightBody => (Motion, Green, "A light body: ", ""),
         DoubtKind::WideBoundCore => (Air, Green, "Lift that is high: ", ""),
     }
 }

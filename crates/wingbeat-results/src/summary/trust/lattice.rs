@@ -136,22 +136,39 @@ fn failures(setup: &FlightSetup, lattice: &AirSettings, summary: &Summary, list:
             "{turns_back}: {said}, and the motion means nothing; take {remedy}."
         ));
     } else if setup.is_moved_by_forces() {
-        let remedy = match setup.integrator {
-            IntegratorChoice::Bdf => "take smaller steps, or larger ones",
-            _ => "set dynamics.integrator = \"bdf\"",
-        };
-        list.fault(format!(
-            "{turns_back}: the air that moves with wings or body weighs too much for the integrator, and the motion means nothing; {remedy}."
-        ));
+        list.fault(moved_by_what_alternates(setup, lattice, &turns_back));
     } else {
         list.note(format!(
             "{turns_back}: read means{}.",
-            match lattice.leading {
-                LeadingEdge::Suction { .. } if lattice.shedding.leading => ", or take air.leading_edge = \"suction_implicit\", which does not shed by the step before",
-                _ => "",
+            match sheds_by_the_step_before(lattice) {
+                true => format!(", or {NOT_A_STEP_LATE}"),
+                false => String::new(),
             }
         ));
     }
+}
+
+/// What to take where leading edges shed by the suction of the step before.
+const NOT_A_STEP_LATE: &str =
+    "take air.leading_edge = \"suction_implicit\", which does not shed by the step before";
+
+/// Why forces alternate that move something, and what to do: where both may be the cause, both are named.
+fn moved_by_what_alternates(setup: &FlightSetup, air: &AirSettings, turns_back: &str) -> String {
+    let remedy = match setup.integrator {
+        IntegratorChoice::Bdf => "take smaller steps, or larger ones",
+        _ => "set dynamics.integrator = \"bdf\"",
+    };
+    let heavy = "the air that moves with wings or body weighs too much for the integrator";
+    match sheds_by_the_step_before(air) {
+        false => format!("{turns_back}: {heavy}, and the motion means nothing; {remedy}."),
+        true => format!(
+            "{turns_back}, and what they move means nothing. Either leading edges that shed by the step before alternate, as they do on wings that nothing but their law moves where steps are short beside the panels: {NOT_A_STEP_LATE}, or larger steps, or more panels. Or {heavy}: {remedy}. It is the leading edges if the forces alternate without \"leading\" in air.shed no more."
+        ),
+    }
+}
+
+fn sheds_by_the_step_before(air: &AirSettings) -> bool {
+    matches!(air.leading, LeadingEdge::Suction { .. }) && air.shedding.leading
 }
 
 /// Part of what the vorticity shed at the beat makes at the wing that cores take away, from which on it is said \[1\].
@@ -305,5 +322,31 @@ fn core(model: &CoreModel) -> (&'static str, f64) {
         CoreModel::Scully { radius } => ("Scully", radius),
         CoreModel::LambOseen { radius, .. } => ("Lamb-Oseen", radius),
         CoreModel::Algebraic { radius, .. } => ("algebraic", radius),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use wingbeat_case::LoadedCase;
+
+    /// Where leading edges shed by the suction of the step before, both causes of alternating forces are named with
+    /// both remedies; elsewhere the integrator alone.
+    #[test]
+    fn behaves_both_causes_of_alternating_forces_are_named() {
+        let said = |edges: &str| {
+            let set = [edges, "air.leading_edge=suction"].map(str::to_owned);
+            let case = LoadedCase::find("fruit-fly-hover", &set).unwrap();
+            let air = case.setup.air.lattice().unwrap();
+            moved_by_what_alternates(&case.setup, &air.lattice, "Forces alternate")
+        };
+        let both = said("air.shed=[\"trailing\", \"tip\", \"leading\"]");
+        for words in ["suction_implicit", "dynamics.integrator", "more panels"] {
+            assert!(both.contains(words), "{both}");
+        }
+        let case = LoadedCase::find("bird-cruise", &["flight.mode=free".to_owned()]).unwrap();
+        let air = case.setup.air.lattice().unwrap();
+        let one = moved_by_what_alternates(&case.setup, &air.lattice, "Forces alternate");
+        assert!(one.contains("bdf") && !one.contains("suction"), "{one}");
     }
 }

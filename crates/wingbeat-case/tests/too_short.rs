@@ -1,0 +1,47 @@
+//! Flights that end before what they are to do.
+
+use wingbeat_case::LoadedCase;
+
+/// Waypoints later than the end of the flight, counted from the release; starts longer than flight or hold.
+#[test]
+fn behaves_what_the_flight_is_too_short_for_is_doubted() {
+    let late = |beats: &str| {
+        let way =
+            "control.waypoint=[{time_s=0.03, heading_deg=5}, {time_s=5, position_m=[0.01, 0, 0]}]";
+        let set = [way, "air.model=blade_element", beats].map(str::to_owned);
+        LoadedCase::find("fruit-fly-controlled", &set)
+            .unwrap()
+            .late_waypoints()
+    };
+    let said = late("time.beats=12").unwrap();
+    assert!(
+        said.contains("control.waypoint[1] is to be reached after the end"),
+        "{said}"
+    );
+    let both = late("time.beats=4").unwrap();
+    assert!(
+        both.contains("the waypoints from control.waypoint[0] on"),
+        "{both}"
+    );
+    assert_eq!(late("time.beats=1200"), None);
+    let starts = |set: &[&str]| {
+        let set: Vec<String> = set.iter().map(|s| (*s).to_owned()).collect();
+        LoadedCase::find("fruit-fly-blade", &set)
+            .unwrap()
+            .setup
+            .starts_that_do_not_end()
+    };
+    let [smooth, two] = ["motion.start=smooth", "time.beats=2"];
+    assert_eq!(starts(&[smooth, two, "motion.start_beats=2"]), [""; 0]);
+    let long = starts(&[smooth, two, "motion.start_beats=3"]);
+    assert!(
+        long.len() == 1 && long[0].contains("motion.start_beats"),
+        "{long:?}"
+    );
+    let tether = "flight.tether={start_s=10, x={frequency_hz=10, sine_m=[0.001]}}";
+    let tether = starts(&[tether, two, "flight.mode=tethered"]);
+    assert!(
+        tether.len() == 1 && tether[0].contains("flight.tether.start_s"),
+        "{tether:?}"
+    );
+}
