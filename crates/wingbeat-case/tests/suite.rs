@@ -6,6 +6,7 @@ mod attached_wakes;
 mod bodies_in_wind;
 mod common;
 mod counterparts;
+mod cut_wakes;
 mod data_sets;
 mod defaults;
 mod differences;

@@ -14,16 +14,9 @@ pub(super) struct Chord(Option<f64>);
 impl Chord {
     /// Area over length of all wings, or that width \[m\].
     pub fn of(animal: &Animal) -> Self {
-        let wings = animal.wing_reports();
-        let [area, length] = [
-            wings.iter().map(|w| w.area).sum::<f64>(),
-            wings.iter().map(|w| w.length).sum(),
-        ];
-        if !wings.is_empty() {
-            return Self(Some(area / length));
-        }
         let widths = animal.parts.iter().map(|p| p.mesh.mean_width());
-        Self(widths.reduce(f64::min))
+        let of_body = widths.reduce(f64::min);
+        Self(animal.mean_chord().or(of_body))
     }
 
     /// A length \[m\] that the case gives as `STEM_m` or `STEM_chords`; none where it gives neither.
