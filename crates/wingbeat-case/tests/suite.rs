@@ -10,6 +10,7 @@ mod cut_wakes;
 mod data_sets;
 mod defaults;
 mod differences;
+mod fluids;
 mod hand_wings;
 mod heeded;
 mod held;

@@ -44,6 +44,7 @@ pub(super) fn options(air: &AirCase, scale: f64) -> Built<BladeOptions> {
         induced: vector(case.induced_m_s),
         wind: wind(air)?,
     })
+        viscosity: air.viscosity_m2_s,
 }
 
 fn translation(case: &BladeCase) -> Built<Translation> {

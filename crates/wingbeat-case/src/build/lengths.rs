@@ -1,6 +1,6 @@
 //! Lengths of the air in metres or in mean chords, and the cores of vortices.
 
-use wingbeat_air::{AIR_VISCOSITY, CoreModel};
+use wingbeat_air::CoreModel;
 use wingbeat_model::Animal;
 
 use super::fault::Built;
@@ -39,8 +39,8 @@ impl Chord {
         }
     }
 
-    /// The core at `path`.
-    pub fn core(&self, path: &str, case: &CoreCase) -> Built<CoreModel> {
+    /// The core at `path`, in air of this viscosity [m2/s] unless it has one of its own.
+    pub fn core(&self, path: &str, case: &CoreCase, viscosity: f64) -> Built<CoreModel> {
         let needed = |name: &str, metres, chords| {
             let stem = format!("{path}.{name}");
             let length = self.length(&stem, metres, chords)?;
@@ -66,11 +66,11 @@ impl Chord {
             },
             CoreCase::Algebraic(c) => CoreModel::Algebraic {
                 radius: radius("algebraic", c.radius_m, c.radius_chords)?,
-                viscosity: c.viscosity_m2_s.unwrap_or(AIR_VISCOSITY),
+                viscosity: c.viscosity_m2_s.unwrap_or(viscosity),
             },
             CoreCase::LambOseen(c) => CoreModel::LambOseen {
                 radius: radius("lamb_oseen", c.radius_m, c.radius_chords)?,
-                viscosity: c.viscosity_m2_s.unwrap_or(AIR_VISCOSITY),
+                viscosity: c.viscosity_m2_s.unwrap_or(viscosity),
             },
         })
     }

@@ -31,6 +31,7 @@ mod size;
 mod spacing;
 mod structure;
 mod time;
+mod viscosity;
 mod wind;
 mod wing;
 mod wingless;

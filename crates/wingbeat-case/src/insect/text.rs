@@ -1,7 +1,5 @@
 //! The case of an insect as a commented file.
 
-use wingbeat_air::AIR_VISCOSITY;
-
 use super::number::number;
 use super::scaling::Insect;
 
@@ -115,7 +113,7 @@ summation = \"single\"       # for more than ten beats \"auto\" with summation_t
 # Vortex cores and the clearance are in mean chords; cores spread with age as viscosity makes them.
 # They are inputs of hover, not results: vary them before trusting a number.
 bound_core.algebraic = {{ radius_chords = 0.01 }}
-wake_core.algebraic = {{ radius_chords = 0.07, viscosity_m2_s = {AIR_VISCOSITY:e} }}
+wake_core.algebraic = {{ radius_chords = 0.07 }}
 wake_overlap = 1.0         # wake filaments have cores of at least this many times their length
 clearance_chords = 0.1     # wakes keep this distance from wings and body
 

@@ -111,6 +111,7 @@ fn blade(options: &BladeOptions) -> Written<AirCase> {
         body_drag,
         induced,
         wind,
+        viscosity,
     } = options;
     let BladeSettings {
         density,
@@ -157,6 +158,7 @@ fn blade(options: &BladeOptions) -> Written<AirCase> {
         model: Model::BladeElement,
         density_kg_m3: density,
         stream_m_s: free_stream.to_array(),
+        viscosity_m2_s: *viscosity,
         blade: case,
         ..AirCase::default()
     };

@@ -44,7 +44,7 @@ pub enum DoubtKind {
     AttachedBeyondStall,
     /// The same of strokes of insects, whose trailing edges and tips shed: as they are flown attached on purpose.
     AttachedStrokes,
-    /// A liquid with the viscosity of air.
+    /// A liquid, or a gas of another density, with the viscosity of air at the ground.
     ViscosityOfAir,
     /// Cores of wings that are wide beside the panels.
     WideBoundCore,
@@ -95,7 +95,7 @@ impl FlightSetup {
         add(AttachedTips, one(self.tips_of_attached_wings()));
         add(AttachedBeyondStall, one(self.attached_beyond_stall()));
         add(AttachedStrokes, one(self.attached_strokes_beyond_stall()));
-        add(ViscosityOfAir, one(self.liquid_with_viscosity_of_air()));
+        add(ViscosityOfAir, one(self.foreign_viscosity_of_air()));
         add(WideBoundCore, one(self.wide_bound_core()));
         list
     }

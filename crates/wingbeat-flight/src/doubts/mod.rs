@@ -13,7 +13,7 @@
 //! | vorticity of one sign from leading edges, tips of attached wings | `shed_by_motion` |
 //! | attached flow beyond stall | `beyond_stall` |
 //! | cores of wings that are wide beside the panels | `bound_core` |
-//! | liquids with the viscosity of air | `fluid` |
+//! | liquids and thin gases with the viscosity of air | `fluid` |
 //! | gusts that a flight never meets | `late_gusts` |
 //! | gusts that its steps do not resolve | `short_gusts` |
 //! | forces of blade elements that jump | `jumps` |
