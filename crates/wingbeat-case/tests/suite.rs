@@ -38,6 +38,7 @@ mod spacing;
 mod starts_of_loops;
 mod stiff_joints;
 mod strips_with_wakes;
+mod stroke_planes;
 mod table1;
 mod tables;
 mod times;
