@@ -14,6 +14,8 @@ pub enum DoubtKind {
     StartsApart,
     /// Blade elements whose force of feathering jumps.
     JumpingRotation,
+    /// Blade elements that excite the torsion of elastic wings.
+    ExcitedTorsion,
     /// Masses beside lengths, or a gravity, that no animal has.
     Masses,
     /// Wings with the trailing edge ahead, or broadside where they are fastest.
@@ -84,6 +86,7 @@ impl FlightSetup {
         add(LateGusts, self.gusts_that_never_arrive());
         add(ShortGusts, self.gusts_between_steps());
         add(JumpingRotation, one(self.jumping_rotation()));
+        add(ExcitedTorsion, one(self.excited_torsion()));
         add(InsideParts, self.wings_inside_parts());
         add(RootsOnBodies, self.roots_on_bodies());
         add(UnjoinedEdges, self.unjoined_roots());

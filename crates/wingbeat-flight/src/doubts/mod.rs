@@ -17,6 +17,7 @@
 //! | gusts that a flight never meets | `late_gusts` |
 //! | gusts that its steps do not resolve | `short_gusts` |
 //! | forces of blade elements that jump | `jumps` |
+//! | torsion that blade elements excite | `excited_torsion` |
 //!
 //! `air_past`: the undisturbed air past a wing in its prescribed motion, by which the motion is judged.
 //! `on_carriers`: that motion with what carries the wing. `said`: names of wings, and those of which the same is said.
@@ -25,6 +26,7 @@ mod air_past;
 mod beyond_stall;
 mod bound_core;
 mod edge_ahead;
+mod excited_torsion;
 mod fluid;
 mod impossible;
 mod jumps;
