@@ -242,7 +242,7 @@ fn balances(
     let scattered = "the samples of wing angles scatter, which smaller steps do not mend";
     let motion = match (is_free_and_elastic_by_momenta(setup), scatters) {
         _ if setup.excited_torsion().is_some() => {
-            "the air excites the torsion of the wings (see above), which smaller steps do not mend"
+            "the air excites the torsion of the wings, which smaller steps do not mend"
         }
         (true, _) => {
             "take smaller steps, or dynamics.formulation = \"euler\", before trusting the motion"
