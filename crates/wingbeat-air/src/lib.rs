@@ -66,8 +66,9 @@ pub use lattice::Lattice;
 pub use loads::{AirLoads, SurfaceLoads};
 pub use settings::{
     AIR_VISCOSITY, AirSettings, CirculationRate, Convection, Friction, Gust, GustShape,
-    LeadingEdge, LoadMethod, NEUTRAL_WIDTH, NewestRow, OVERLAP_SLOPE, ParticleSettings,
-    SectionDrag, Spectrum, Turbulence, VortexLift, VortexStreet, Wind,
+    LIQUID_DENSITY, LeadingEdge, LoadMethod, NEUTRAL_WIDTH, NewestRow, OVERLAP_SLOPE,
+    ParticleSettings, SectionDrag, Spectrum, Turbulence, VortexLift, VortexStreet, Wind,
+    viscosity_of_density,
 };
 pub use state::{AirState, ImpulseAccount, InnerFlow, Particles, WakeEvents, WakeSheet};
 pub use wake::Filaments;

@@ -416,7 +416,7 @@ fn common_period(animal: &Animal) -> Result<f64, AnalysisError> {
     if first <= 0.0 {
         return Err(AnalysisError::not_covered(
             "no wing beats",
-            "give a wingbeat frequency",
+            "give a wingbeat frequency; what only glides is flown with `run` until it is steady (docs/flight-mechanics.md, \"Gliding\")",
         ));
     }
     if animal.wings.iter().any(|w| w.motion.frequency != first) {

@@ -118,7 +118,9 @@ fn strip(pair: &[Strip], k: usize) -> Strip {
 fn circulation(rotation: Rotation, s: &Strip) -> f64 {
     match rotation {
         Rotation::None => 0.0,
-        Rotation::SaneDickinson | Rotation::Circulation => PI * (0.75 - s.x0()),
+        Rotation::SaneDickinson | Rotation::Circulation | Rotation::CirculationAndCouple => {
+            PI * (0.75 - s.x0())
+        }
         Rotation::Coefficient(c) => c,
     }
 }
@@ -163,6 +165,7 @@ fn with_law(
 ) {
     let across = settings.rotation == Rotation::SaneDickinson;
     let is_unsteady = settings.unsteady.is_some();
+    let damps = settings.damps_feathering();
     let viscous = settings
         .viscous
         .map_or([0.0; 2], |m| [m.linear, m.quadratic]);
@@ -191,6 +194,8 @@ fn with_law(
             let lifting = pressure * lift * (sin.signum() * cos.signum() * inverse);
             let bound = if across { lifting } else { lifting + strength };
             along -= q * pair.suction_by_turning(bound, w, q);
+        }
+        if damps {
             // The force m u q of the added mass acts at 3/4 of the chord: about its middle `-pi/16 rho c^3 u q`
             // [Theodorsen 1935].
             damping += pair.couple * u.abs() * q;

@@ -56,6 +56,9 @@ pub enum Rotation {
     /// The same circulation by Kutta and Joukowski: `rho Gamma` across the velocity. Its normal
     /// part is Sane & Dickinson's force times cos alpha; smooth for every motion.
     Circulation,
+    /// The same with the moment of thin-airfoil theory against feathering, `-(pi/16) rho c^3 abs(u) q dr`
+    /// [Theodorsen 1935], which every [`Unsteady`] law has.
+    CirculationAndCouple,
     /// Kutta-Joukowski with one coefficient for all strips, `Gamma = coefficient c^2 q`:
     /// `C_R/2` in [Berman & Wang 2007] (its C_R = pi is not checked against the paper).
     Coefficient(f64),
@@ -105,6 +108,11 @@ impl AddedMassModel {
 }
 
 impl BladeSettings {
+    /// Whether feathering is damped by `-(pi/16) rho c^3 abs(u) q dr`, as in thin-airfoil theory.
+    pub fn damps_feathering(&self) -> bool {
+        self.unsteady.is_some() || self.rotation == Rotation::CirculationAndCouple
+    }
+
     /// The default for small insects in still air: coefficients `dickson-2008`, circulation of
     /// feathering, added mass by impulse, `Cosine` centre of pressure.
     pub fn insect(density: f64) -> Self {

@@ -96,7 +96,11 @@ fn order_strips_converge_at_second_order() {
 fn exact_rotational_force_of_thin_airfoil_theory() {
     // At alpha = 0 feathering at q about x0 gives -rho pi (3/4 - x0) c^2 q u: thin airfoil theory
     // with the normal velocity at 3/4 chord.
-    for rotation in [Rotation::SaneDickinson, Rotation::Circulation] {
+    for rotation in [
+        Rotation::SaneDickinson,
+        Rotation::Circulation,
+        Rotation::CirculationAndCouple,
+    ] {
         for u in [2.0, -2.0] {
             let settings = BladeSettings {
                 rotation,
@@ -108,6 +112,29 @@ fn exact_rotational_force_of_thin_airfoil_theory() {
             let exact = -RHO * PI * (0.75 - 0.25) * 0.3 * 0.3 * 0.5 * u; // span 1
             assert!((load.force.z / exact - 1.0).abs() < 1e-14, "{rotation:?}"); // no lift at alpha 0
         }
+    }
+}
+
+#[test]
+fn exact_couple_of_feathering_of_thin_airfoil_theory() {
+    // A plate that turns at q about any axis in a stream along its chord has the camber of a parabola: the moment about
+    // a quarter of the chord is `-pi/16 rho c^3 u q` [Glauert 1926], whatever its circulation, either way round.
+    for (axis, u) in [(0.25, 2.0), (0.4, 2.0), (0.6, 2.0), (0.4, -2.0)] {
+        let settings = BladeSettings {
+            rotation: Rotation::CirculationAndCouple,
+            added_mass: AddedMassModel::None,
+            centre_of_pressure: CentreOfPressure::Fixed(0.25),
+            ..BladeSettings::insect(RHO)
+        };
+        let strips = Strip::rectangle(3, [0.0, 1.0], 0.3, 0.3 * axis, 1.0);
+        let load = BladeWing::new(strips, settings)
+            .unwrap()
+            .velocity_load(&motion(DVec3::new(u, 0.0, 0.0), DVec3::new(0.0, 0.5, 0.0)));
+        let behind_leading_edge = if u > 0.0 { 0.25 } else { 0.75 };
+        let quarter = 0.3 * (axis - behind_leading_edge);
+        let about_quarter = load.moment.y + quarter * load.force.z;
+        let exact = -PI / 16.0 * RHO * 0.3_f64.powi(3) * 0.5 * f64::abs(u);
+        assert!((about_quarter / exact - 1.0).abs() < 1e-13, "{axis} {u}");
     }
 }
 

@@ -1,7 +1,7 @@
 //! From the raw case to the resolved one: keys that follow from others where the case leaves them
 //! out get their values, so that what comes after has nothing to decide.
 
-use wingbeat_air::{AIR_VISCOSITY, AirSettings, OVERLAP_SLOPE};
+use wingbeat_air::{AirSettings, OVERLAP_SLOPE, viscosity_of_density};
 use wingbeat_math::DVec3;
 
 use crate::data::find_data;
@@ -84,7 +84,10 @@ pub(crate) fn air(case: &mut AirCase) {
     case.convection.decide(scheme.convection);
     case.ring_inset.decide(scheme.inset);
     if let CoreCase::LambOseen(core) | CoreCase::Algebraic(core) = &mut case.wake_core {
-        core.viscosity_m2_s.get_or_insert(AIR_VISCOSITY);
+        if case.viscosity_m2_s.is_none() {
+            let default = viscosity_of_density(case.density_kg_m3);
+            core.viscosity_m2_s.get_or_insert(default);
+        }
         if core.radius_m.is_none() {
             core.radius_chords.get_or_insert(WAKE_CORE);
         }

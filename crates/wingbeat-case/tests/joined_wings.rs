@@ -325,6 +325,48 @@ fn behaves_a_wing_that_revolves_backwards_is_named() {
         "{said}"
     );
     assert!(turning("-1800", &[]).is_none() && turning("0", &[]).is_none());
-    // Of a pair one goes ahead.
-    assert!(turning("1800", &["wing.right.mirror=true"]).is_none());
+    // Of a pair one goes back, whichever way it turns, unless its chord is turned round.
+    for (rate, wing) in [("1800", "`right`"), ("-1800", "`left`")] {
+        let said = turning(rate, &["wing.right.mirror=true"]).unwrap();
+        assert!(
+            said.contains(wing) && said.contains("right 45, left 135"),
+            "{said}"
+        );
+    }
+    // The recipe of docs/separated-flow.md, and the mirrored pair; angles of beats of a frequency are judged the same way.
+    let pair = [
+        "wing.right.mirror=true",
+        "wing.right.motion.psi.constant_deg=45",
+        "motion.frequency_hz=5",
+    ];
+    let recipe = [
+        &pair[..],
+        &[
+            "wing.left.motion.psi.constant_deg=135",
+            "wing.left.motion.phi.constant_deg=0",
+        ],
+    ]
+    .concat();
+    assert!(turning("-1800", &recipe).is_none());
+    assert!(
+        turning("1800", &recipe)
+            .unwrap()
+            .contains("turn it the other way")
+    );
+    assert!(turning("-1800", &pair).unwrap().contains("`left`"));
+    let keys = [
+        &[
+            "air.ground=",
+            "air.stream_m_s=[0, 0, -1]",
+            "flight.tether.yaw.rate_deg_s=-1800",
+        ],
+        &pair[..],
+    ]
+    .concat();
+    assert!(
+        setup(HALF, &keys)
+            .unwrap()
+            .trailing_edges_ahead()
+            .is_empty()
+    );
 }

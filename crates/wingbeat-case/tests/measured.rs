@@ -365,6 +365,7 @@ fn behaves_wings_that_fly_with_the_trailing_edge_ahead_are_named() {
         };
         let wanted = format!("ahead in the {strokes} (wings `left`, `right`)");
         assert!(said.contains(&wanted), "{law}: {said}");
+        assert!(said.contains("phi grows backward"), "{said}");
     }
     // Feathering a quarter of a beat late or early, or read from the column of the stroke; not a tenth of a
     // beat.

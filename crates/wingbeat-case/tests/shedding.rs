@@ -205,10 +205,10 @@ fn behaves_liquids_with_the_viscosity_of_air_are_told() {
         let case = LoadedCase::from_text("plate", &text, Path::new(""), &[]);
         case.unwrap().setup
     };
-    let said = water("").liquid_with_viscosity_of_air().unwrap();
+    let said = water("").foreign_viscosity_of_air().unwrap();
     assert!(said.contains("viscosity_m2_s (1e-6 for water)"), "{said}");
     let given = water("wake_core.algebraic.viscosity_m2_s = 1e-6");
-    assert_eq!(given.liquid_with_viscosity_of_air(), None);
+    assert_eq!(given.foreign_viscosity_of_air(), None);
     let AirModel::VortexLattice(air) = &given.air else {
         panic!("a lattice");
     };
@@ -217,6 +217,6 @@ fn behaves_liquids_with_the_viscosity_of_air_are_told() {
     assert!((radius - 0.07 * chord).abs() < 1e-12 * chord); // roundings
     for preset in PRESETS {
         let setup = LoadedCase::find(preset.name, &[]).unwrap().setup;
-        assert_eq!(setup.liquid_with_viscosity_of_air(), None);
+        assert_eq!(setup.foreign_viscosity_of_air(), None);
     }
 }

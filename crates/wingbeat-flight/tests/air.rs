@@ -24,6 +24,7 @@ fn blade(stream: DVec3, wind: Wind) -> FlightSetup {
         body_drag: None,
         induced: DVec3::ZERO,
         wind,
+        viscosity: None,
     });
     setup
 }

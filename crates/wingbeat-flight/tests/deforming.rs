@@ -53,6 +53,7 @@ fn blade(mut setup: FlightSetup, added_mass: AddedMassModel) -> FlightSetup {
         body_drag: None,
         induced: DVec3::ZERO,
         wind: wingbeat_air::Wind::default(),
+        viscosity: None,
     });
     setup.integrator = IntegratorChoice::RungeKutta;
     setup

@@ -29,6 +29,7 @@ fn setup(steps: usize, beats: f64, theory: Unsteady) -> FlightSetup {
         body_drag: None,
         induced: DVec3::ZERO,
         wind: Wind::default(),
+        viscosity: None,
     });
     setup
 }

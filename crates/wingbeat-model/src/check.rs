@@ -108,6 +108,15 @@ impl Animal {
         self.wings.iter().map(Wing::report).collect()
     }
 
+    /// Mean chord of all wings, the sum of their areas over that of their lengths \[m\]: what lengths in mean chords
+    /// mean; none without wings.
+    pub fn mean_chord(&self) -> Option<f64> {
+        let wings = self.wing_reports();
+        let area = wings.iter().map(|w| w.area).sum::<f64>();
+        let length = wings.iter().map(|w| w.length).sum::<f64>();
+        (!wings.is_empty()).then(|| area / length)
+    }
+
     /// Checks meshes, masses, hinges and motions.
     ///
     /// # Errors

@@ -9,6 +9,8 @@ use wingbeat::verify::lab::series::{harmonic, mean};
 
 #[path = "elastic/blades.rs"]
 mod blades;
+#[path = "elastic/excited.rs"]
+mod excited;
 #[path = "elastic/free_bodies.rs"]
 mod free_bodies;
 #[path = "elastic/hinge.rs"]

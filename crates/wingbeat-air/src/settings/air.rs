@@ -12,6 +12,28 @@ use wingbeat_vortex::{CoreModel, LAMB_ALPHA, Method};
 /// Kinematic viscosity of air at 20 degrees Celsius [m2/s].
 pub const AIR_VISCOSITY: f64 = 1.5e-5;
 
+/// Density of that air [kg/m3].
+const AIR_DENSITY: f64 = 1.225;
+
+/// Densities from here on are those of liquids; the densest gases have a tenth of it [kg/m3].
+pub const LIQUID_DENSITY: f64 = 100.0;
+
+/// Kinematic viscosity [m2/s] of a fluid of this density [kg/m3] of which no more is known: of a gas that with the
+/// dynamic viscosity of air, 1.84e-5 Pa s, which hardly depends on pressure (at -50 degrees Celsius it is 20 % less,
+/// that of helium and heliox 7 % more); of a liquid that of air, which is wrong.
+///
+/// ```
+/// use wingbeat_air::viscosity_of_density;
+/// assert_eq!(viscosity_of_density(1.225), 1.5e-5);
+/// assert!((viscosity_of_density(0.41) - 4.48e-5).abs() < 1e-7);
+/// ```
+pub fn viscosity_of_density(density: f64) -> f64 {
+    match density < LIQUID_DENSITY {
+        true => AIR_VISCOSITY * (AIR_DENSITY / density),
+        false => AIR_VISCOSITY,
+    }
+}
+
 /// [`AirSettings::overlap_slope`] of wakes that roll up near flapping wings.
 pub const OVERLAP_SLOPE: f64 = 0.25;
 

@@ -10,7 +10,7 @@ mod validate;
 mod vortex_lift;
 mod wind;
 
-pub use air::{AIR_VISCOSITY, AirSettings, OVERLAP_SLOPE};
+pub use air::{AIR_VISCOSITY, AirSettings, LIQUID_DENSITY, OVERLAP_SLOPE, viscosity_of_density};
 pub use choices::{CirculationRate, Convection, LeadingEdge, LoadMethod, NewestRow};
 pub use particles::ParticleSettings;
 pub use section_drag::{Friction, SectionDrag};

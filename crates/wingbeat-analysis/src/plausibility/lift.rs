@@ -66,6 +66,7 @@ pub(crate) fn lift_over_weight(setup: &FlightSetup) -> Result<Option<f64>, Analy
             AirModel::VortexLattice(air) => air.lattice.wind.clone(),
             _ => Wind::default(),
         },
+        viscosity: None,
     };
     let mut tethered = steadied(setup);
     for wing in &mut tethered.animal.wings {

@@ -44,7 +44,7 @@ pub struct Estimate {
     pub wing_loading: Option<f64>,
     /// Moments of inertia of the central body about its mass centre, body axes [kg m2].
     pub inertia: DVec3,
-    /// Kinematic viscosity [m2/s]: that of the case, or of air where the density is that of air.
+    /// Kinematic viscosity [m2/s]: that of the case, or of a gas of its density.
     pub viscosity: Option<f64>,
     /// The wings, in the animal's order.
     pub wings: Vec<WingEstimate>,

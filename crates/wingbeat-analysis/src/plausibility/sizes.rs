@@ -4,7 +4,7 @@ use wingbeat_flight::{FlightSetup, LOOKS, MotionMode};
 use wingbeat_math::{DVec3, RotationLaw};
 use wingbeat_model::Wing;
 
-use super::air::{stream, viscosity};
+use super::air::stream;
 use super::numbers::{ByJoints, Estimate, Moved, SAMPLES, stroke_amplitude};
 
 /// Sizes, speeds and what follows from them.
@@ -21,7 +21,7 @@ pub(super) fn sizes(setup: &FlightSetup) -> Estimate {
         flight_speed,
         wing_loading: (weight > 0.0 && area > 0.0).then(|| weight / area),
         inertia: DVec3::new(inertia.x_axis.x, inertia.y_axis.y, inertia.z_axis.z),
-        viscosity: viscosity(&setup.air),
+        viscosity: setup.air.viscosity(),
         wings: vec![],
         lift_over_weight: None,
         lift_left_out: None,

@@ -1,5 +1,6 @@
-//! How much of its wakes a lattice keeps, and how far wings go in a step.
+//! How much of its wakes a lattice keeps, wing by wing, and how far wings go in a step.
 
+use wingbeat_air::AirSettings;
 use wingbeat_flight::FlightSetup;
 
 use super::limit::rounded;
@@ -26,7 +27,7 @@ const LEAVES: f64 = 2.0;
 pub struct KeptWake {
     /// Time for which a row is kept [s].
     pub time: f64,
-    /// The way that the fastest wing goes while a row is kept, over its mean chord \[1\].
+    /// The way that a wing goes while a row is kept, over the mean chord of all wings \[1\].
     pub chords: f64,
     /// The time for which a row is kept in wingbeats \[1\]; none without.
     pub beats: Option<f64>,
@@ -44,50 +45,87 @@ pub fn kept_wake(setup: &FlightSetup) -> Option<KeptWake> {
         return None;
     }
     let estimate = sizes(setup);
-    let fastest = fastest(&estimate.wings)?;
-    let in_chords = fastest.speed / fastest.report.mean_chord;
     let flown = setup.time.steps as f64 * setup.time.step;
-    let rows = lattice.max_rows.filter(|_| lattice.particles.is_none());
-    let of_rows = rows.map(|n| {
-        (
-            n as f64 * setup.time.step,
-            format!("air.max_wake_rows = {n}"),
-        )
+    let cuts = Cut::of(setup, lattice);
+    let moving = estimate.wings.iter().filter(|w| w.speed > 0.0);
+    let cut = moving.filter_map(|wing| {
+        let (time, key) = cuts.time_behind(wing)?;
+        (time < flown).then_some((wing, time, key))
     });
-    let of_age =
-        (lattice.max_age).map(|age| (age, format!("air.max_wake_age_s = {}", rounded(age))));
-    let of_way = lattice.max_distance.map(|way| {
-        let said = format!("air.max_wake_distance_m = {}", rounded(way));
-        (way / fastest.speed, said)
-    });
-    let all = [of_rows, of_age, of_way].into_iter().flatten();
-    let (time, key) = all.min_by(|a, b| a.0.total_cmp(&b.0))?;
-    if time >= flown {
-        return None;
-    }
-    let (chords, beats) = (time * in_chords, setup.time.period.map(|p| time / p));
-    let sides = setup.animal.wings.len().min(2) as f64;
-    let roots = time * fastest.speed / (sides * fastest.report.area).sqrt();
+    let cut: Vec<(&WingEstimate, f64, String)> = cut.collect();
+    let worst = cut
+        .iter()
+        .filter_map(|(wing, time, _)| felt(setup, &estimate, wing, *time))
+        .max_by(|a, b| a.0.total_cmp(&b.0));
+    let soonest = cut.iter().min_by(|a, b| a.1.total_cmp(&b.1));
+    let (wing, time, key) = soonest?;
+    let chords = time * wing.speed / setup.animal.mean_chord()?;
+    let beats = setup.time.period.map(|p| time / p);
     let in_beats = beats.map_or(String::new(), |b| format!("{} wingbeats, ", rounded(b)));
     Some(KeptWake {
-        time,
+        time: *time,
         chords,
         beats,
         said: format!(
             "the wake is cut ({key}): {in_beats}{} mean chords of the way of the wings are kept",
             rounded(chords)
         ),
-        is_short: {
-            let wakes = Wakes::of(setup, &estimate, fastest);
-            let in_hover = beats.filter(|b| wakes.are_met && *b < BEATS);
-            let in_hover = in_hover.map(|b| (BEATS / b, IN_HOVER));
-            let in_a_stream = wakes.are_left && roots < ROOTS;
-            let in_a_stream = in_a_stream.then_some((ROOTS / roots, IN_A_STREAM));
-            let both = [in_hover, in_a_stream].into_iter().flatten();
-            let worst = both.max_by(|a, b| a.0.total_cmp(&b.0));
-            worst.map(|(times, measured)| short(times, measured))
-        },
+        is_short: worst.map(|(times, measured)| short(times, measured)),
     })
+}
+
+/// What cuts wakes.
+struct Cut {
+    rows: Option<usize>,
+    step: f64,
+    age: Option<f64>,
+    distance: Option<f64>,
+}
+
+impl Cut {
+    fn of(setup: &FlightSetup, lattice: &AirSettings) -> Self {
+        Self {
+            rows: lattice.max_rows.filter(|_| lattice.particles.is_none()),
+            step: setup.time.step,
+            age: lattice.max_age,
+            distance: lattice.max_distance,
+        }
+    }
+
+    /// Time for which a row behind `wing` is kept \[s\], and the key that cuts it with its value.
+    fn time_behind(&self, wing: &WingEstimate) -> Option<(f64, String)> {
+        let of_rows =
+            (self.rows).map(|n| (n as f64 * self.step, format!("air.max_wake_rows = {n}")));
+        let of_age = self
+            .age
+            .map(|age| (age, format!("air.max_wake_age_s = {}", rounded(age))));
+        let of_way = self.distance.map(|way| {
+            let said = format!("air.max_wake_distance_m = {}", rounded(way));
+            (way / wing.speed, said)
+        });
+        let all = [of_rows, of_age, of_way].into_iter().flatten();
+        all.min_by(|a, b| a.0.total_cmp(&b.0))
+    }
+}
+
+/// By what factor the wake of `wing`, of which rows are kept for `time` \[s\], is too short \[1\], and what was measured
+/// of such wakes; none where what is left out is felt little.
+fn felt(
+    setup: &FlightSetup,
+    estimate: &Estimate,
+    wing: &WingEstimate,
+    time: f64,
+) -> Option<(f64, &'static str)> {
+    let sides = setup.animal.wings.len().min(2) as f64;
+    let roots = time * wing.speed / (sides * wing.report.area).sqrt();
+    let wakes = Wakes::of(setup, estimate, wing);
+    let beats = setup.time.period.map(|p| time / p);
+    let in_hover = beats.filter(|b| wakes.are_met && *b < BEATS);
+    let in_hover = in_hover.map(|b| (BEATS / b, IN_HOVER));
+    let in_a_stream = wakes.are_left && roots < ROOTS;
+    let in_a_stream = in_a_stream.then_some((ROOTS / roots, IN_A_STREAM));
+    let both = [in_hover, in_a_stream].into_iter().flatten();
+    both.max_by(|a, b| a.0.total_cmp(&b.0))
 }
 
 /// What was measured of short wakes.
@@ -112,8 +150,8 @@ struct Wakes {
 }
 
 impl Wakes {
-    /// By the way through the air in a wingbeat beside the stroke of the fastest wing.
-    fn of(setup: &FlightSetup, estimate: &Estimate, fastest: &WingEstimate) -> Self {
+    /// By the way of `wing` through the air in a wingbeat beside the longest stroke.
+    fn of(setup: &FlightSetup, estimate: &Estimate, wing: &WingEstimate) -> Self {
         let Some(period) = setup.time.period else {
             return Self {
                 are_met: false,
@@ -122,10 +160,10 @@ impl Wakes {
         };
         let passed = estimate.flight_speed * period;
         let stroke = (setup.animal.wings.iter().map(stroke_of_tip))
-            .fold(0.5 * fastest.tip_speed * period, f64::max);
+            .fold(0.5 * wing.tip_speed * period, f64::max);
         // Carried by a tether, a wing passes the air faster than the body does at the start.
-        let is_carried = fastest.speed > fastest.tip_speed.max(estimate.flight_speed);
-        let is_long = stroke > fastest.report.mean_chord;
+        let is_carried = wing.speed > wing.tip_speed.max(estimate.flight_speed);
+        let is_long = stroke > wing.report.mean_chord;
         let stays = !is_carried && passed == 0.0;
         Self {
             are_met: is_carried || passed < LEAVES * stroke || passed == 0.0,
@@ -149,15 +187,8 @@ fn stroke_of_tip(wing: &Wing) -> f64 {
     ways.fold(0.0, f64::max)
 }
 
-/// The wing that goes fastest; none if none goes.
-fn fastest(wings: &[WingEstimate]) -> Option<&WingEstimate> {
-    let moving = wings.iter().filter(|w| w.speed > 0.0);
-    moving.max_by(|a, b| a.speed.total_cmp(&b.speed))
-}
-
-/// Way of the fastest tip in a step over the mean chord of its wing \[1\]; 0 where nothing goes.
+/// The longest way of a tip in a step over the mean chord of its wing \[1\]; 0 where nothing goes.
 pub fn way_in_a_step(setup: &FlightSetup) -> f64 {
-    let estimate = sizes(setup);
     let way = |w: &WingEstimate| w.speed * setup.time.step / w.report.mean_chord;
-    fastest(&estimate.wings).map_or(0.0, way)
+    sizes(setup).wings.iter().map(way).fold(0.0, f64::max)
 }

@@ -85,6 +85,7 @@ fn flying(animal: Animal, frequency: f64, pitch: f64) -> FlightSetup {
         body_drag: None,
         induced: DVec3::ZERO,
         wind: Wind::default(),
+        viscosity: None,
     });
     FlightSetup {
         mode: MotionMode::Free(StartState {

@@ -23,6 +23,7 @@ pub(super) fn options(air: &AirCase, scale: f64) -> Built<BladeOptions> {
             (RotationCase::None, _) => Rotation::None,
             (_, Some(c)) => Rotation::Coefficient(c),
             (RotationCase::Circulation, None) => Rotation::Circulation,
+            (RotationCase::CirculationAndCouple, None) => Rotation::CirculationAndCouple,
             (RotationCase::SaneDickinson, None) => Rotation::SaneDickinson,
         },
         added_mass: case.added_mass,
@@ -43,6 +44,7 @@ pub(super) fn options(air: &AirCase, scale: f64) -> Built<BladeOptions> {
         body_drag: case.body_drag.map(|drag| body_drag(drag, scale)),
         induced: vector(case.induced_m_s),
         wind: wind(air)?,
+        viscosity: air.viscosity_m2_s,
     })
 }
 

@@ -10,7 +10,7 @@ use wingbeat_model::Animal;
 use super::fault::{Built, idle};
 use super::lengths::Chord;
 use super::numbers::vector;
-use super::{deformation, wind};
+use super::{deformation, viscosity, wind};
 use crate::error::Fault;
 use crate::raw::{
     AirCase, Case, CoreCase, FrictionCase, LeadingEdgeCase, ParticlesCase, SchemeCase,
@@ -40,7 +40,8 @@ fn settings(case: &AirCase, chord: &Chord) -> Built<AirSettings> {
         SchemeCase::Benchmark => AirSettings::benchmark,
         SchemeCase::Accurate => AirSettings::accurate,
     };
-    let wake_core = chord.core("air.wake_core", &case.wake_core)?;
+    viscosity::given_once(case)?;
+    let wake_core = chord.core("air.wake_core", &case.wake_core, viscosity::of_fluid(case))?;
     let ground = case.ground.map(|g| wind::ground(&g, stream)).transpose()?;
     let particles = |p| particles(p, case, chord, wake_core);
     let bound_core = bound_core(chord, &case.bound_core, wake_core)?;
@@ -79,7 +80,10 @@ fn settings(case: &AirCase, chord: &Chord) -> Built<AirSettings> {
         plane_wakes: case.plane_wakes,
         clearance: length("clearance", case.clearance_m, case.clearance_chords)?.unwrap_or(0.0),
         particles: case.particles.as_ref().map(particles).transpose()?,
-        section_drag: section_drag(case.section_drag, wake_core.viscosity())?,
+        section_drag: section_drag(
+            case.section_drag,
+            wake_core.viscosity().or(case.viscosity_m2_s),
+        )?,
         summation: case.summation,
         tolerance: case.summation_tolerance,
         ..scheme(case.density_kg_m3, stream)
@@ -192,11 +196,11 @@ fn bound_core(chord: &Chord, case: &CoreCase, wake_core: CoreModel) -> Built<Cor
     let (name, core) = match &mut case {
         CoreCase::LambOseen(core) => ("lamb_oseen", core),
         CoreCase::Algebraic(core) => ("algebraic", core),
-        _ => return chord.core("air.bound_core", &case),
+        _ => return chord.core("air.bound_core", &case, spreading),
     };
     let own = core.viscosity_m2_s.replace(spreading);
     let Some(own) = own.filter(|own| *own != spreading) else {
-        return chord.core("air.bound_core", &case);
+        return chord.core("air.bound_core", &case, spreading);
     };
     let (allowed, remedy) = match wake_core.viscosity() {
         Some(of_wakes) => (
@@ -235,7 +239,7 @@ fn section_drag(
                 "air.section_drag.viscosity_m2_s",
                 "the friction needs the viscosity of the air, and air.wake_core has none",
                 "a finite number > 0",
-                "1.5e-5 for air at sea level; friction = \"none\" leaves friction out",
+                "1.5e-5 for air at sea level, here or as air.viscosity_m2_s; friction = \"none\" leaves friction out",
             ));
         }
     };

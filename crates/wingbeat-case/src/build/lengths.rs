@@ -1,6 +1,6 @@
 //! Lengths of the air in metres or in mean chords, and the cores of vortices.
 
-use wingbeat_air::{AIR_VISCOSITY, CoreModel};
+use wingbeat_air::CoreModel;
 use wingbeat_model::Animal;
 
 use super::fault::Built;
@@ -19,16 +19,9 @@ pub(super) struct Chord(Option<f64>);
 impl Chord {
     /// Area over length of all wings, or that width \[m\].
     pub fn of(animal: &Animal) -> Self {
-        let wings = animal.wing_reports();
-        let [area, length] = [
-            wings.iter().map(|w| w.area).sum::<f64>(),
-            wings.iter().map(|w| w.length).sum(),
-        ];
-        if !wings.is_empty() {
-            return Self(Some(area / length));
-        }
         let widths = animal.parts.iter().map(|p| p.mesh.mean_width());
-        Self(widths.reduce(f64::min))
+        let of_body = widths.reduce(f64::min);
+        Self(animal.mean_chord().or(of_body))
     }
 
     /// A length \[m\] that the case gives as `STEM_m` or `STEM_chords`; none where it gives neither.
@@ -51,8 +44,8 @@ impl Chord {
         }
     }
 
-    /// The core at `path`.
-    pub fn core(&self, path: &str, case: &CoreCase) -> Built<CoreModel> {
+    /// The core at `path`, in air of this viscosity [m2/s] unless it has one of its own.
+    pub fn core(&self, path: &str, case: &CoreCase, viscosity: f64) -> Built<CoreModel> {
         let needed = |name: &str, metres, chords| {
             let stem = format!("{path}.{name}");
             let length = self.length(&stem, metres, chords)?;
@@ -78,11 +71,11 @@ impl Chord {
             },
             CoreCase::Algebraic(c) => CoreModel::Algebraic {
                 radius: radius("algebraic", c.radius_m, c.radius_chords)?,
-                viscosity: c.viscosity_m2_s.unwrap_or(AIR_VISCOSITY),
+                viscosity: c.viscosity_m2_s.unwrap_or(viscosity),
             },
             CoreCase::LambOseen(c) => CoreModel::LambOseen {
                 radius: radius("lamb_oseen", c.radius_m, c.radius_chords)?,
-                viscosity: c.viscosity_m2_s.unwrap_or(AIR_VISCOSITY),
+                viscosity: c.viscosity_m2_s.unwrap_or(viscosity),
             },
         })
     }

@@ -32,6 +32,7 @@ mod size;
 mod spacing;
 mod structure;
 mod time;
+mod viscosity;
 mod wind;
 mod wing;
 mod wingless;

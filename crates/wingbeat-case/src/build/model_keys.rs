@@ -1,8 +1,7 @@
 //! Keys that the chosen model of the air does not take, where no single key tells.
 
-use wingbeat_air::AIR_VISCOSITY;
-
 use super::fault::{Built, idle};
+use super::viscosity;
 use crate::error::Fault;
 use crate::raw::{AirCase, AirModel, Case, CoreCase, DerivativesCase};
 use crate::resolve;
@@ -49,9 +48,11 @@ fn core_of_no_wake(air: &AirCase, source: &CaseSource) -> Built<()> {
     };
     let of_air = own
         .viscosity_m2_s
-        .is_none_or(|viscosity| viscosity == AIR_VISCOSITY);
+        .is_none_or(|own| own == viscosity::of_fluid(air));
     let mut plain = AirCase {
         scheme: air.scheme,
+        density_kg_m3: air.density_kg_m3,
+        viscosity_m2_s: air.viscosity_m2_s,
         ..AirCase::default()
     };
     resolve::air(&mut plain);

@@ -11,7 +11,8 @@ use crate::source::{CaseSource, table_of};
 const WITHOUT_WINGS: &str = "without wings";
 
 /// Keys of the lattice that act on wings and their wakes alone.
-const LATTICE: [&str; 23] = [
+const LATTICE: [&str; 24] = [
+    "viscosity_m2_s",
     "shed",
     "wake_overlap",
     "wake_overlap_slope",
@@ -80,6 +81,8 @@ fn lattice(air: &AirCase, source: &CaseSource) -> Built<()> {
 }
 
 fn blades(air: &AirCase, source: &CaseSource) -> Built<()> {
+    let [given, plain] = [air, &AirCase::default()].map(table_of);
+    unchanged("air", &["viscosity_m2_s"], [&given, &plain], source)?;
     let drag = air.blade.body_drag.as_ref();
     if drag.is_none_or(|d| d.area_m2 == 0.0 || (d.along == 0.0 && d.across == 0.0)) {
         return Err(Fault::new(

@@ -1,7 +1,5 @@
 //! The case of an insect as a commented file.
 
-use wingbeat_air::AIR_VISCOSITY;
-
 use super::number::number;
 use super::scaling::Insect;
 
@@ -102,8 +100,7 @@ frames_every = 0
 ";
 
 fn lattice() -> String {
-    format!(
-        "
+    "
 [air]
 model = \"vortex_lattice\"
 density_kg_m3 = 1.225
@@ -114,15 +111,15 @@ shed = [\"trailing\", \"tip\", \"leading\"]
 summation = \"single\"       # for more than ten beats \"auto\" with summation_tolerance = 1e-3
 # Vortex cores and the clearance are in mean chords; cores spread with age as viscosity makes them.
 # They are inputs of hover, not results: vary them before trusting a number.
-bound_core.algebraic = {{ radius_chords = 0.01 }}
-wake_core.algebraic = {{ radius_chords = 0.07, viscosity_m2_s = {AIR_VISCOSITY:e} }}
+bound_core.algebraic = { radius_chords = 0.01 }
+wake_core.algebraic = { radius_chords = 0.07 }
 wake_overlap = 1.0         # wake filaments have cores of at least this many times their length
 clearance_chords = 0.1     # wakes keep this distance from wings and body
 
 [output]
 frames_every = 2
 "
-    )
+    .to_owned()
 }
 
 /// An ellipsoid of revolution with the density of water.

@@ -29,8 +29,7 @@ pub struct AirCase {
     pub model: AirModel,
     /// Density of the air; of derivatives, those of `air.derivatives.dimensionless` ask for it.
     ///
-    /// Change it for another altitude or fluid; of another fluid give the lattice the viscosity, too:
-    /// `air.wake_core.algebraic.viscosity_m2_s` (1e-6 in water).
+    /// Change it for another altitude or fluid; of a liquid give `viscosity_m2_s`, too.
     #[default = 1.225]
     #[schemars(extend("exclusiveMinimum" = 0, "with" = FLUID))]
     pub density_kg_m3: f64,
@@ -41,6 +40,14 @@ pub struct AirCase {
     /// Change it to true in water.
     #[schemars(extend("with" = WIND))]
     pub buoyancy: bool,
+    /// Kinematic viscosity of the air: of friction, of wakes that spread, and of the Reynolds numbers of `check`; no force
+    /// of blade elements depends on it. Default: that of a gas with the dynamic viscosity of air, 1.5e-5 at 1.225 kg/m3
+    /// and in inverse ratio to the density. The lattice takes either this, or those of `wake_core` and `section_drag`.
+    ///
+    /// Change it for a liquid (1e-6 in water), and for gases and temperatures of which you know it.
+    #[schemars(extend("exclusiveMinimum" = 0, "with" = WIND))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub viscosity_m2_s: Option<f64>,
     /// Velocity of the undisturbed air, inertial axes.
     ///
     /// Change it for wind, or for a tunnel: a body at rest in a stream.
@@ -264,7 +271,7 @@ pub struct AirCase {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub particles: Option<ParticlesCase>,
     /// Friction and profile drag of the wings' sections, added to the forces of the lattice, which itself has no
-    /// viscosity. Default: friction in air of the viscosity of `wake_core`; none where that has none.
+    /// viscosity. Default: friction in air of the viscosity of `wake_core`, or `viscosity_m2_s`; none where neither is.
     ///
     /// Change it to `{ friction = "none" }` for inviscid air, or to add what the sections' polar has.
     #[schemars(extend("with" = LATTICE))]

@@ -24,7 +24,7 @@ pub struct BladeCase {
     pub own: Option<OwnCoefficients>,
     /// Force of feathering while sweeping.
     ///
-    /// Change it to reproduce a published model.
+    /// Change it to `circulation_and_couple` for elastic wings without `unsteady`, or to reproduce a published model.
     #[default(RotationCase::Circulation)]
     pub rotation: RotationCase,
     /// Coefficient C of the circulation `C c^2 q` of feathering for all strips; left out:
@@ -104,6 +104,9 @@ pub enum RotationCase {
     None,
     /// Kutta and Joukowski's force of the circulation of feathering: smooth.
     Circulation,
+    /// The same with the moment of thin-airfoil theory against feathering, which `unsteady` laws always have. Without it
+    /// quasi-steady strips excite the torsion of elastic wings.
+    CirculationAndCouple,
     /// The same, normal to the wing (Sane & Dickinson 2002). It jumps where the air along a chord reverses while it
     /// meets the wing broadside: flights are as good as their steps, derivatives and modes of flight are none.
     SaneDickinson,

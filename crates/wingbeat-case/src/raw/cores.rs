@@ -73,7 +73,7 @@ pub struct LambOseenCase {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub radius_chords: Option<f64>,
     /// Effective kinematic viscosity, of `wake_core`: filaments on surfaces do not age, so `bound_core`
-    /// has none of its own. Default: that of air, 1.5e-5.
+    /// has none of its own. Default: `air.viscosity_m2_s`.
     ///
     /// Change it for another fluid, or to a larger one for turbulent wakes.
     #[schemars(range(min = 0))]

@@ -18,7 +18,8 @@ pub struct MotionCase {
     #[serde(skip_serializing_if = "Open::is_open")]
     pub frequency_hz: Open<f64>,
     /// Pitch of the stroke plane in the body: the angle about b2 that carries b1 to the normal
-    /// of the stroke plane. Hover with a horizontal stroke plane: body pitch + this = 90.
+    /// of the stroke plane. Hover with a horizontal stroke plane: body pitch + this = 90; with one inclined by beta, so that
+    /// the downstroke goes forward and down: body pitch + this = 90 - beta.
     /// Default: that of the data set, else 0. Wings that other wings carry go along with these, and do not have it
     /// a second time.
     ///

@@ -143,8 +143,8 @@ pub struct BeamCase {
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub coupling_table_newton_m_m2: Vec<[f64; 7]>,
     /// Mass per length at root and tip, instead of the mass of the wing spread evenly over its area. The length
-    /// is that of the span, across the chord: of a beam swept by 30 deg a metre along the beam has 0.87 times
-    /// as much, while stiffnesses are those along the beam. 0 is allowed beside lumped masses.
+    /// is that across the chord: of a beam swept by 30 deg a metre along the beam has 0.87 times as much, while
+    /// stiffnesses are those along the beam; of a wing with dihedral it is that along the slope. 0 is allowed beside lumped masses.
     ///
     /// Change it to what was measured.
     #[schemars(extend("or" = "wing.NAME.mass_kg"))]

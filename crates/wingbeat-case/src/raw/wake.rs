@@ -56,7 +56,7 @@ pub struct SectionDragCase {
     /// Change it to `none` where cd0 holds the friction already.
     #[serde(default)]
     pub friction: FrictionCase,
-    /// Kinematic viscosity of the air, needed by the friction. Default: that of `wake_core`, if it has one.
+    /// Kinematic viscosity of the air, needed by the friction. Default: that of `wake_core`, if it has one, or `air.viscosity_m2_s`.
     ///
     /// Change it for another fluid: 1.5e-5 is air at 20 degrees Celsius.
     #[schemars(extend("exclusiveMinimum" = 0, "with" = "friction = blasius"))]

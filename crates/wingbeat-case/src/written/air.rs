@@ -111,6 +111,7 @@ fn blade(options: &BladeOptions) -> Written<AirCase> {
         body_drag,
         induced,
         wind,
+        viscosity,
     } = options;
     let BladeSettings {
         density,
@@ -130,6 +131,7 @@ fn blade(options: &BladeOptions) -> Written<AirCase> {
     let (rotation, rotation_coefficient) = match rotation {
         Rotation::None => (RotationCase::None, None),
         Rotation::Circulation => (RotationCase::Circulation, None),
+        Rotation::CirculationAndCouple => (RotationCase::CirculationAndCouple, None),
         Rotation::SaneDickinson => (RotationCase::SaneDickinson, None),
         Rotation::Coefficient(c) => (RotationCase::Circulation, Some(c)),
     };
@@ -156,6 +158,7 @@ fn blade(options: &BladeOptions) -> Written<AirCase> {
     let air = AirCase {
         model: Model::BladeElement,
         density_kg_m3: density,
+        viscosity_m2_s: *viscosity,
         stream_m_s: free_stream.to_array(),
         blade: case,
         ..AirCase::default()

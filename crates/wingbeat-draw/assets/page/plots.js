@@ -88,8 +88,11 @@ function ticks(low, high, most) {
   for (let t = Math.ceil(low / step) * step; t <= high + step * 1e-9; t += step) out.push(Math.abs(t) < step / 1e6 ? 0 : +t.toPrecision(10));
   return out;
 }
-// A number at a tick, short enough for the margin.
-const tickWords = (t) => minus(String(t).length > 7 ? t.toExponential() : String(t));
+// A number at a tick, short enough for the margin; with either sign in the same form.
+const tickWords = (t) => {
+  const [plain, power] = [String(Math.abs(t)), Math.abs(t).toExponential()];
+  return minus((t < 0 ? "-" : "") + (plain.length > 6 && power.length < plain.length ? power : plain));
+};
 // Least and largest value of a line near a time: one number, where every step is there.
 function valuesAt({ chart }, s, x) {
   const list = chart.x;

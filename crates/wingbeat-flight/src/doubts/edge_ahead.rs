@@ -68,7 +68,8 @@ impl Beat {
     fn turned_round(&self) -> Option<EdgeDoubt> {
         const REMEDY: &str = "in the convention of this program psi is below 0 in the downstroke and above 0 in the upstroke of a \
              hovering animal; a rotation angle counted from the stroke plane, 0 to 180 deg, becomes psi by factor = -1 and offset_deg = 90 \
-             in its table, or by offset_deg = -90 (ANGLES.md)";
+             in its table, or by offset_deg = -90. A stroke counted the other way makes the same: where phi grows backward in your data, leave psi, and \
+             give the table of phi factor = -1 (ANGLES.md)";
         let all: f64 = self.strokes.iter().map(|s| s.pressure).sum();
         let both = ["downstroke", "upstroke"].into_iter().zip(&self.strokes);
         let wrong =
@@ -134,11 +135,13 @@ impl AddAssign<(f64, f64, f64)> for Stroke {
 
 impl FlightSetup {
     /// Says which wings move with the trailing edge ahead in one of their strokes, and what angles do so, or
-    /// feather and yet stroke broadside. Wings that do not beat, or have joints of their own, are left out.
+    /// feather and yet stroke broadside. Wings that do not beat, have joints of their own, or revolve backwards with the body
+    /// are left out.
     pub fn trailing_edges_ahead(&self) -> Vec<String> {
         let wings = self.animal.wings.iter().enumerate();
         let beating =
             wings.filter(|(w, wing)| !self.has_own_joint(*w) && wing.motion.frequency > 0.0);
+        let beating = beating.filter(|(_, wing)| !self.goes_back_as_body_turns(wing));
         let doubts = beating.filter_map(|(_, w)| Some((self.beat(w).doubt()?, &w.name[..])));
         let say = |(doubt, wings): (EdgeDoubt, Vec<&str>)| {
             let wings = names(wings, ", ");

@@ -1,14 +1,15 @@
 //! Whether density and viscosity are those of one fluid.
 
 use crate::setup::FlightSetup;
-use wingbeat_air::{AIR_VISCOSITY, Friction};
+use wingbeat_air::{AIR_VISCOSITY, Friction, LIQUID_DENSITY, viscosity_of_density};
 
-/// Densities from here on are those of liquids; the densest gases have a tenth of it [kg/m3].
-const LIQUID: f64 = 100.0;
+/// Part of the kinematic viscosity of a gas by which that of air at the ground is off, from which on it is doubted \[1\].
+const OFF: f64 = 0.2;
 
 impl FlightSetup {
-    /// Says that a fluid with the density of a liquid has the kinematic viscosity of air, which it has where none is given.
-    pub fn liquid_with_viscosity_of_air(&self) -> Option<String> {
+    /// Says that a liquid, or a gas that is thinner or denser than air at the ground, has the kinematic viscosity of that
+    /// air.
+    pub fn foreign_viscosity_of_air(&self) -> Option<String> {
         let air = &self.air.lattice()?.lattice;
         let friction = air.section_drag.map(|d| d.friction);
         let of_friction = match friction {
@@ -27,11 +28,25 @@ impl FlightSetup {
             (false, true) => "the vortex cores of the wake",
             (false, false) => return None,
         };
-        (air.density >= LIQUID).then(|| {
+        let is_liquid = air.density >= LIQUID_DENSITY;
+        let of_gas = viscosity_of_density(air.density);
+        let density = air.density;
+        let (kind, consequence) = match is_liquid {
+            true => (
+                "that of a liquid",
+                "15 times that of water: give air.viscosity_m2_s (1e-6 for water)".to_owned(),
+            ),
+            false => (
+                "not that of air at the ground",
+                format!(
+                    "where a gas so thin or dense has about {of_gas:.1e}: remove the viscosity from the case (its default goes with the density), or give air.viscosity_m2_s"
+                ),
+            ),
+        };
+        let is_off = (AIR_VISCOSITY / of_gas - 1.0).abs() > OFF;
+        (is_liquid || is_off).then(|| {
             format!(
-                "air.density_kg_m3 = {} is that of a liquid, and {what} have the kinematic viscosity of air, {AIR_VISCOSITY:e} m2/s, \
-                 15 times that of water: give air.wake_core.algebraic.viscosity_m2_s (1e-6 for water)",
-                air.density
+                "air.density_kg_m3 = {density} is {kind}, and {what} have the kinematic viscosity of air, {AIR_VISCOSITY:e} m2/s, {consequence}"
             )
         })
     }

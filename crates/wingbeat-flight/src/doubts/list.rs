@@ -16,6 +16,8 @@ pub enum DoubtKind {
     LongStart,
     /// Blade elements whose force of feathering jumps.
     JumpingRotation,
+    /// Blade elements that excite the torsion of elastic wings.
+    ExcitedTorsion,
     /// Masses beside lengths, or a gravity, that no animal has.
     Masses,
     /// Wings with the trailing edge ahead, or broadside where they are fastest.
@@ -46,7 +48,7 @@ pub enum DoubtKind {
     AttachedBeyondStall,
     /// The same of strokes of insects, whose trailing edges and tips shed: as they are flown attached on purpose.
     AttachedStrokes,
-    /// A liquid with the viscosity of air.
+    /// A liquid, or a gas of another density, with the viscosity of air at the ground.
     ViscosityOfAir,
     /// Fluid displaced whose weight counts, and is not computed.
     NoBuoyancy,
@@ -91,6 +93,7 @@ impl FlightSetup {
         add(LateGusts, self.gusts_that_never_arrive());
         add(ShortGusts, self.gusts_between_steps());
         add(JumpingRotation, one(self.jumping_rotation()));
+        add(ExcitedTorsion, one(self.excited_torsion()));
         add(InsideParts, self.wings_inside_parts());
         add(RootsOnBodies, self.roots_on_bodies());
         add(UnjoinedEdges, self.unjoined_roots());
@@ -102,7 +105,7 @@ impl FlightSetup {
         add(AttachedTips, one(self.tips_of_attached_wings()));
         add(AttachedBeyondStall, one(self.attached_beyond_stall()));
         add(AttachedStrokes, one(self.attached_strokes_beyond_stall()));
-        add(ViscosityOfAir, one(self.liquid_with_viscosity_of_air()));
+        add(ViscosityOfAir, one(self.foreign_viscosity_of_air()));
         add(NoBuoyancy, one(self.without_buoyancy()));
         add(LightBody, one(self.light_beside_fluid()));
         add(WideBoundCore, one(self.wide_bound_core()));

@@ -14,11 +14,12 @@
 //! | vorticity of one sign from leading edges, tips of attached wings | `shed_by_motion` |
 //! | attached flow beyond stall | `beyond_stall` |
 //! | cores of wings that are wide beside the panels | `bound_core` |
-//! | liquids with the viscosity of air | `fluid` |
+//! | liquids and thin gases with the viscosity of air | `fluid` |
 //! | buoyancy that is not computed, bodies light beside the fluid | `displaced` |
 //! | gusts that a flight never meets | `late_gusts` |
 //! | gusts that its steps do not resolve | `short_gusts` |
 //! | forces of blade elements that jump | `jumps` |
+//! | torsion that blade elements excite | `excited_torsion` |
 //!
 //! `air_past`: the undisturbed air past a wing in its prescribed motion, by which the motion is judged.
 //! `on_carriers`: that motion with what carries the wing. `said`: names of wings, and those of which the same is said.
@@ -28,6 +29,7 @@ mod beyond_stall;
 mod bound_core;
 mod displaced;
 mod edge_ahead;
+mod excited_torsion;
 mod fluid;
 mod impossible;
 mod jumps;

@@ -15,29 +15,54 @@ const BACKWARDS: f64 = -0.2;
 const COUNTS: f64 = 0.1;
 
 impl FlightSetup {
-    /// Says that the wings, which do not beat, revolve with the trailing edge ahead: on a tether that turns, or a body
-    /// that is released turning. In the mean of all of them: of a pair one goes ahead as the body turns, one back.
+    /// Says which wings, which do not beat, revolve with the trailing edge ahead: on a tether that turns, or a body
+    /// that is released turning. Of a mirrored pair that is one of them.
     pub fn revolves_backwards(&self) -> Option<String> {
-        let root = match &self.mode {
-            MotionMode::Tethered(motion) => motion.impulsive().at(0.0).motion,
-            MotionMode::Free(_) => self.root_at_start(),
-        };
-        let wings = self.animal.wings.iter().enumerate();
-        let still = wings.filter(|(w, wing)| wing.is_still() && !self.has_own_joint(*w));
-        let still: Vec<&Wing> = still.map(|(_, wing)| wing).collect();
-        let sums = still.iter().map(|wing| self.pressures(wing, &root));
-        let [all, along, turning] = sums.fold([0.0; 3], |a, b| [0, 1, 2].map(|k| a[k] + b[k]));
-        if !(turning > COUNTS * all && along < BACKWARDS * all) {
+        let (backwards, turning) = self.wings_that_revolve();
+        if backwards.is_empty() {
             return None;
         }
         let key = match self.mode {
             MotionMode::Tethered(_) => "flight.tether, as yaw.rate_deg_s",
             MotionMode::Free(_) => "flight.angular_velocity_deg_s",
         };
-        let wings = names(still.iter().map(|w| &w.name[..]), ", ");
+        let remedy = match backwards.len() == turning {
+            true => format!(
+                "turn it the other way ({key} with the other sign), or take the mirror image of the wing (a left one for a right one)"
+            ),
+            false => "of a mirrored pair that turns one wing goes ahead, one back. Give the one that goes back a psi of its own, 180 deg less that of the other (right 45, left 135: [wing.left] with motion.psi.constant_deg = 135), or fly one wing alone (mirror = false)".to_owned(),
+        };
+        let wings = names(backwards.iter().map(|w| &w.name[..]), ", ");
         Some(format!(
-            "the body turns so that the trailing edge is ahead (wings {wings}): turn it the other way ({key} with the other sign), or take the mirror image of the wing (a left one for a right one)"
+            "the body turns so that the trailing edge is ahead (wings {wings}): {remedy}"
         ))
+    }
+
+    /// Whether `wing` revolves with the trailing edge ahead.
+    pub(super) fn goes_back_as_body_turns(&self, wing: &Wing) -> bool {
+        let (backwards, _) = self.wings_that_revolve();
+        backwards.iter().any(|w| w.name == wing.name)
+    }
+
+    /// The still wings that revolve with the trailing edge ahead, and how many revolve.
+    fn wings_that_revolve(&self) -> (Vec<&Wing>, usize) {
+        let root = match &self.mode {
+            MotionMode::Tethered(motion) => motion.impulsive().at(0.0).motion,
+            MotionMode::Free(_) => self.root_at_start(),
+        };
+        let wings = self.animal.wings.iter().enumerate();
+        let still = wings.filter(|(w, wing)| wing.is_still() && !self.has_own_joint(*w));
+        let (mut backwards, mut turning) = (vec![], 0);
+        for (_, wing) in still {
+            let [all, along, of_turning] = self.pressures(wing, &root);
+            if of_turning > COUNTS * all {
+                turning += 1;
+                if along < BACKWARDS * all {
+                    backwards.push(wing);
+                }
+            }
+        }
+        (backwards, turning)
     }
 
     /// Dynamic pressure of the undisturbed air past a still wing times width over density, the same times the cosine of

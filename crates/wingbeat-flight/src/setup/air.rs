@@ -2,7 +2,10 @@
 
 use std::sync::Arc;
 
-use wingbeat_air::{AirSettings, CoreModel, LeadingEdge, LoadMethod, SheddingKinds, Wind};
+use wingbeat_air::{
+    AirSettings, CoreModel, Friction, LIQUID_DENSITY, LeadingEdge, LoadMethod, SheddingKinds, Wind,
+    viscosity_of_density,
+};
 use wingbeat_blade::{BladeSettings, BodyDrag, DerivativeTable, Unsteady};
 use wingbeat_math::DVec3;
 
@@ -81,6 +84,25 @@ impl AirModel {
             Self::VortexLattice(options) => Some(options.lattice.density),
             Self::None | Self::Derivatives(_) | Self::External(_) | Self::Own(_) => None,
         }
+    }
+
+    /// Kinematic viscosity of the air [m2/s]: that of the friction, of wakes that spread, of blade elements where it is given,
+    /// or of a gas of this density; none of other air, and of liquids of which it is not known.
+    pub fn viscosity(&self) -> Option<f64> {
+        let of_lattice = |lattice: &AirSettings| {
+            let friction = lattice.section_drag.as_ref().map(|d| &d.friction);
+            match friction {
+                Some(Friction::Blasius { viscosity }) => Some(*viscosity),
+                _ => lattice.wake_core.viscosity(),
+            }
+        };
+        let known = match self {
+            Self::VortexLattice(options) => of_lattice(&options.lattice),
+            Self::BladeElement(options) => options.viscosity,
+            Self::None | Self::Derivatives(_) | Self::External(_) | Self::Own(_) => None,
+        };
+        let gas = |rho: &f64| (f64::MIN_POSITIVE..LIQUID_DENSITY).contains(rho);
+        known.or_else(|| self.density().filter(gas).map(viscosity_of_density))
     }
 
     /// Its stream, to be changed.
@@ -165,6 +187,9 @@ pub struct BladeOptions {
     pub induced: DVec3,
     /// Gusts and shear, added to the stream strip by strip.
     pub wind: Wind,
+    /// Kinematic viscosity of the air [m2/s], for the Reynolds number of which the coefficients are judged; none:
+    /// that of a gas of this density. No force depends on it.
+    pub viscosity: Option<f64>,
 }
 
 impl BladeOptions {
@@ -175,6 +200,7 @@ impl BladeOptions {
             body_drag: None,
             induced: DVec3::ZERO,
             wind: Wind::default(),
+            viscosity: None,
         }
     }
 }

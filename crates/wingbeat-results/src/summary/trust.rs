@@ -246,6 +246,9 @@ fn balances(
     // Through samples that scatter wings beat with the noise, which smaller steps follow.
     let scattered = "the samples of wing angles scatter, which smaller steps do not mend";
     let motion = match (is_free_and_elastic_by_momenta(setup), scatters) {
+        _ if setup.excited_torsion().is_some() => {
+            "the air excites the torsion of the wings, which smaller steps do not mend"
+        }
         (true, _) => {
             "take smaller steps, or dynamics.formulation = \"euler\", before trusting the motion"
         }

@@ -240,10 +240,9 @@ fn has_vortex_lift(lattice: &AirSettings) -> bool {
     lattice.shedding.leading && matches!(lattice.leading, LeadingEdge::VortexLift(_))
 }
 
-/// Mean chord of the first wing \[m\]; 1 without wings.
+/// Mean chord of all wings \[m\]; 1 without wings.
 fn mean_chord(setup: &FlightSetup) -> f64 {
-    let reports = setup.animal.wing_reports();
-    reports.first().map_or(1.0, |r| r.mean_chord)
+    setup.animal.mean_chord().unwrap_or(1.0)
 }
 
 /// So many lengths of a filament, in words.

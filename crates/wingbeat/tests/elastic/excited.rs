@@ -1,0 +1,150 @@
+//! Torsion of a wing in a stream, in quasi-steady blade elements: what the moments of the air make of it.
+
+use std::f64::consts::PI;
+use std::path::Path;
+
+use wingbeat::case::LoadedCase;
+use wingbeat::flight::{DoubtKind, Simulation};
+
+/// A clamped even wing that bends little and twists about 0.4 of its chord, in thin-airfoil strips.
+const CASE: &str = r#"
+format = 1
+name = "torsion"
+gravity_m_s2 = [0, 0, 0]
+[time]
+step_s = 0.00025
+steps = 900
+[flight]
+mode = "tethered"
+[air]
+model = "blade_element"
+density_kg_m3 = 1.225
+stream_m_s = [-5, 0, 0]
+blade.own = { lift = 3.141592653589793, drag_0 = 0, drag_90 = 0 }
+blade.centre_of_pressure.fixed = 0.25
+[body]
+mass_kg = 1.0
+inertia_about_centre_kg_m2 = [1, 1, 1, 0, 0, 0]
+[wing.right]
+hinge_m = [0, 0, 0]
+motion.psi.constant_deg = 0.2
+mirror = false
+planform.rectangle = { chord_m = 0.08, span_m = 0.3, axis_fraction = 0.25 }
+[wing.right.mesh]
+chordwise = 1
+spanwise = 10
+[wing.right.structure]
+spectral_radius = 1.0
+[wing.right.structure.beam]
+axis_fraction = 0.4
+mass_fraction = 0.4
+elements = 10
+flap_newton_m2 = [2000, 2000]
+torsion_newton_m2 = [0.1, 0.1]
+mass_kg_per_m = [0.0133, 0.0133]
+"#;
+
+fn case(set: &[&str]) -> LoadedCase {
+    let set: Vec<String> = set.iter().map(|s| (*s).to_owned()).collect();
+    LoadedCase::from_text("torsion", CASE, Path::new("."), &set).unwrap()
+}
+
+/// Growth [1/s] and angular frequency [rad/s] of the twist of the tip about its mean, from the first and last third.
+fn growth(set: &[&str]) -> [f64; 2] {
+    let setup = case(set).setup;
+    let step = setup.time.step;
+    let mut flight = Simulation::new(setup).unwrap();
+    let mut twist = vec![];
+    while !flight.finished() {
+        twist.push(flight.step().unwrap().elastic[0].twist);
+    }
+    // Instants at which it goes up through its mean, interpolated: whole periods lie between.
+    let mean = twist.iter().sum::<f64>() / twist.len() as f64;
+    let crossings: Vec<f64> = (1..twist.len())
+        .filter(|&k| twist[k - 1] < mean && twist[k] >= mean)
+        .map(|k| k as f64 - (twist[k] - mean) / (twist[k] - twist[k - 1]))
+        .collect();
+    let periods = crossings.len() - 1;
+    let amplitude = |first: usize| {
+        let [from, to] = [crossings[first], crossings[first + periods / 3]].map(|x| x as usize);
+        let part = &twist[from..to];
+        let mean = part.iter().sum::<f64>() / part.len() as f64;
+        let square = part.iter().map(|x| (x - mean).powi(2)).sum::<f64>();
+        (square / part.len() as f64).sqrt()
+    };
+    let later = periods - periods / 3;
+    let way = (crossings[later] - crossings[0]) * step;
+    let period = (crossings[periods] - crossings[0]) * step / periods as f64;
+    [
+        (amplitude(later) / amplitude(0)).ln() / way,
+        2.0 * PI / period,
+    ]
+}
+
+/// Torsion of an even wing about an axis a c behind the leading edge in thin-airfoil strips: a mode of a quarter of a sine
+/// wave, with the moment per span `pi rho c^2 U^2 (a - 1/4)` by the angle, `pi rho c^3 U k` by its rate and
+/// `pi rho c^4 ((1/2 - a)^2 + 1/32)/4` by its acceleration.
+fn exact(k: f64) -> [f64; 2] {
+    let (rho, u, c, a): (f64, f64, f64, f64) = (1.225, 5.0, 0.08, 0.4);
+    let inertia =
+        0.0133 * c * c / 12.0 + 0.25 * PI * rho * c.powi(4) * ((0.5 - a).powi(2) + 1.0 / 32.0);
+    let stiffness = 0.1 * (0.5 * PI / 0.3_f64).powi(2) - PI * rho * c * c * u * u * (a - 0.25);
+    let growth = 0.5 * PI * rho * c.powi(3) * u * k / inertia;
+    [growth, (stiffness / inertia - growth * growth).sqrt()]
+}
+
+#[test]
+fn exact_torsion_grows_without_the_couple_of_feathering_and_decays_with_it() {
+    let a = 0.4;
+    let circulation = (a - 0.25) * (0.75 - a) - 0.25 * (0.5 - a);
+    let cases = [
+        ("air.blade.rotation=\"circulation\"", circulation),
+        (
+            "air.blade.rotation=\"circulation_and_couple\"",
+            circulation - 1.0 / 16.0,
+        ),
+        (
+            "air.blade.rotation=\"none\"",
+            (a - 0.25) * (0.25 - a) - 0.25 * (0.5 - a), // the force follows the downwash of the feathering axis
+        ),
+    ];
+    for (set, k) in cases {
+        let [[growth, omega], [g, o]] = [growth(&[set]), exact(k)];
+        println!("{set}: growth {growth:.3} {g:.3}, frequency {omega:.2} {o:.2}");
+        // Ten elements and strips along a quarter of a wave, 45 steps a period: 1 % and 0.2 %.
+        assert!((growth / g - 1.0).abs() < 0.02, "{set}: {growth} {g}");
+        assert!((omega / o - 1.0).abs() < 0.005, "{set}: {omega} {o}");
+    }
+}
+
+#[test]
+fn behaves_undamped_torsion_in_quasi_steady_strips_is_doubted() {
+    let doubted = |set: &[&str]| {
+        let doubts = case(set).setup.doubts();
+        let mut of_torsion = doubts
+            .into_iter()
+            .filter(|d| d.kind == DoubtKind::ExcitedTorsion);
+        of_torsion.next().map(|d| d.said)
+    };
+    let said = doubted(&[]).unwrap();
+    assert!(
+        said.contains("circulation_and_couple") && said.contains("`right`"),
+        "{said}"
+    );
+    for remedy in [
+        "air.blade.rotation=\"circulation_and_couple\"",
+        "air.blade.rotation=\"none\"",
+        "air.blade.unsteady=\"peters\"",
+        "wing.right.structure.damping_s=1e-4",
+    ] {
+        assert_eq!(doubted(&[remedy]), None, "{remedy}");
+    }
+    let forward = ["axis", "mass"].map(|k| format!("wing.right.structure.beam.{k}_fraction=0.25"));
+    assert_eq!(doubted(&[&forward[0], &forward[1]]), None);
+    assert!(doubted(&[&forward[0]]).is_some());
+    let behind = [
+        "air.blade.rotation=\"circulation_and_couple\"",
+        "wing.right.structure.beam.axis_fraction=0.6",
+    ];
+    assert!(doubted(&behind).unwrap().contains("behind mid chord"));
+}
