@@ -41,8 +41,8 @@ pub struct AirCase {
     #[schemars(extend("with" = WIND))]
     pub buoyancy: bool,
     /// Kinematic viscosity of the air: of friction, of wakes that spread, and of the Reynolds numbers of `check`; no force
-    /// of blade elements depends on it. Default: that of a gas with the dynamic viscosity of air, 1.5e-5 at 1.225 kg/m3
-    /// and in inverse ratio to the density. The lattice takes either this, or those of `wake_core` and `section_drag`.
+    /// of blade elements depends on it. Default: of a gas 1.84e-5 Pa s, the dynamic viscosity of air, over the density
+    /// (1.5e-5 at 1.225 kg/m3); of a liquid 1.5e-5 in the lattice, and no Reynolds number in blade elements. The lattice takes either this, or those of `wake_core` and `section_drag`.
     ///
     /// Change it for a liquid (1e-6 in water), and for gases and temperatures of which you know it.
     #[schemars(extend("exclusiveMinimum" = 0, "with" = WIND))]
