@@ -71,7 +71,7 @@ fn refuses_a_shear_that_flows_apart() {
 #[test]
 fn behaves_gusts_that_never_arrive_are_named() {
     let said = |gust: &str| {
-        let more = format!("gust = [{{ amplitude_m_s = [0, 0, 1], {gust} }}]");
+        let more = format!("gust = [{{ amplitude_m_s = [0, 1, 0], {gust} }}]");
         let doubts = estimate(&spheroid(1.0, 6, &more).unwrap().setup).doubts;
         doubts.iter().filter(|d| d.contains("air.gust[0]")).count()
     };
@@ -95,4 +95,21 @@ fn refuses_cores_of_two_kinds_in_the_words_of_the_case() {
         error.contains("cut_off") && !error.contains("CutOff"),
         "{error}"
     );
+}
+
+/// The velocity `a f(t - s.x)` has the divergence `-a.s f'`: no gust of air blows along the way of its front.
+#[test]
+fn behaves_gusts_that_press_the_air_together_past_bodies_are_named() {
+    let pressed = |gust: &str| {
+        let more = format!("gust = [{{ duration_s = 0.2, {gust} }}]");
+        let setup = spheroid(0.5, 8, &more).unwrap().setup;
+        setup.gusts_that_press_air().len()
+    };
+    let along = "amplitude_m_s = [-1, 0, 0], front_m_s = [-1, 0, 0]";
+    assert_eq!(pressed(along), 1);
+    assert_eq!(
+        pressed("amplitude_m_s = [0, 0, 1], front_m_s = [-1, 0, 0]"),
+        0
+    );
+    assert_eq!(pressed("amplitude_m_s = [-1, 0, 0]"), 0);
 }

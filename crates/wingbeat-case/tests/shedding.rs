@@ -140,11 +140,12 @@ fn behaves_attached_flow_beyond_stall_is_named() {
         let text = format!(
             "format = 1\n[time]\nsteps_per_beat = 60\nbeats = 2\n[flight]\nmode = \"tethered\"\npitch_deg = {pitch}\n\
              tether.z = {{ frequency_hz = {hertz}, cosine_m = [{heave}] }}\n[motion]\nfrequency_hz = {hertz}\n\
-             [air]\nstream_m_s = [-1, 0, 0]\nplane_wakes = true\nshed = {shed}\n\
+             [air]\nstream_m_s = [-1, 0, 0]\nplane_wakes = {}\nshed = {shed}\n\
              [body]\nmass_kg = 1\ninertia_about_centre_kg_m2 = [1, 1, 1, 0, 0, 0]\n\
              [wing.right]\nhinge_m = [0, 0, 0]\nmass_kg = 0\nmirror = false\nmotion.phi.constant_deg = 0\n\
              planform.rectangle = {{ chord_m = 1, span_m = 100 }}\n\
-             mesh = {{ chordwise = 4, spanwise = 1, spanwise_spacing = \"uniform\" }}\n"
+             mesh = {{ chordwise = 4, spanwise = 1, spanwise_spacing = \"uniform\" }}\n",
+            !shed.contains("tip")
         );
         let case = LoadedCase::from_text("foil", &text, Path::new(""), &[]);
         case.unwrap().setup
@@ -163,6 +164,14 @@ fn behaves_attached_flow_beyond_stall_is_named() {
     assert_eq!(said(0.0, 0.05, 3.93 / std::f64::consts::PI), None);
     let sheds = foil(20.0, 1e-6, 0.1, r#"["trailing", "leading"]"#);
     assert_eq!(sheds.attached_beyond_stall(), None);
+    // Tips that shed make a note of it for wings that beat alone, and not of what is held or heaved by a tether.
+    let tips = foil(20.0, 1e-6, 0.1, r#"["trailing", "tip"]"#);
+    assert!(tips.attached_beyond_stall().is_some());
+    assert_eq!(tips.attached_strokes_beyond_stall(), None);
+    let fly = ["air.shed=[\"trailing\", \"tip\"]".to_owned()];
+    let fly = LoadedCase::find("fruit-fly-hover", &fly).unwrap().setup;
+    assert_eq!(fly.attached_beyond_stall(), None);
+    assert!(fly.attached_strokes_beyond_stall().is_some());
     // Plane flow has neither roots nor tips that could hold: what is left is that edges shed by the step before.
     let said = sheds.one_sided_leading_edges().unwrap();
     assert!(said.contains("the step before"), "{said}");

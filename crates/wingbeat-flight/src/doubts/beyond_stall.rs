@@ -31,32 +31,36 @@ const INSTANTS: usize = 100;
 impl FlightSetup {
     /// Says which wings meet the air beyond stall in their prescribed motion though the lattice lets nothing
     /// leave their leading edges, those that hang on other wings with the motion of these. Wings on joints that
-    /// leave anything free, elastic ones and those whose tips shed ([`Self::attached_strokes_beyond_stall`])
-    /// are left out, and so are forces by Polhamus's analogy.
+    /// leave anything free, elastic ones and those that beat while their tips shed
+    /// ([`Self::attached_strokes_beyond_stall`]) are left out, and so are forces by Polhamus's analogy.
     pub fn attached_beyond_stall(&self) -> Option<String> {
-        let found = self.beyond_stall(false)?;
+        let found = self.beyond_stall(|beats, tips_shed| !(beats && tips_shed))?;
         Some(format!(
             "{found}, and attached flow has too much lift, thrust and suction; let leading edges shed (air.shed with \
              \"leading\", docs/separated-flow.md, \"Which choice for which flight\")"
         ))
     }
 
-    /// The same of wings whose tips shed, as insects are flown attached for trim and modes.
+    /// The same of wings that beat and whose tips shed, as insects are flown attached for trim and modes.
     pub fn attached_strokes_beyond_stall(&self) -> Option<String> {
-        let found = self.beyond_stall(true)?;
+        let found = self.beyond_stall(|beats, tips_shed| beats && tips_shed)?;
         Some(format!(
             "{found}; attached flow, chosen by air.shed = [\"trailing\", \"tip\"], has neither its vortex nor its stall"
         ))
     }
 
-    fn beyond_stall(&self, tips_shed: bool) -> Option<String> {
+    /// The same of the wings that are `meant`, by whether they beat and whether tips shed.
+    fn beyond_stall(&self, meant: fn(bool, bool) -> bool) -> Option<String> {
         let air = &self.air.lattice()?.lattice;
-        if !is_of_attached_flow(air) || air.shedding.tip != tips_shed {
+        if !is_of_attached_flow(air) {
             return None;
         }
         let wings = self.animal.wings.iter().enumerate();
         let known = wings.filter(|(w, wing)| {
-            wing.structure.is_none() && self.prescribed_in_body(*w, 0.0).is_some()
+            let beats = !wing.is_still() || self.rides_on_wing(*w);
+            meant(beats, air.shedding.tip)
+                && wing.structure.is_none()
+                && self.prescribed_in_body(*w, 0.0).is_some()
         });
         let judged = known.map(|(w, wing)| (&wing.name[..], self.stall(w, wing)));
         let found: Vec<_> = judged.filter(|(_, stall)| stall[0] > PART).collect();

@@ -10,6 +10,8 @@ pub enum DoubtKind {
     LateGusts,
     /// Gusts that the steps do not resolve.
     ShortGusts,
+    /// Gusts that press the air together, past bodies.
+    PressedAir,
     /// A tether that starts otherwise than the wings.
     StartsApart,
     /// A smooth start that is not over when the flight is.
@@ -92,6 +94,7 @@ impl FlightSetup {
         add(LongStart, self.starts_that_do_not_end());
         add(LateGusts, self.gusts_that_never_arrive());
         add(ShortGusts, self.gusts_between_steps());
+        add(PressedAir, self.gusts_that_press_air());
         add(JumpingRotation, one(self.jumping_rotation()));
         add(ExcitedTorsion, one(self.excited_torsion()));
         add(InsideParts, self.wings_inside_parts());

@@ -18,6 +18,7 @@
 //! | buoyancy that is not computed, bodies light beside the fluid | `displaced` |
 //! | gusts that a flight never meets | `late_gusts` |
 //! | gusts that its steps do not resolve | `short_gusts` |
+//! | gusts that press the air together, past bodies | `pressed_air` |
 //! | forces of blade elements that jump | `jumps` |
 //! | torsion that blade elements excite | `excited_torsion` |
 //!
@@ -40,6 +41,7 @@ mod on_bodies;
 mod on_carriers;
 pub(crate) mod pairs;
 pub(crate) mod planes;
+mod pressed_air;
 mod revolving;
 mod said;
 mod scattered;

@@ -115,7 +115,7 @@ impl FlightSetup {
         let beats = self.animal.wings[found[0].0].motion.frequency > 0.0;
         let [what, when] = match beats {
             true => ["strokes are unlike back and forth", "in every beat"],
-            false => ["the motion goes more one way than the other", "in all"],
+            false => ["wings go more one way than the other", "over the flight"],
         };
         let [why, remedy] = match (found.iter().any(|(w, _)| root_holds(*w)), tips_hold) {
             (true, false) => [

@@ -124,13 +124,13 @@ fn cheapest(report: &mut Report, found: &Sweep) {
     let ends = [found.flights.first(), found.flights.last()].map(|f| f.map(forward));
     let least = [
         (
-            "power",
+            "power (storage)",
             "least_power",
             found.least_power(),
             found.least_power_forward(),
         ),
         (
-            "work per distance",
+            "work per distance (storage)",
             "least_work_per_distance",
             found.least_work(),
             found.least_work_forward(),
