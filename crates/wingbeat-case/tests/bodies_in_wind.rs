@@ -107,6 +107,11 @@ fn behaves_gusts_that_press_the_air_together_past_bodies_are_named() {
     };
     let along = "amplitude_m_s = [-1, 0, 0], front_m_s = [-1, 0, 0]";
     assert_eq!(pressed(along), 1);
+    // A front that is fast, so that the gust is long beside the body.
+    assert_eq!(
+        pressed("amplitude_m_s = [-1, 0, 0], front_m_s = [-500, 0, 0]"),
+        0
+    );
     assert_eq!(
         pressed("amplitude_m_s = [0, 0, 1], front_m_s = [-1, 0, 0]"),
         0
