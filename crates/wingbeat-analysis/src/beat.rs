@@ -19,7 +19,8 @@ use wingbeat_dynamics::{
     BodyMotion, Composite, Configuration, Formulation, Joint, JointOffsets, MomentumState,
 };
 use wingbeat_flight::{
-    AirModel, FlightSetup, FreeFlight, FreeFlightScratch, MotionBlend, MotionMode, is_driven,
+    AirModel, AppliedLoad, FlightSetup, FreeFlight, FreeFlightScratch, MotionBlend, MotionMode,
+    is_driven,
 };
 use wingbeat_math::ode::Rk4;
 use wingbeat_math::{DMat3, DQuat, DVec3, RotationLaw, rotation_vector};
@@ -41,6 +42,7 @@ pub struct Beat {
     flight: FreeFlight,
     mass: f64,
     gravity: DVec3,
+    weights: Vec<AppliedLoad>,
     stream: DVec3,
     steps: usize,
     period: f64,
@@ -116,6 +118,7 @@ impl Beat {
         Ok(Self {
             mass: flight.system().total_mass(),
             gravity: setup.gravity,
+            weights: setup.loads.clone(),
             stream: setup.air.stream().unwrap_or(DVec3::ZERO),
             steps,
             period,
@@ -355,13 +358,7 @@ impl Integration {
 
 /// An error if a wingbeat of the setup is not like the next.
 pub(crate) fn check_steady(setup: &FlightSetup) -> Result<(), AnalysisError> {
-    // Buoyancy and other constant weights are as steady as gravity, and as symmetric about it.
-    if !setup.loads.iter().all(|load| load.is_weight(setup.gravity)) {
-        return Err(AnalysisError::not_covered(
-            "the case has applied loads ([[load]]) that are not constant forces along gravity",
-            "remove them, or fly the case with `run`",
-        ));
-    }
+    check_weights(setup)?;
     if setup.feedback.is_some() {
         return Err(AnalysisError::not_covered(
             "the case has feedback ([control]), which has a memory of its own",
@@ -369,6 +366,18 @@ pub(crate) fn check_steady(setup: &FlightSetup) -> Result<(), AnalysisError> {
         ));
     }
     Ok(())
+}
+
+/// An error if applied loads are others than buoyancy and constant weights: these are as steady as gravity, and as
+/// symmetric about it.
+pub(crate) fn check_weights(setup: &FlightSetup) -> Result<(), AnalysisError> {
+    match setup.loads.iter().all(|load| load.is_weight(setup.gravity)) {
+        true => Ok(()),
+        false => Err(AnalysisError::not_covered(
+            "the case has applied loads ([[load]]) that are not constant forces along gravity",
+            "remove them, or fly the case with `run`",
+        )),
+    }
 }
 
 /// That no wingbeat is like the next because of the air.

@@ -9,7 +9,7 @@ pub(crate) mod rigid_body;
 pub(crate) mod table;
 
 use wingbeat_math::six_by_six::from_entries;
-use wingbeat_math::{DVec3, SixBySix, r3, six};
+use wingbeat_math::{DMat3, DVec3, SixBySix, r3, six};
 
 use crate::AnalysisError;
 use crate::beat::level::{Level, Perturbation};
@@ -89,11 +89,11 @@ pub fn linear_model(beat: &Beat, state: &State) -> Result<LinearModel, AnalysisE
     let modes = ModeSet::of_exponents(eigen(&matrix, 9)?, &size);
     let load = beat.changing_load(&level, &reference, [DVec3::ZERO; 2])?;
     let weight = body.mass * body.gravity;
-    let size = weight.length();
+    let (size, weights) = (weight.length(), body.weights(DMat3::IDENTITY));
     Ok(LinearModel {
         imbalance: [
-            (load.force + weight).length() / size,
-            load.moment.length() / (size * beat.wing_length()),
+            (load.force + weights.force + weight).length() / size,
+            (load.moment + weights.moment).length() / (size * beat.wing_length()),
         ],
         derivatives: load_derivatives(beat, &level, &reference, &steps)?,
         added_mass: body.added_mass,

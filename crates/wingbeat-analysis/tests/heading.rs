@@ -114,6 +114,7 @@ fn held(heading: f64, wind: DVec3) -> Option<Vec<DVec3>> {
         period: Some(period),
     };
     let design = Design {
+        buoyancy: vec![],
         law: LawDesign::Regulator(Weights::default()),
         target: Target::Begun,
         air: air.clone(),

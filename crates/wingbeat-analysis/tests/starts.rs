@@ -186,6 +186,7 @@ fn steered(setup: FlightSetup, law: LawDesign, parts: usize, start_beats: f64) -
         period: Some(period),
     };
     let design = Design {
+        buoyancy: vec![],
         law,
         target: Target::Trimmed,
         air,

@@ -4,7 +4,7 @@ use wingbeat_analysis::wake::WakeTrim;
 use wingbeat_analysis::{AnalysisError, LinearModel, Trim, TrimSolution, rigid_animal};
 use wingbeat_blade::DerivativeTable;
 use wingbeat_dynamics::BodyMotion;
-use wingbeat_flight::{FlightSetup, closes_loop};
+use wingbeat_flight::{FlightSetup, LoadFrame, closes_loop};
 use wingbeat_math::{DVec3, EulerSequence};
 use wingbeat_model::Side;
 use wingbeat_model::motion::Adjustment;
@@ -13,7 +13,7 @@ use super::LoadedCase;
 use super::raw::{
     AdjustCase, AirCase, AirModel, BodyCase, Case, ControlCase, ControllerCase, CorrectorCase,
     DerivativesCase, DynamicsCase, FlightCase, Formulation, IntegratorCase, JointCase, JointKind,
-    Mode, MotionCase, StabilisationCase, StartCase, TargetCase, TimeCase,
+    LoadCase, Mode, MotionCase, StabilisationCase, StartCase, TargetCase, TimeCase,
 };
 use crate::loaded::written_to_change as written;
 use crate::own_motion::every_phase;
@@ -266,6 +266,22 @@ fn clear_angle(angle: f64) -> f64 {
     clear(angle.to_degrees(), 1.0)
 }
 
+/// A constant force \[N\], inertial axes, at a point of the body \[m\].
+fn weight([point, force]: [DVec3; 2]) -> LoadCase {
+    LoadCase {
+        on: "body".to_owned(),
+        frame: LoadFrame::Inertial,
+        point_m: point.to_array(),
+        force_newton: force.to_array(),
+        couple_newton_m: [0.0; 3],
+        frequency_hz: 0.0,
+        force_cosine_newton: vec![],
+        force_sine_newton: vec![],
+        couple_cosine_newton_m: vec![],
+        couple_sine_newton_m: vec![],
+    }
+}
+
 /// The rigid animal of a trimmed flight under the derivatives of its averaged model, as TOML.
 ///
 /// # Errors
@@ -295,8 +311,8 @@ pub fn derivative_case(
     raw.segment.clear();
     raw.joint.clear();
     raw.spring.clear();
-    let points = raw.load.iter_mut().flat_map(|load| &mut load.point_m);
-    points.for_each(|x| *x *= raw.animal.scale);
+    // Buoyancy among them; the origin is at the mean mass centre.
+    raw.load = trim.beat.mean_weights().into_iter().map(weight).collect();
     raw.animal.scale = 1.0;
     raw.body = BodyCase {
         mass_kg: Some(mass),

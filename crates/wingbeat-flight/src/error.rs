@@ -193,7 +193,7 @@ pub enum FlightError {
     #[error(
         "step {step} (t = {time:.6e} s): {} after {passes} corrector passes: scaled residual {residual:.2e}, allowed {tolerance:.2e}; {}try a smaller step, more passes, or relaxation below {relaxation}{}{}",
         if *in_air { "bodies and air did not agree" } else { "the motion of the bodies did not converge" },
-        if *by_hamming { "set dynamics.integrator = \"bdf\", which carries bodies that weigh less than three times the fluid that they displace; or " } else { "" },
+        if *light_by_hamming { "set dynamics.integrator = \"bdf\", which carries bodies that weigh less than three times the fluid that they displace; or " } else { "" },
         match (in_air, elastic) {
             (true, _) => " (light bodies with large wings need it), and look whether wings cut through each other or the body",
             (false, true) => "; of elastic wings more damping (structure.damping_s), and look at the units of what they are made of (`wingbeat check` helps)",
@@ -216,8 +216,8 @@ pub enum FlightError {
         relaxation: f64,
         /// Whether there is air.
         in_air: bool,
-        /// Whether the air is a lattice and the integrator `hamming`.
-        by_hamming: bool,
+        /// Whether the integrator is `hamming` and the flyer light beside the fluid that its body displaces.
+        light_by_hamming: bool,
         /// Whether wings are elastic.
         elastic: bool,
     },

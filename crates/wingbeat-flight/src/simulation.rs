@@ -20,8 +20,8 @@ pub use state::{FlightState, Past};
 
 use wingbeat_dynamics::BodyMotion;
 use wingbeat_math::ode::{
-    Multistep, StepError, StepReport, block_start, order_two_start, scaled_difference,
-    stepwise_start,
+    BACKWARD_START, Multistep, StepError, StepReport, block_start, order_two_start,
+    scaled_difference, stepwise_start,
 };
 
 use self::fits::check_fits;
@@ -376,10 +376,15 @@ impl Simulation {
         let (y0, f0) = (&state.past.y[0], &state.past.f[0]);
         let convergence = convergence(&self.setup.corrector, equations);
         let scales = equations.scales();
-        let started = match equations.elastic.damping_on_joints() {
-            Some(rho) => {
+        // Rates at the start lack the added mass of the body, and sweeps over the block would lead away.
+        let is_light = self.setup.integrator == IntegratorChoice::Bdf
+            && self.setup.mass_over_carried_fluid().is_some();
+        let rho = equations.elastic.damping_on_joints();
+        let weights = rho.map(order_two_start);
+        let started = match weights.or(is_light.then_some(BACKWARD_START)) {
+            Some(weights) => {
                 let (from, how) = ((&y0[..], &f0[..]), (convergence, &scales[..]));
-                stepwise_start(from, h, &order_two_start(rho), how, &mut start)
+                stepwise_start(from, h, &weights, how, &mut start)
             }
             None => block_start(y0, f0, h, convergence, &scales, &mut start),
         };
@@ -413,8 +418,8 @@ fn failure(e: StepError<FlightError>, step: usize, time: f64, setup: &FlightSetu
             tolerance: settings.tolerance,
             relaxation: settings.relaxation,
             in_air: !matches!(setup.air, AirModel::None),
-            by_hamming: setup.air.lattice().is_some()
-                && setup.integrator == IntegratorChoice::Hamming,
+            light_by_hamming: setup.integrator == IntegratorChoice::Hamming
+                && setup.light_beside_fluid().is_some(),
             elastic: setup.animal.is_elastic(),
         },
     }

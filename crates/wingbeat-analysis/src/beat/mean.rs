@@ -1,6 +1,7 @@
 //! Loads averaged over a beat while the body moves steadily.
 
 use wingbeat_dynamics::{BodyAcceleration, BodyMotion, Wrench};
+use wingbeat_flight::AppliedLoad;
 use wingbeat_math::{DMat3, DQuat, DVec3};
 
 use crate::AnalysisError;
@@ -50,6 +51,25 @@ impl Beat {
     pub fn mean_momentum(&self) -> DVec3 {
         let sum: DVec3 = self.configurations().map(|(_, whole)| whole.h).sum();
         sum / (2 * self.steps()) as f64
+    }
+
+    /// Buoyancy and other constant loads along gravity as the steady body of the mean mass properties feels them: of each
+    /// the mean point of application from the mean mass centre, root components \[m\], and the force, N components \[N\].
+    pub fn mean_weights(&self) -> Vec<[DVec3; 2]> {
+        let centre = self.mean_centre();
+        let mut motions = vec![BodyMotion::REST; self.flight().system().bodies().len()];
+        let mut sums = vec![DVec3::ZERO; self.weights.len()];
+        for (configuration, _) in self.configurations() {
+            configuration.motions(&BodyMotion::REST, &mut motions);
+            for (sum, load) in sums.iter_mut().zip(&self.weights) {
+                let body = &motions[load.body];
+                *sum += body.p + body.r * load.point;
+            }
+        }
+        let n = (2 * self.steps()) as f64;
+        let force = |load: &AppliedLoad| load.wrench(0.0, &BodyMotion::REST).force;
+        let of = |(sum, load): (DVec3, &AppliedLoad)| [sum / n - centre, force(load)];
+        sums.into_iter().zip(&self.weights).map(of).collect()
     }
 
     /// Mean air load when the mean mass centre moves with `velocity` [m/s] and the body turns with `rate`

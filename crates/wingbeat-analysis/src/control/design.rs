@@ -2,7 +2,7 @@
 //! animal in blade elements, whatever the air it then flies in.
 //!
 //! Blade elements are smooth and have no memory, so gains follow from the map of one wingbeat. What
-//! disturbs a flight (applied loads, gusts) has no part in the layout.
+//! disturbs a flight (applied loads, gusts) has no part in the layout; buoyancy has.
 //!
 //! A trimmed flight heads along n1. A flight that is held as it begins may head anywhere: it is laid out about that of
 //! axes which are turned with it about the vertical, in which the stream blows as it does seen from the flyer.
@@ -10,7 +10,8 @@
 use std::sync::Arc;
 
 use wingbeat_flight::{
-    AirModel, BladeOptions, ControlModel, Controller, FlightError, FlightSetup, MotionMode,
+    AirModel, AppliedLoad, BladeOptions, ControlModel, Controller, FlightError, FlightSetup,
+    MotionMode,
 };
 use wingbeat_math::{DMat3, DVec3, EulerSequence};
 
@@ -55,6 +56,8 @@ pub struct Design {
     pub target: Target,
     /// Blade elements in which the flight is trimmed.
     pub air: BladeOptions,
+    /// Buoyancy, with which it is trimmed: constant loads along gravity, among those of the flight.
+    pub buoyancy: Vec<AppliedLoad>,
     /// Mean velocity to fly with: along the heading of the flight that is held, to the right of it (none), down [m/s].
     /// A trimmed flight heads along n1: N components.
     pub velocity: DVec3,
@@ -97,7 +100,7 @@ impl Design {
         };
         let mut plain = FlightSetup {
             air: AirModel::BladeElement(self.air.clone()),
-            loads: vec![],
+            loads: self.buoyancy.clone(),
             feedback: None,
             ..setup.clone()
         };

@@ -9,13 +9,16 @@ use crate::beat::Beat;
 use crate::beat::level::{Level, Perturbation};
 
 /// What the equations of a rigid aircraft need; axes fixed in the body, level in the reference attitude.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct RigidBody {
     pub(crate) mass: f64,
     /// About the mass centre.
     pub(crate) inertia: DMat3,
     /// In the reference attitude.
     pub(crate) gravity: DVec3,
+    /// Buoyancy and other constant loads along gravity: of each the point from the mass centre \[m\], and the force in the
+    /// reference attitude \[N\].
+    pub(crate) weights: Vec<[DVec3; 2]>,
     /// Velocity of the undisturbed air in the reference attitude.
     pub(crate) stream: DVec3,
     /// Mean angular momentum of the wings seen from the body [kg m2/s].
@@ -39,10 +42,13 @@ impl RigidBody {
         reference: &Perturbation,
     ) -> Result<Self, AnalysisError> {
         let to_level = level.to_root.transpose();
+        let weight =
+            |[point, force]: [DVec3; 2]| [to_level * point, level.to_n.transpose() * force];
         Ok(Self {
             mass: beat.mass(),
             inertia: to_level * beat.mean_inertia() * level.to_root,
             gravity: level.to_n.transpose() * beat.gravity(),
+            weights: beat.mean_weights().into_iter().map(weight).collect(),
             stream: level.to_n.transpose() * beat.stream(),
             momentum: to_level * beat.mean_momentum(),
             added_mass: added_mass(beat, level, reference)?,
@@ -62,11 +68,12 @@ impl RigidBody {
         let back = DMat3::from_quat(DQuat::from_scaled_axis(state.tilt)).transpose();
         // What changes is the velocity through the air; the stream turns against the body.
         let stream = back * self.stream;
-        let load = load(&state)?;
+        let (load, weights) = (load(&state)?, self.weights(back));
         let [through, rate] = self.accelerations(&Wrench {
             force: load.force
+                + weights.force
                 + self.mass * (back * self.gravity - w.cross(state.velocity - stream)),
-            moment: load.moment - w.cross(j * w + self.momentum),
+            moment: load.moment + weights.moment - w.cross(j * w + self.momentum),
         })?;
         // To first order in tilt and rate the rotation vector changes at the rate w.
         let rates = Perturbation {
@@ -75,6 +82,18 @@ impl RigidBody {
             tilt: w,
         };
         Ok(rates.to_array())
+    }
+
+    /// Buoyancy and other constant loads along gravity in all, about the mass centre, in the attitude that `back` turns
+    /// from the reference to.
+    pub(crate) fn weights(&self, back: DMat3) -> Wrench {
+        let mut sum = Wrench::default();
+        for [point, force] in &self.weights {
+            let force = back * *force;
+            sum.force += force;
+            sum.moment += point.cross(force);
+        }
+        sum
     }
 
     /// Linear and angular acceleration under these loads.

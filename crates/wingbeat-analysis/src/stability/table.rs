@@ -2,10 +2,11 @@
 //! from the cycle means of a flapping one.
 
 use wingbeat_blade::DerivativeTable;
-use wingbeat_flight::{AirModel, FlightSetup};
+use wingbeat_flight::{AirModel, AppliedLoad, FlightSetup};
 use wingbeat_math::{BodyMotion, DMat3, DVec3, Wrench, six_by_six, tilde};
 
 use crate::AnalysisError;
+use crate::beat::check_weights;
 use crate::stability::eigen::eigen;
 use crate::stability::jacobian::jacobian;
 use crate::stability::modes::{ModeSet, Scales};
@@ -31,11 +32,24 @@ pub fn table_model(setup: &FlightSetup) -> Result<LinearModel, AnalysisError> {
             "leave the wings out, or set dynamics.wings = \"massless\"",
         ));
     }
+    check_weights(setup)?;
     let inertia = setup.animal.body.inertia_about_centre();
+    let (along, centre) = (
+        setup.gravity.normalize_or_zero(),
+        setup.animal.body.centre(),
+    );
+    let weight = |load: &AppliedLoad| {
+        let force = load.wrench(0.0, &BodyMotion::REST).force.dot(along);
+        [
+            table.to_body.transpose() * (load.point - centre),
+            force * DVec3::Z,
+        ]
+    };
     let body = RigidBody {
         mass: setup.animal.body.mass,
         inertia: table.to_body.transpose() * inertia * table.to_body,
         gravity: DVec3::Z * setup.gravity.length(),
+        weights: setup.loads.iter().map(weight).collect(),
         stream: DVec3::ZERO, // velocities are those through the air
         momentum: DVec3::ZERO,
         added_mass: table.added_mass,
@@ -105,7 +119,13 @@ pub fn rigid_animal(
     let (level, steady) = reference(&trim.beat, &trim.state)?;
     let stream = level.to_n.transpose() * trim.beat.stream();
     // The trimmed flight is in balance.
-    let f = -trim.beat.mass() * (level.to_n.transpose() * trim.beat.gravity());
+    let mut f = -trim.beat.mass() * (level.to_n.transpose() * trim.beat.gravity());
+    let mut m = DVec3::ZERO;
+    for [point, force] in trim.beat.mean_weights() {
+        let force = level.to_n.transpose() * force;
+        f -= force;
+        m -= (level.to_root.transpose() * point).cross(force);
+    }
     let mut derivatives = model.derivatives;
     // Wings that carry angular momentum along turn a body that turns.
     let gyroscopic = tilde(model.momentum);
@@ -116,7 +136,7 @@ pub fn rigid_animal(
         to_body: level.to_root,
         point: DVec3::ZERO,
         velocity: steady.velocity - stream,
-        reference: [f.x, f.y, f.z, 0.0, 0.0, 0.0],
+        reference: [f.x, f.y, f.z, m.x, m.y, m.z],
         derivatives,
         added_mass: model.added_mass,
         stream: DVec3::ZERO,

@@ -7,7 +7,7 @@ use wingbeat_analysis::control::{
     Channels, Design, LawDesign, Limits, ProcessNoise, Sensors, Stiffness, Target, Timing, Weights,
 };
 use wingbeat_flight::control::MIN_INTERVAL;
-use wingbeat_flight::{BladeOptions, ControlModel, Feedback};
+use wingbeat_flight::{AppliedLoad, BladeOptions, ControlModel, Feedback};
 use wingbeat_math::DVec3;
 
 use super::blade;
@@ -25,8 +25,8 @@ use crate::raw::{
 /// Where the controller is chosen.
 const KEY: &str = "control.controller";
 
-/// Feedback of the case; none without, or with `controller = "none"`.
-pub(super) fn feedback(case: &Case) -> Built<Option<Feedback>> {
+/// Feedback of the case, laid out with this buoyancy; none without, or with `controller = "none"`.
+pub(super) fn feedback(case: &Case, buoyancy: &[AppliedLoad]) -> Built<Option<Feedback>> {
     let Some(control) = &case.control else {
         return Ok(None);
     };
@@ -39,12 +39,20 @@ pub(super) fn feedback(case: &Case) -> Built<Option<Feedback>> {
         ControllerCase::Regulator => {
             check(case)?;
             let law = LawDesign::Regulator(weights(&control.weights));
-            Arc::new(design(case, control, law)?)
+            let buoyancy = buoyancy.to_vec();
+            Arc::new(Design {
+                buoyancy,
+                ..design(case, control, law)?
+            })
         }
         ControllerCase::Stabiliser => {
             check(case)?;
             let law = LawDesign::Stabiliser(stiffness(&control.stiffness));
-            Arc::new(design(case, control, law)?)
+            let buoyancy = buoyancy.to_vec();
+            Arc::new(Design {
+                buoyancy,
+                ..design(case, control, law)?
+            })
         }
     };
     Ok(Some(Feedback {
@@ -67,6 +75,7 @@ fn design(case: &Case, control: &ControlCase, law: LawDesign) -> Built<Design> {
             wind: Wind::default(),
             ..blade::options(&case.air, case.animal.scale)?
         },
+        buoyancy: vec![],
         velocity: DVec3::new(control.forward_m_s, 0.0, -control.climb_m_s),
         timing: timing(case, control)?,
         every: control.every_beats,

@@ -63,7 +63,8 @@ pub(crate) fn setup(case: &Case, name: &str) -> Built<FlightSetup> {
     let joints = joint::build_all(case, &animal)?;
     let air = air::model(case, &animal)?;
     let mut loads = flight::loads(case, &animal)?;
-    loads.extend(buoyancy::loads(case, &air, &animal)?);
+    let buoyancy = buoyancy::loads(case, &air, &animal)?;
+    loads.extend(buoyancy.iter().cloned());
     let setup = FlightSetup {
         name: name.to_owned(),
         gravity: case.gravity_m_s2.into(),
@@ -75,7 +76,7 @@ pub(crate) fn setup(case: &Case, name: &str) -> Built<FlightSetup> {
         corrector: corrector(&case.corrector),
         loads,
         springs: flight::springs(case, &animal)?,
-        feedback: control::feedback(case)?,
+        feedback: control::feedback(case, &buoyancy)?,
         animal,
         time,
     };

@@ -26,7 +26,7 @@ impl FlightSetup {
         let is_felt = self.is_moved_by_forces() && self.gravity != DVec3::ZERO && part >= FELT;
         (is_felt && !is_given).then(|| {
             format!(
-                "the fluid that the bodies displace weighs {part:.3} times the flyer, and nothing bears them up: set air.buoyancy = true, or give the weight that is left by gravity_m_s2 or a [[load]]"
+                "the fluid that the bodies displace weighs {part:.3} times the flyer, and nothing bears them up: set air.buoyancy = true, or give the weight that is left by a [[load]]"
             )
         })
     }
@@ -43,22 +43,23 @@ impl FlightSetup {
     /// Says that a free flyer in the lattice weighs so little beside the fluid that its body displaces that `hamming`
     /// does not carry that along.
     pub fn light_beside_fluid(&self) -> Option<String> {
-        let air = self.air.lattice().filter(|air| air.body_surfaces)?;
-        let is_free = matches!(self.mode, MotionMode::Free(_));
+        let ratio = self.mass_over_carried_fluid()?;
         let is_stable = self.integrator == IntegratorChoice::Bdf;
-        let displaced = air.lattice.density
-            * self
-                .animal
-                .solids()
-                .iter()
-                .find(|s| s.0 == 0)
-                .map_or(0.0, |s| s.1);
-        let ratio = self.animal.mass() / displaced;
-        (is_free && !is_stable && ratio < LIGHT).then(|| {
+        (!is_stable).then(|| {
             format!(
                 "the flyer weighs {ratio:.2} times the fluid that its body displaces, and below {LIGHT} times forces may alternate or steps not converge by dynamics.integrator = \"{}\": set dynamics.integrator = \"bdf\"",
                 self.integrator.name()
             )
         })
+    }
+
+    /// Mass of a free flyer in the lattice over that of the fluid that its body displaces, where it is so small that added
+    /// mass moves it \[1\].
+    pub(crate) fn mass_over_carried_fluid(&self) -> Option<f64> {
+        let air = self.air.lattice().filter(|air| air.body_surfaces)?;
+        let solids = self.animal.solids();
+        let (_, volume, _) = solids.iter().find(|s| s.0 == 0)?;
+        let ratio = self.animal.mass() / (air.lattice.density * volume);
+        (matches!(self.mode, MotionMode::Free(_)) && ratio < LIGHT).then_some(ratio)
     }
 }

@@ -59,7 +59,9 @@ pub fn stages(setup: &FlightSetup, law: &WingLaw<'_>) -> Result<Vec<Stage>, Flig
     let is_carried = !carried.is_empty() || (moves_by_air && !elastic.is_empty());
     let mirror = (moves_by_air && setup.air.is_mirrored()).then(|| mirror(setup, &system));
     let moves_joints = system.speeds() > 0 && !setup.air.keeps_wake();
-    let accelerated_from = accelerated_from(setup, is_carried || moves_joints);
+    let is_light_in_fluid = setup.mass_over_carried_fluid().is_some();
+    let at_once = is_carried || moves_joints || is_light_in_fluid;
+    let accelerated_from = accelerated_from(setup, at_once);
     let stage = |from_step: usize, core: Box<dyn Formulation>| {
         let step = setup.time.step;
         let mirror = mirror
@@ -97,7 +99,8 @@ pub fn stages(setup: &FlightSetup, law: &WingLaw<'_>) -> Result<Vec<Stage>, Flig
     })
 }
 
-/// Pass from which those before speed the next ones up: `at_once` where air is carried along, or springs and
+/// Pass from which those before speed the next ones up: `at_once` where air is carried along, by light bodies as a
+/// difference over steps, too, or springs and
 /// dampers of joints may act faster than the steps; else in a wake where plain passes lead nowhere, as where
 /// one half of the air is computed and the form does not keep to the mirror: least squares raise what parts the
 /// halves by rounding.

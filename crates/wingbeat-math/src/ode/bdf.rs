@@ -78,6 +78,14 @@ pub fn order_two_start(rho: f64) -> [[f64; 4]; 3] {
     ]
 }
 
+/// Starting steps by the formulas of order one, two and three, which ask neither for later rates nor for those at the
+/// start: weights of f0 to f3 in `(y_k - y_0) / h`, k = 1, 2, 3.
+pub const BACKWARD_START: [[f64; 4]; 3] = [
+    [0.0, 1.0, 0.0, 0.0],
+    [0.0, 4.0 / 3.0, 2.0 / 3.0, 0.0],
+    [0.0, 15.0 / 11.0, 12.0 / 11.0, 6.0 / 11.0],
+];
+
 /// The method: step, convergence and scratch.
 #[derive(Clone, Debug)]
 pub struct Bdf {

@@ -18,7 +18,7 @@ mod stability;
 pub mod start;
 
 pub use adams::AdamsBashforthMoulton;
-pub use bdf::{Bdf, order_two_start};
+pub use bdf::{BACKWARD_START, Bdf, order_two_start};
 pub use corrector::{Asked, Convergence, StepError, StepReport, scaled_difference};
 pub use dop853::{AdaptiveError, AdaptiveReport, Dop853, Tolerance};
 pub use hamming::{Hamming, Multistep};
