@@ -4,8 +4,8 @@ use crate::edges::EdgeKind;
 use crate::error::{AirError, require};
 use crate::geometry::{
     Carried, Controls, JoinedEdge, MirrorPairs, Rings, ShedAround, Sheet, Strip, SuctionStrips,
-    Surface, Symmetry, Topology, WakeColumn, carried, joined_groups, middle_columns, rings,
-    shed_around, spanwise, strips,
+    Surface, Symmetry, Topology, WakeColumn, borders, carried, joined_groups, middle_columns,
+    rings, shed_around, spanwise, strips,
 };
 use crate::images::{Mirror, Plane, mirrors};
 use crate::settings::AirSettings;
@@ -32,6 +32,8 @@ pub struct Lattice {
     symmetry: Option<Symmetry>,
     suction: SuctionStrips,
     joined: Vec<usize>,
+    /// Sides of panels that no other panel shares.
+    borders: Vec<[bool; 4]>,
     shed_around: Vec<ShedAround>,
     /// Panels within bodies, and the column of nodes in the middle of those wake sheets that leave them.
     carried: Vec<Carried>,
@@ -116,6 +118,7 @@ impl Lattice {
             middle_columns: middle_columns(&topology, &surfaces),
             strips,
             shed_around: shed_around(&topology, &surfaces, &joined),
+            borders: borders(&topology, &surfaces),
             joined,
             led,
             spanwise,
@@ -228,6 +231,11 @@ impl Lattice {
     /// For each surface the first of those that it is joined to.
     pub(crate) fn joined_groups(&self) -> &[usize] {
         &self.joined
+    }
+
+    /// Which sides of each panel no other panel shares, see [`borders`].
+    pub(crate) fn borders(&self) -> &[[bool; 4]] {
+        &self.borders
     }
 
     /// The strip that begins with panel `p`, if one does.

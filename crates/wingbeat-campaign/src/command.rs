@@ -1,6 +1,9 @@
 //! Commands for a shell: what flies a point by itself.
 
 use std::fmt::Write as _;
+use std::path::Path;
+
+use wingbeat_case::{shell, shell_path};
 
 use crate::campaign::Campaign;
 use crate::plan::raw::Task;
@@ -13,8 +16,7 @@ pub fn command(campaign: &Campaign, i: usize) -> String {
     let raw = campaign.raw();
     let is_trimmed = raw.tasks.contains(&Task::Trim);
     let verb = if is_trimmed { "trim" } else { "run" };
-    let here = if raw.case.starts_with('-') { "./" } else { "" }; // no option
-    let mut text = format!("wingbeat {verb} {}", shell(&format!("{here}{}", raw.case)));
+    let mut text = format!("wingbeat {verb} {}", shell_path(Path::new(&raw.case)));
     for set in campaign.overrides(i) {
         let _ = write!(text, " --set {}", shell(&set)); // a string takes everything
     }
@@ -50,15 +52,6 @@ pub fn command(campaign: &Campaign, i: usize) -> String {
         text.push_str(" && wingbeat run trimmed.toml");
     }
     text
-}
-
-/// A word of a command line.
-pub fn shell(word: &str) -> String {
-    let plain = |c: char| c.is_ascii_alphanumeric() || "-_./=+,:@%".contains(c);
-    match !word.is_empty() && word.chars().all(plain) {
-        true => word.to_owned(),
-        false => format!("'{}'", word.replace('\'', r"'\''")),
-    }
 }
 
 #[cfg(test)]

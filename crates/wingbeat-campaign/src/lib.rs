@@ -23,7 +23,6 @@ mod store;
 mod worker;
 
 pub use campaign::Campaign;
-pub use command::shell;
 pub use plan::Plan;
 pub use plan::named;
 pub use plan::number::Number;

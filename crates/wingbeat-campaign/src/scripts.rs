@@ -1,8 +1,8 @@
 //! What other engines need: an array of jobs for SLURM, a rule for Snakemake.
 
 use crate::campaign::Campaign;
-use crate::command::shell;
 use crate::merge::FILES;
+use wingbeat_case::shell;
 
 /// A campaign for other engines.
 #[derive(Clone, Copy, Debug)]

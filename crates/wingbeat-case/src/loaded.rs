@@ -11,7 +11,8 @@ use crate::external::Unasked;
 use crate::external::controller::Uncommanded;
 use crate::files::TableGaps;
 use crate::output::OutputSettings;
-use crate::source::CaseSource;
+use crate::shell::{shell, shell_path};
+use crate::source::{CaseSource, table_of};
 use crate::{build, decode, files, keys, presets, raw, resolve};
 
 /// A case, validated and ready to fly.
@@ -52,10 +53,11 @@ impl LoadedCase {
         let name = raw.name.get_or_insert_with(|| stem.to_owned()).clone();
         let mut built = || {
             check_name(&name)?;
+            build::check_names(&raw)?;
             keys::alone(&source.table)?;
             let gaps = files::read_in(&mut raw, base)?;
             resolve::resolve(&mut raw)?;
-            keys::together(&source, &table(&raw))?;
+            keys::together(&source, &table_of(&raw))?;
             let setup = build::setup(&raw, &name)?;
             build::check_effects(&raw, &setup, &source)?;
             Ok((setup, gaps))
@@ -98,14 +100,14 @@ impl LoadedCase {
     /// As [`Self::from_text`].
     pub fn new(case: raw::Case) -> Result<Self, IoError> {
         let name = case.name.clone();
-        let mut given = changed(table(&case), &table(&raw::Case::default()));
+        let mut given = changed(table_of(&case), &table_of(&raw::Case::default()));
         let format = i64::from(case.format);
         given.insert("format".to_owned(), format.into());
         let body = || toml::Table::new().into();
         given.entry("body".to_owned()).or_insert_with(body);
         // Keys in tables without defaults are all there: those that have no effect are left out if
         // they say nothing, and refused if they do.
-        let lean = keys::effective(&table(&case), &given);
+        let lean = keys::effective(&table_of(&case), &given);
         let says_all = lean.clone().try_into::<raw::Case>().as_ref() == Ok(&case);
         let text = toml::to_string(if says_all { &lean } else { &given });
         let text = text.expect("a table is TOML");
@@ -225,7 +227,7 @@ impl LoadedCase {
     /// The keys of the resolved case that have an effect, all others at their defaults: where another
     /// case for [`Self::new`] begins.
     pub fn effective(&self) -> raw::Case {
-        let table = table(&self.raw);
+        let table = table_of(&self.raw);
         let lean = keys::effective(&table, &table);
         lean.try_into().expect("a case without idle keys is a case")
     }
@@ -275,7 +277,7 @@ fn of_a_campaign(source: &CaseSource, mut error: Box<CaseError>) -> Box<CaseErro
     if names_a_case && error.problem.starts_with("unknown key") {
         error.remedy = format!(
             "this is the file of a campaign, which `wingbeat campaign run {}` flies",
-            source.name
+            shell_path(Path::new(&source.name))
         );
     }
     error
@@ -299,21 +301,8 @@ fn check_name(name: &str) -> Result<(), Fault> {
 
 /// A command as it would be typed.
 fn in_words(external: &raw::ExternalCase) -> String {
-    let plain = |c: char| c.is_alphanumeric() || "-_./=+,:@%".contains(c);
-    let quoted =
-        external
-            .command
-            .iter()
-            .map(|word| match !word.is_empty() && word.chars().all(plain) {
-                true => word.clone(),
-                false => format!("{word:?}"),
-            });
-    let words: Vec<String> = quoted.collect();
+    let words: Vec<String> = external.command.iter().map(|word| shell(word)).collect();
     words.join(" ")
-}
-
-fn table(case: &raw::Case) -> toml::Table {
-    toml::Table::try_from(case).expect("a case that was read can be written")
 }
 
 /// The keys of `given` that are not as in `default`. A table of one key is a choice, taken as a whole.
@@ -330,14 +319,14 @@ fn changed(given: toml::Table, default: &toml::Table) -> toml::Table {
 
 /// The keys of a resolved case that have an effect, as TOML.
 pub(crate) fn written(case: &raw::Case) -> String {
-    let table = table(case);
+    let table = table_of(case);
     toml::to_string(&keys::effective(&table, &table)).expect("a table is TOML")
 }
 
 /// The same for a case that is to be flown on: without the numbers of one controller that are those of the default,
 /// which another controller refuses.
 pub(crate) fn written_to_change(case: &raw::Case) -> String {
-    let whole = table(case);
+    let whole = table_of(case);
     let mut table = keys::effective(&whole, &whole);
     let default = raw::ControlCase::default();
     let control = table.get_mut("control").and_then(toml::Value::as_table_mut);

@@ -374,9 +374,9 @@ enum Part<'a> {
     Index(usize),
 }
 
-/// A part of the raw case as the table that would be read; an empty one of a part that is left out.
+/// The raw case, or a table in it, as the table that would be read.
 pub(crate) fn table_of(raw: &impl serde::Serialize) -> Table {
-    Table::try_from(raw).unwrap_or_default()
+    Table::try_from(raw).expect("a case that was read can be written")
 }
 
 /// The value at a path.

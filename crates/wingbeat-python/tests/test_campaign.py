@@ -258,6 +258,17 @@ def test_behaves_flights_are_pickled_with_their_keys(tmp_path, monkeypatch):
         pickle.dumps(flight.with_air(lambda _: np.zeros((3, 6))))
 
 
+def test_behaves_a_file_is_found_where_its_path_has_an_equals_sign(blade, tmp_path, monkeypatch):
+    name = "frequency=200/case.toml"
+    (tmp_path / "frequency=200").mkdir()
+    (tmp_path / name).write_text(blade.case_text)
+    monkeypatch.chdir(tmp_path)
+    assert Flight.from_case(name).case_text == blade.case_text
+    assert campaign.map({"time.beats": [1]}, campaign.Serial(), base=name).ok.all()
+    with pytest.raises(CaseError, match="unknown key"):
+        Flight.from_case("nothing = 1")  # a text, where there is no such file
+
+
 def test_exact_units_are_those_of_the_columns(blade):
     run = blade.fly()
     for name, unit, *_ in run._core.columns():

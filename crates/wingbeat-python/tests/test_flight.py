@@ -21,8 +21,14 @@ import numpy as np
 import pytest
 
 import wingbeat
+from wingbeat import _toml
 
 from conftest import interrupted
+
+
+def test_agrees_toml_with_its_reader_in_keys_of_any_letters():
+    case = {"\U0001f98b \x7f \"": {"\u00e9\n": [1, "\U0001f98b\x7f"]}}
+    assert tomllib.loads(_toml.document(case)) == case
 
 
 def test_agrees_with_the_command_line_to_the_last_bit(blade, lattice, program, tmp_path):

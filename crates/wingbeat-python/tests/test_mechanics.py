@@ -104,6 +104,9 @@ def test_behaves_scipy_and_matlab_take_the_model(trim, tmp_path):
     with pytest.raises(wingbeat.ResultError, match="exists already"):
         model.save(tmp_path / "model.mat")
     model.save(tmp_path / "model.mat", overwrite=True)
+    (tmp_path / "model").mkdir()
+    with pytest.raises(OSError):
+        model.save(tmp_path / "model", overwrite=True)  # and not the file beside it
     assert list(read["inputs"]) == list(model.inputs) and list(read["state_units"]) == list(model.state_units)
 
 

@@ -222,17 +222,19 @@ impl FastSum {
             matches!(self.settings.model, CoreModel::Algebraic { .. }),
             "algebraic cores"
         );
-        if self.soft.is_loaded() && !self.is_few(targets) && !targets.is_empty() {
-            let check = Check::with_vorticity(self.sources(), targets);
-            let sum = self.add_soft(&check, targets, (&mut *velocity, Some(&mut *vorticity)));
+        let has_soft = self.soft.is_loaded() && !self.is_few(targets) && !targets.is_empty();
+        let has_single = self.has_single && targets.len() >= SINGLE_TARGETS;
+        let needs_check = has_soft || has_single;
+        let check = needs_check.then(|| Check::with_vorticity(self.sources(), targets));
+        if let Some(check) = check.as_ref().filter(|_| has_soft) {
+            let sum = self.add_soft(check, targets, (&mut *velocity, Some(&mut *vorticity)));
             if sum.is_ok() {
                 return;
             }
         }
         let (packed, single) = (&self.packed, &self.single);
         let (edges, level) = (packed.edges.len(), self.level);
-        if self.has_single && targets.len() >= SINGLE_TARGETS {
-            let check = Check::new(self.sources(), targets);
+        if let Some(check) = check.filter(|_| has_single) {
             self.velocity.reset(targets.len());
             self.vorticity.reset(targets.len());
             let out = [&mut self.velocity, &mut self.vorticity];
@@ -240,8 +242,7 @@ impl FastSum {
                 let all = 0..single.clusters.len();
                 moments::add_clusters(level, single, all, targets, sums);
             });
-            let is_finite = self.vorticity.iter().all(|w| w.is_finite());
-            if is_finite && self.error_of_single(&check).is_some() {
+            if self.error_of_single(&check).is_some() {
                 add_to(velocity, &self.velocity);
                 add_to(vorticity, &self.vorticity);
                 return;
@@ -269,13 +270,25 @@ impl FastSum {
         self.soft.add(check, targets, how, out)
     }
 
-    /// Error of the velocities in single precision at the sampled targets, root mean square and largest; None if it is
-    /// above the tolerance.
+    /// Error in single precision at the sampled targets, root mean square and largest, of the velocities and, where the
+    /// check has them, the vorticities; None if it is above the tolerance.
     fn error_of_single(&self, check: &Check) -> Option<[f64; 2]> {
-        let sampled = check.index.map(|i| self.velocity.get(i));
-        let error = check.error(&sampled[..check.count]);
-        let is_finite = self.velocity.iter().all(|v| v.is_finite());
-        (is_finite && error[0] <= self.settings.tolerance).then_some(error)
+        let sampled = |sums: &Points| check.index.map(|i| sums.get(i));
+        let is_finite = |sums: &Points| sums.iter().all(|v| v.is_finite());
+        let velocity = sampled(&self.velocity);
+        let velocity = &velocity[..check.count];
+        let (error, are_finite) = match check.has_vorticity() {
+            true => {
+                let vorticity = sampled(&self.vorticity);
+                let error = check.error_of_both(velocity, &vorticity[..check.count]);
+                (
+                    error,
+                    is_finite(&self.velocity) && is_finite(&self.vorticity),
+                )
+            }
+            false => (check.error(velocity), is_finite(&self.velocity)),
+        };
+        (are_finite && error[0] <= self.settings.tolerance).then_some(error)
     }
 
     /// By the tree; None, and nothing added, if single precision was too small for the near field.

@@ -434,6 +434,44 @@ fn conserves_impulse_where_cores_change_along_filaments() {
     assert!(fine < 3e-5 && coarse > 12.0 * fine, "{coarse} {fine}");
 }
 
+/// Halfway between two opposite lines velocities add up and vorticities cancel: single precision does for the former
+/// and not for the latter, whose error is above the tolerance.
+#[test]
+fn agrees_vorticity_that_cancels_with_double_precision() {
+    let model = models()[4];
+    let mut net = Network::default();
+    for (y, gamma) in [(-1.0, 1.0), (1.0, -1.0)] {
+        let first = net.nodes.len();
+        (0..=400).for_each(|k| net.nodes.push(DVec3::new(0.01 * f64::from(k), y, 0.0)));
+        (first..first + 400).for_each(|n| net.push_edge(n, n + 1, gamma, model.core(0.01, 0.0)));
+    }
+    net.nodes.core = vec![0.002; net.nodes.len()];
+    let mut random = Numbers(5);
+    let mut targets = Points::default();
+    for _ in 0..700 {
+        let x = random.point() * DVec3::new(1.0, 1e-5, 1.0) + 2.0 * DVec3::X;
+        targets.push_with_core(x, 0.001);
+    }
+    let vorticity = |tolerance: f64| {
+        let mut sum = FastSum::new(FastSettings {
+            tolerance,
+            ..FastSettings::new(model)
+        });
+        sum.load_network(&net);
+        let [mut v, mut w] = [0; 2].map(|_| Points::zeros(targets.len()));
+        sum.add_velocity_and_vorticity(&targets, &mut v, &mut w);
+        w
+    };
+    let [allowed, double] = [1e-4, 0.0].map(vorticity);
+    let errors = allowed.iter().zip(double.iter());
+    let error: f64 = errors.map(|(a, b)| a.distance_squared(b)).sum();
+    let size: f64 = double.iter().map(|a| a.length_squared()).sum();
+    let relative = (error / size).sqrt();
+    println!("{relative:e}");
+    // The tolerance; in double precision all digits agree.
+    assert!(relative < 1e-4, "{relative}");
+}
+
 /// The second sum in single precision, and its velocity against that of the velocity alone.
 #[test]
 fn agrees_single_precision_of_velocity_and_vorticity() {

@@ -110,12 +110,12 @@ fn exact_unknown_key() {
     );
 }
 
-/// Columns are named after wings: `a,b` and `a;b` would give the same ones twice.
+/// Columns are named after wings: `a+b` and `a;b` would give the same ones twice.
 #[test]
 fn refuses_wings_whose_columns_would_have_the_same_names() {
     let second = GOOD.split("[wing.right]").nth(1).unwrap();
     for (first, other) in [
-        ("a,b right", "a;b right"),
+        ("a+b right", "a;b right"),
         ("x-right", "x-right_prescribed"),
     ] {
         let both = second.replace("[wing.right", &format!("[wing.\"{other}\""));
@@ -130,6 +130,30 @@ fn refuses_wings_whose_columns_would_have_the_same_names() {
             "its columns in the history could not be told from those of `wing.",
             "give one of the two another name",
         ] {
+            assert!(said.contains(part), "{said}\ndoes not say: {part}");
+        }
+    }
+}
+
+/// A line end would end a line to another program, a comma shifts columns, a dot ends a part of a key.
+#[test]
+fn refuses_names_of_parts_with_characters_of_keys_and_tables() {
+    for name in [
+        r"a\nb right",
+        "a,b right",
+        "fore.right",
+        "a[0]-right",
+        r#"a\"right"#,
+        "a=right",
+        " ",
+    ] {
+        let text = GOOD.replace("[wing.right", &format!("[wing.\"{name}\""));
+        let scratch = Scratch::new("names-of-parts");
+        case_in(&scratch, &text);
+        let out = wingbeat(&scratch.0, &["check", "case.toml"]);
+        let said = String::from_utf8_lossy(&out.stderr);
+        assert_eq!(out.status.code(), Some(2), "{name}: {said}");
+        for part in ["wing", "name", "letters, digits, - and _"] {
             assert!(said.contains(part), "{said}\ndoes not say: {part}");
         }
     }

@@ -212,6 +212,47 @@ fn exact_the_animation_moves() {
     }
 }
 
+/// A program in place of ffmpeg that says more than a pipe holds before it takes a picture: the film is made, or its
+/// last words are heard. The file is named so that it is no option.
+#[cfg(unix)]
+#[test]
+fn behaves_a_film_is_made_by_a_program_that_says_much() {
+    use std::os::unix::fs::PermissionsExt as _;
+    let scratch = Scratch::new("figures-film");
+    let dir = &scratch.0;
+    let args = ["--set", "time.beats=0.1", "--set=air.model=none"];
+    flown(dir, &[&CASE[..5], &args].concat());
+    let path = std::env::var("PATH").unwrap();
+    let path = format!("{}:{path}", dir.join("bin").display());
+    fs::create_dir(dir.join("bin")).unwrap();
+    for (end, wanted) in [(0, Some(0)), (3, Some(2))] {
+        let script = format!(
+            "#!/bin/sh\nhead -c 300000 /dev/zero | tr '\\0' x >&2\nfor last; do :; done\ncat > \"${{last#file:}}\"\necho >&2; echo that was all >&2\nexit {end}\n"
+        );
+        let ffmpeg = dir.join("bin/ffmpeg");
+        fs::write(&ffmpeg, script).unwrap();
+        fs::set_permissions(&ffmpeg, fs::Permissions::from_mode(0o755)).unwrap();
+        let out = std::process::Command::new("timeout")
+            .args(["100", env!("CARGO_BIN_EXE_wingbeat"), "plot", "run"])
+            .args([
+                "animation",
+                "--format",
+                "mp4",
+                "--out",
+                "film",
+                "--overwrite",
+            ])
+            .env("PATH", &path)
+            .current_dir(dir)
+            .output()
+            .unwrap();
+        let said = String::from_utf8_lossy(&out.stderr);
+        assert_eq!(out.status.code(), wanted, "{said}");
+        assert_eq!(said.contains("that was all"), end != 0, "{said}");
+        assert!(dir.join("film/animation.mp4").exists());
+    }
+}
+
 /// The part of the flight that is asked for, and no other.
 #[test]
 fn exact_a_window_of_the_flight_is_drawn() {

@@ -33,14 +33,14 @@ fn behaves_a_check_starts_nothing_and_a_run_says_what_it_starts() {
     assert!(out.status.success(), "{}", complaint(&out));
     let said = String::from_utf8(out.stdout).unwrap();
     assert!(
-        said.contains("will start this one with your rights: sh -c \"touch started"),
+        said.contains("will start this one with your rights: sh -c 'touch started"),
         "{said}"
     );
     assert!(!dir.join("started").exists());
     for extra in [&[][..], &["--quiet"], &["--json"]] {
         let args = [&["run", "case.toml", "--out", "r"][..], extra].concat();
         let said = complaint(&wingbeat(dir, &args));
-        let named = said.find("which runs with your rights: sh -c \"touch started");
+        let named = said.find("which runs with your rights: sh -c 'touch started");
         let failed = said.find("expected `ready 2`, got `nonsense`");
         assert!(named.is_some() && named < failed, "{said}");
         assert!(dir.join("started").exists() && !dir.join("r").exists());
@@ -81,6 +81,27 @@ fn refuses_lines_that_nothing_asked_for() {
         let out = wingbeat(dir, &["run", "case.toml", "--quiet", "--out", "r"]);
         let said = complaint(&out);
         assert_ne!(out.status.code(), Some(0), "{script}");
+        assert!(said.contains(wanted), "{said}");
+        let _ = fs::remove_dir_all(dir.join("r"));
+    }
+}
+
+/// Of a line without its end nobody knows how many digits are left out; a complaint without one is heard.
+#[test]
+fn refuses_a_line_that_the_end_of_output_cuts_off() {
+    let scratch = Scratch::new("cut-off");
+    let dir = &scratch.0;
+    for (last, wanted) in [
+        (
+            "printf '0 0 0 0 0 1.23'; exit",
+            "its output ended within a line: `0 0 0 0 0 1.23`",
+        ),
+        ("printf 'error no more'; exit", "no more"),
+    ] {
+        let last = format!("evaluate) echo 0 0 0 0 0 0; echo 0 0 0 0 0 0; {last};");
+        let script = CALM.replacen("evaluate)", &last, 1);
+        scripted(dir, &script, "5");
+        let said = complaint(&wingbeat(dir, &["run", "case.toml", "--out", "r"]));
         assert!(said.contains(wanted), "{said}");
         let _ = fs::remove_dir_all(dir.join("r"));
     }
@@ -374,7 +395,7 @@ fn behaves_a_check_starts_no_controller_and_a_run_says_what_it_starts() {
     assert!(out.status.success(), "{}", complaint(&out));
     let said = String::from_utf8(out.stdout).unwrap();
     assert!(
-        said.contains("will start this one with your rights: sh -c \"touch started\""),
+        said.contains("will start this one with your rights: sh -c 'touch started'"),
         "{said}"
     );
     assert!(!dir.join("started").exists());

@@ -119,6 +119,26 @@ fn behaves_a_flight_outlives_those_who_listen() {
     assert_eq!(manifest.outcome, Outcome::Finished);
 }
 
+/// Who watches a campaign whose points are never done ends with the reader.
+#[test]
+fn behaves_a_watch_ends_with_its_reader() {
+    let scratch = Scratch::new("watch");
+    let dir = &scratch.0;
+    let text = "case = \"fruit-fly-blade\"\nkeep = [\"power_watt\"]\n[set]\n\"time.beats\" = 1\n[parameter.\"motion.frequency_hz\"]\nlist = [200, 210]\n";
+    fs::write(dir.join("c.toml"), text).unwrap();
+    flown(
+        dir,
+        &["campaign", "run", "c.toml", "--quiet", "--points", "0..1"],
+    );
+    for (out, wanted) in [(closed(), 0), (full(), 1)] {
+        let mut command = Command::new("timeout");
+        command.args(["60", env!("CARGO_BIN_EXE_wingbeat")]);
+        command.args(["campaign", "status", "c.toml", "--watch"]);
+        let done = command.current_dir(dir).stdout(out).stderr(Stdio::null());
+        assert_eq!(done.status().unwrap().code(), Some(wanted));
+    }
+}
+
 /// A flight of some minutes, begun; nothing is drawn of it at its end.
 fn long_flight(dir: &Path, ignored: &str) -> Child {
     let program = env!("CARGO_BIN_EXE_wingbeat");

@@ -2,6 +2,7 @@
 
 mod aft;
 mod assembly;
+mod borders;
 mod carry_through;
 mod control;
 mod corners;
@@ -17,6 +18,7 @@ mod symmetry;
 mod topology;
 mod wash;
 
+pub(crate) use borders::borders;
 pub(crate) use carry_through::{Carried, carried, middle_columns};
 pub(crate) use control::Controls;
 pub(crate) use corners::vector_area;

@@ -67,6 +67,8 @@ struct Obstacle {
 pub(crate) struct Obstacles {
     surfaces: Vec<Obstacle>,
     clearance: f64,
+    /// Groups of surfaces and the planes of their images, while those are added.
+    added: Vec<(usize, Plane)>,
 }
 
 impl Obstacles {
@@ -96,7 +98,8 @@ impl Obstacles {
     /// Adds the mirror images of surfaces that are joined to them on a plane, which are one surface with them.
     fn add_images(&mut self, lattice: &Lattice, position: &[DVec3]) {
         let topology = lattice.topology();
-        let mut added: Vec<(usize, Plane)> = vec![];
+        let mut added = std::mem::take(&mut self.added);
+        added.clear();
         for line in &topology.plane_lines {
             let node = line[line.len() / 2];
             let group = lattice.joined_groups()[topology.surface_of(node)];
@@ -108,6 +111,7 @@ impl Obstacles {
                 self.surfaces[group].add_image(&plane);
             }
         }
+        self.added = added;
     }
 
     /// Mends the ends of the paths `from` -> `to` of all nodes; returns how many were changed, all and those that
@@ -127,10 +131,15 @@ impl Obstacles {
             .map(|(i, (to, &from))| {
                 let push = self.push(from, *to);
                 *to += push;
-                let changed = push.length() > COUNTED * self.clearance;
-                [changed, changed && strength(i)].map(u64::from)
+                self.counted(push, || strength(i))
             })
             .reduce(|| [0; 2], |[a, b], [c, d]| [a + c, b + d])
+    }
+
+    /// Whether a push changes a path, and one of a node that has strength.
+    fn counted(&self, push: DVec3, has_strength: impl FnOnce() -> bool) -> [u64; 2] {
+        let changed = push.length() > COUNTED * self.clearance;
+        [changed, changed && has_strength()].map(u64::from)
     }
 
     /// The same for plane wakes, whose rows of two nodes move as their middles do: the ends of rows lie on the
@@ -139,17 +148,21 @@ impl Obstacles {
         &self,
         from: &[DVec3],
         to: &mut [DVec3],
-        strength: impl Fn(usize) -> bool + Sync,
+        strength: impl Fn(usize) -> bool,
     ) -> [u64; 2] {
         let middle = |row: &[DVec3]| row[0].midpoint(row[1]);
         let mut changed = [0; 2];
+        if self.surfaces.is_empty() {
+            return changed;
+        }
         let rows = to.chunks_exact_mut(2).zip(from.chunks_exact(2));
         for (r, (to, from)) in rows.enumerate() {
-            let (start, mut end) = ([middle(from)], [middle(to)]);
-            let free = end[0];
-            let row = self.keep_off(&start, &mut end, |_| strength(2 * r));
+            let free = middle(to);
+            let push = self.push(middle(from), free);
+            let row = self.counted(push, || strength(2 * r));
             changed = [0, 1].map(|k| changed[k] + 2 * row[k]);
-            to.iter_mut().for_each(|x| *x += end[0] - free);
+            let moved = (free + push) - free; // by what the middle moves in numbers
+            to.iter_mut().for_each(|x| *x += moved);
         }
         changed
     }
@@ -174,23 +187,10 @@ impl Obstacle {
     /// Adds the panels of surface `s`, whose nodes are at `ends` when the step starts and ends.
     fn add(&mut self, lattice: &Lattice, s: usize, ends: impl Fn(usize) -> [DVec3; 2]) {
         let topology = lattice.topology();
-        // What leads through bodies is in nobody's way.
-        let is_within = |p: usize| lattice.surfaces()[topology.panel_surface[p]].carry_through;
         self.closed = lattice.surfaces()[s].closed;
         for p in lattice.panels_of(s) {
-            let nodes = topology.panels[p];
-            let is_border = std::array::from_fn(|k| {
-                let side = [nodes[k], nodes[(k + 1) % 4]];
-                topology.panel_edges[p].iter().any(|e| {
-                    let edge = &topology.edges[e.edge];
-                    let ends = [edge.from, edge.to];
-                    let others = [Some(edge.plus), edge.minus].into_iter().flatten();
-                    !edge.is_on_plane()
-                        && others.filter(|&q| q != p).all(is_within)
-                        && (ends == side || ends == [side[1], side[0]])
-                })
-            });
-            let panel = Panel::new(nodes.map(&ends), is_border);
+            let is_border = lattice.borders()[p];
+            let panel = Panel::new(topology.panels[p].map(&ends), is_border);
             let sides = (0..4).filter(|&k| is_border[k]);
             self.border
                 .extend(sides.map(|k| [0, 1].map(|end| panel.side(end, k))));
@@ -201,15 +201,16 @@ impl Obstacle {
     /// Adds the mirror images of all its panels and borders in a plane.
     fn add_image(&mut self, plane: &Plane) {
         let reflected = |x: DVec3| 2.0 * plane.foot(x) - x;
-        let image = |p: &Panel| {
+        for k in 0..self.panels.len() {
+            let p = &self.panels[k];
             let corner = |k: usize| [0, 1].map(|end| reflected(p.corners[end][k]));
-            Panel::new(std::array::from_fn(corner), p.is_border)
-        };
-        let panels: Vec<Panel> = self.panels.iter().map(image).collect();
-        self.panels.extend(panels);
-        let sides = self.border.clone();
-        let sides = sides.iter().map(|side| side.map(|end| end.map(reflected)));
-        self.border.extend(sides);
+            let image = Panel::new(std::array::from_fn(corner), p.is_border);
+            self.panels.push(image);
+        }
+        for k in 0..self.border.len() {
+            let image = self.border[k].map(|end| end.map(reflected));
+            self.border.push(image);
+        }
     }
 
     /// Finds the sphere.

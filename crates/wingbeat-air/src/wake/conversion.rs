@@ -26,13 +26,12 @@ impl WakeSheet {
     pub(crate) fn convert(&mut self, radius: f64, rows: impl Fn(usize) -> usize) -> u64 {
         let newest = self.rows().saturating_sub(1);
         let due = |c: usize| rows(c).min(newest).max(self.converted[c]);
-        let after: Vec<usize> = (0..self.columns).map(due).collect();
         let (mut particles, mut count) = (std::mem::take(&mut self.particles), 0);
-        for r in 0..after.iter().copied().max().unwrap_or(0) {
+        for r in 0..(0..self.columns).map(due).max().unwrap_or(0) {
             for c in 0..=self.columns {
                 let goes = |along: bool| {
                     self.borders_ring([r, c], along)
-                        && !borders_ring(&after, self.is_closed, [r, c], along)
+                        && !borders_ring((self.columns, due), self.is_closed, [r, c], along)
                 };
                 let mut push = |to: [usize; 2], gamma: f64| {
                     let ends = [self.node(r, c), self.node(to[0], to[1])];
@@ -46,14 +45,18 @@ impl WakeSheet {
                 }
             }
         }
-        (self.converted, self.particles) = (after, particles);
+        for c in 0..self.columns {
+            self.converted[c] = rows(c).min(newest).max(self.converted[c]);
+        }
+        self.particles = particles;
         count
     }
 
     /// Whether the segment from node `[row, column]`, along the row or toward the next newer one, lies at a
     /// ring that is still there.
     pub(crate) fn borders_ring(&self, node: [usize; 2], along: bool) -> bool {
-        borders_ring(&self.converted, self.is_closed, node, along)
+        let converted = |c: usize| self.converted[c];
+        borders_ring((self.columns, converted), self.is_closed, node, along)
     }
 
     /// Forgets rows that hold no ring and border none.
@@ -63,19 +66,23 @@ impl WakeSheet {
     }
 }
 
-/// The same at a ring, the oldest `converted` ones of each column being particles. First and last line of a
-/// `closed` sheet are one.
-fn borders_ring(converted: &[usize], closed: bool, [row, column]: [usize; 2], along: bool) -> bool {
-    let ring = |c: usize| converted.get(c).is_some_and(|&rows| row >= rows);
+/// The same at a ring of so many columns, the oldest `converted` ones of each being particles. First and last line of
+/// a `closed` sheet are one.
+fn borders_ring(
+    (columns, converted): (usize, impl Fn(usize) -> usize),
+    closed: bool,
+    [row, column]: [usize; 2],
+    along: bool,
+) -> bool {
+    let ring = |c: usize| c < columns && row >= converted(c);
     if along {
         return ring(column);
     }
-    let last = converted.len();
     let before = match column {
-        0 if closed => Some(last - 1),
+        0 if closed => Some(columns - 1),
         _ => column.checked_sub(1),
     };
-    ring(column) || before.is_some_and(ring) || closed && column == last && ring(0)
+    ring(column) || before.is_some_and(ring) || closed && column == columns && ring(0)
 }
 
 /// Appends the segment from `a` to `b` of circulation `gamma`; none without circulation.

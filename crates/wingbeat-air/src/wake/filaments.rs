@@ -6,7 +6,7 @@ use crate::settings::AirSettings;
 use crate::state::{AirState, WakeSheet};
 use crate::wake::cores::{add_cores, join_cores};
 use crate::wake::near_wake::{
-    NearWakeRow, NearWakeShare, RowShape, add_near_wake, at_edge, strips,
+    NearWakeRow, NearWakeShare, RowShape, RowStrips, add_near_wake, at_edge, strips,
 };
 use wingbeat_math::DVec3;
 use wingbeat_vortex::{Blob, Network, Points, WINDOW};
@@ -37,6 +37,8 @@ pub struct Filaments {
     roots: Vec<DVec3>,
     /// The newest row, sheet by sheet.
     pub(crate) newest: Vec<RowShape>,
+    /// Of the sheet that is taken.
+    row_strips: RowStrips,
     /// All other edges of the wakes, which do not move within a step. Nodes: sheet after sheet,
     /// oldest row first.
     pub wake: Network,
@@ -86,7 +88,7 @@ impl Filaments {
             let inner = inner.filter(|(_, ring, root)| ring != root && sheet.rows() > 0);
             self.inner.push(inner.clone().count());
             let inner = inner.map(|(c, ring, _)| (c, ring));
-            let filaments = (&mut self.near_wake, &mut self.shares);
+            let filaments = (&mut self.near_wake, &mut self.shares, &mut self.row_strips);
             add_near_wake(filaments, &row, t, edge, inner);
         }
         if lattice.settings().is_symmetric() {

@@ -176,6 +176,7 @@ impl NearWakeShare {
 }
 
 /// The circulation of a strip: `past` plus `part` of the present one of `panel`, or of what leaves a leading edge.
+#[derive(Clone, Copy, Debug)]
 struct NearWakeStrip {
     past: f64,
     part: f64,
@@ -193,7 +194,11 @@ pub(crate) struct NearWakeRow<'a> {
     pub shape: &'a RowShape,
 }
 
-fn strip(row: &NearWakeRow, column: usize, k: usize) -> NearWakeStrip {
+/// The strips of a column by their number from the edge.
+fn strips_of_column<'a>(
+    row: &NearWakeRow<'a>,
+    column: usize,
+) -> impl Fn(usize) -> NearWakeStrip + use<'a> {
     let NearWakeRow {
         lattice,
         state,
@@ -201,27 +206,57 @@ fn strip(row: &NearWakeRow, column: usize, k: usize) -> NearWakeStrip {
         shape,
     } = *row;
     let (root, old) = (&lattice.sheets()[s], state.sheets[s].newest(column));
-    if let Some(strip) = lattice.suction().of_column(s, column) {
-        let is_before = is_before_new_vortex(strips(lattice.settings()), k);
-        return NearWakeStrip {
-            past: old,
-            part: 0.0,
-            panel: root.panels[column],
-            leaving: is_before.then_some((strip, root.signs[column])),
-        };
-    }
-    let part = match shape.feeding[column] {
-        0.0 => 0.0,
-        feeding => feeding * present(lattice.settings(), shape.lengths[column], k),
-    };
+    let (panel, sign) = (root.panels[column], root.signs[column]);
+    let (feeding, length) = (shape.feeding[column], shape.lengths[column]);
+    let leading = lattice.suction().of_column(s, column);
+    let now = sign * state.gamma[panel];
     // What the edge held at the last step it holds on.
-    let present = root.signs[column] * state.gamma[root.panels[column]];
-    let held = present - lattice.to_shed(state, (s, column), present, old);
-    NearWakeStrip {
-        past: (1.0 - part) * old - part * held,
-        part: part * root.signs[column],
-        panel: root.panels[column],
-        leaving: None,
+    let held = match leading {
+        Some(_) => 0.0,
+        None => now - lattice.to_shed(state, (s, column), now, old),
+    };
+    move |k| {
+        if let Some(strip) = leading {
+            let is_before = is_before_new_vortex(strips(lattice.settings()), k);
+            return NearWakeStrip {
+                past: old,
+                part: 0.0,
+                panel,
+                leaving: is_before.then_some((strip, sign)),
+            };
+        }
+        let part = match feeding {
+            0.0 => 0.0,
+            feeding => feeding * present(lattice.settings(), length, k),
+        };
+        NearWakeStrip {
+            past: (1.0 - part) * old - part * held,
+            part: part * sign,
+            panel,
+            leaving: None,
+        }
+    }
+}
+
+/// Where the strips of all columns of a row are kept, those of a column one after the other from the edge on.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct RowStrips {
+    all: Vec<NearWakeStrip>,
+    per_column: usize,
+}
+
+impl RowStrips {
+    fn take(&mut self, row: &NearWakeRow) {
+        self.per_column = strips(row.lattice.settings());
+        self.all.clear();
+        for column in 0..row.state.sheets[row.s].columns {
+            self.all
+                .extend((0..self.per_column).map(strips_of_column(row, column)));
+        }
+    }
+
+    fn at(&self, column: usize, k: usize) -> &NearWakeStrip {
+        &self.all[column * self.per_column + k]
     }
 }
 
@@ -230,7 +265,7 @@ fn strip(row: &NearWakeRow, column: usize, k: usize) -> NearWakeStrip {
 /// Where a wake begins ahead of the rings, at the very leading edge, its sides go on from there to the rings,
 /// whose nodes come last (`inner`: column and place).
 pub(crate) fn add_near_wake(
-    (near_wake, shares): (&mut Network, &mut Vec<NearWakeShare>),
+    (near_wake, shares, row_strips): (&mut Network, &mut Vec<NearWakeShare>, &mut RowStrips),
     row: &NearWakeRow,
     t: f64,
     edge: impl Iterator<Item = DVec3> + Clone,
@@ -240,6 +275,7 @@ pub(crate) fn add_near_wake(
     let Some(newest) = sheet.rows().checked_sub(1) else {
         return;
     };
+    row_strips.take(row);
     let (base, width, strips) = (near_wake.nodes.len(), sheet.columns + 1, strips(settings));
     for level in (0..=strips).rev() {
         let part = level as f64 / strips as f64; // 1 at the free row
@@ -262,11 +298,11 @@ pub(crate) fn add_near_wake(
     };
     for k in 0..strips {
         for c in 0..width {
-            let share = across(row, c, k);
+            let share = across((row, row_strips), c, k);
             push(node(k + 1, c), node(k, c), age(k as f64 + 0.5), share);
         }
         for c in (0..sheet.columns).filter(|_| strips > 1) {
-            let share = along(row, c, k, strips);
+            let share = along((row, row_strips), c, k);
             push(
                 node(k + 1, c),
                 node(k + 1, c + 1),
@@ -281,35 +317,35 @@ pub(crate) fn add_near_wake(
         let root = node(0, c);
         let length = near_wake.nodes.get(root).distance(x);
         near_wake.push_edge(root, ring, 0.0, settings.wake_core.core(length, 0.0));
-        shares.push(across(row, c, 0));
+        shares.push(across((row, row_strips), c, 0));
     }
 }
 
 /// The edge between the columns `c - 1` and `c` in strip `k`.
-fn across(row: &NearWakeRow, c: usize, k: usize) -> NearWakeShare {
+fn across((row, strips): (&NearWakeRow, &RowStrips), c: usize, k: usize) -> NearWakeShare {
     let mut share = NearWakeShare::default();
     if row.lattice.settings().plane_wakes {
         return share; // an end, which moves no air
     }
     if c > 0 {
-        share.add(0, 1.0, &strip(row, c - 1, k));
+        share.add(0, 1.0, strips.at(c - 1, k));
     }
     if c < row.state.sheets[row.s].columns {
-        share.add(1, -1.0, &strip(row, c, k));
+        share.add(1, -1.0, strips.at(c, k));
     }
     share
 }
 
 /// The edge of column `c` between strip `k` and the next older one; at the free row the wake itself
 /// has counted the circulation of the past already.
-fn along(row: &NearWakeRow, c: usize, k: usize, strips: usize) -> NearWakeShare {
+fn along((row, strips): (&NearWakeRow, &RowStrips), c: usize, k: usize) -> NearWakeShare {
     let mut share = NearWakeShare {
         feeding: row.shape.feeding[c],
         ..NearWakeShare::default()
     };
-    share.add(0, 1.0, &strip(row, c, k));
-    if k + 1 < strips {
-        share.add(1, -1.0, &strip(row, c, k + 1));
+    share.add(0, 1.0, strips.at(c, k));
+    if k + 1 < strips.per_column {
+        share.add(1, -1.0, strips.at(c, k + 1));
     } else {
         share.fixed -= row.state.sheets[row.s].newest(c);
     }
@@ -322,7 +358,7 @@ pub(crate) fn at_edge(row: &NearWakeRow, column: usize) -> [f64; 2] {
     if row.shape.lengths.is_empty() {
         return [0.0; 2];
     }
-    let first = strip(row, column, 0);
+    let first = strips_of_column(row, column)(0);
     let sign = row.lattice.sheets()[row.s].signs[column];
     [sign * first.past, sign * first.part]
 }

@@ -187,7 +187,11 @@ impl Sums {
     pub(crate) fn load_free(&mut self, settings: &AirSettings, filaments: &Filaments, near: f64) {
         let (how, wake) = (free(settings), &filaments.wake);
         let is_new = self.wake.load_unless_near(how, wake, near);
-        let (min, bounds) = (settings.min_variance(), filaments.bounds());
+        let min = settings.min_variance();
+        let bounds = match filaments.blobs.is_empty() {
+            true => [DVec3::ZERO; 2], // nobody asks for them
+            false => filaments.bounds(),
+        };
         let nodes = filaments.wake.nodes.len();
         let is_new = self.blobs.load(&filaments.blobs, min, bounds, nodes) || is_new;
         self.tolerance = match settings.summation {

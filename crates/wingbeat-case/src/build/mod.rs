@@ -39,6 +39,7 @@ mod wingless;
 
 pub(crate) use effects::check as check_effects;
 pub(crate) use motion::radians;
+pub(crate) use names::check_characters as check_names;
 pub use names::column_name;
 pub(crate) use output::output;
 pub use own_control::OwnControl;

@@ -1,5 +1,7 @@
 //! Names of wings, segments and joints: columns of the history are called after them.
 
+use std::collections::BTreeMap;
+
 use wingbeat_dynamics::Joint;
 use wingbeat_model::{Animal, mirror_name};
 
@@ -13,6 +15,41 @@ pub fn column_name(name: &str) -> String {
     name.chars()
         .map(|c| if c.is_ascii_alphanumeric() { c } else { '_' })
         .collect()
+}
+
+/// Characters that names of parts cannot have, beside those that control a terminal or end a line: they have a meaning
+/// of their own in the keys of cases (`wing.right.mesh`, `load[0]`, `KEY=VALUE`) and in tables (`,`, quotes).
+const RESERVED: &str = ".,=[]'\"";
+
+/// Refuses names of wings, segments, joints, springs and parts that keys, tables and lines to other programs cannot hold.
+pub(crate) fn check_characters(case: &Case) -> Built<()> {
+    fn named<'a, T>(
+        table: &'a str,
+        of: &'a BTreeMap<String, T>,
+    ) -> impl Iterator<Item = (&'a str, &'a str)> {
+        of.keys().map(move |name| (table, name.as_str()))
+    }
+    let names = named("wing", &case.wing)
+        .chain(named("segment", &case.segment))
+        .chain(named("joint", &case.joint))
+        .chain(named("spring", &case.spring))
+        .chain(named("body.part", &case.body.part));
+    let is_bad =
+        |c: char| c.is_control() || (c.is_whitespace() && c != ' ') || RESERVED.contains(c);
+    for (table, name) in names {
+        let problem = match name.chars().find(|c| is_bad(*c)) {
+            Some(c) => format!("{c:?} cannot stand in the name {name:?}"),
+            None if name.trim().is_empty() => "a name is empty".to_owned(),
+            None => continue,
+        };
+        return Err(Fault::new(
+            table,
+            problem,
+            format!("names without {RESERVED} and without line ends, tabs and the like"),
+            "name it by letters, digits, - and _, e.g. fore-right",
+        ));
+    }
+    Ok(())
 }
 
 /// Each wing and each segment needs columns of its own.

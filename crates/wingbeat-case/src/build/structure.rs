@@ -121,11 +121,11 @@ fn traced_to_key(path: &str, case: &StructureCase, error: &ModelError) -> Fault 
     if let Some(lump) = lump {
         return fault_at(&format!("{root}.beam.{table}"), lump, error);
     }
-    match (table, vein, region) {
-        (_, Some(vein), _) => fault_at(&path, vein, error),
-        (_, _, Some(region)) => fault_at(&path, region, error),
-        ("beam", ..) => fault_at(&path, &case.beam, error),
-        ("shell", ..) => fault_at(&path, &case.shell, error),
+    match (table, vein, region, &case.beam, &case.shell) {
+        (_, Some(vein), ..) => fault_at(&path, vein, error),
+        (_, _, Some(region), ..) => fault_at(&path, region, error),
+        ("beam", .., Some(beam), _) => fault_at(&path, beam, error),
+        ("shell", .., Some(shell)) => fault_at(&path, shell, error),
         _ => fault_at(root, case, error),
     }
 }

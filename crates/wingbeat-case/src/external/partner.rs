@@ -4,7 +4,7 @@
 use std::io::{self, BufRead, BufReader, Read, Write};
 use std::process::{Child, ChildStdin, ChildStdout, Command, Stdio};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, SyncSender, channel, sync_channel};
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
 /// Lines that wait to be heard at most; a program that says more waits itself.
@@ -46,13 +46,17 @@ enum Deaf {
     Gone(String),
 }
 
-/// Process groups that are running.
+/// Process groups that are running. Who starts one holds it until the group is in it; who waits for its leader takes
+/// the group out before, while its number is its own still.
 static RUNNING: Mutex<Vec<u32>> = Mutex::new(Vec::new());
+
+fn running() -> MutexGuard<'static, Vec<u32>> {
+    RUNNING.lock().unwrap_or_else(PoisonError::into_inner)
+}
 
 /// Ends all partners at once, for a program that is about to end itself.
 pub fn end_all() {
-    let running = RUNNING.lock().unwrap_or_else(PoisonError::into_inner);
-    running.iter().for_each(|group| kill_group(*group));
+    running().iter().for_each(|group| kill_group(*group));
 }
 
 /// A running program.
@@ -80,13 +84,14 @@ impl Partner {
         program.stdin(Stdio::piped()).stdout(Stdio::piped());
         #[cfg(unix)]
         std::os::unix::process::CommandExt::process_group(&mut program, 0);
-        let mut child = program
-            .spawn()
-            .map_err(|e| format!("`{name}` cannot be started: {e}"))?;
-        RUNNING
-            .lock()
-            .unwrap_or_else(PoisonError::into_inner)
-            .push(child.id());
+        let mut child = {
+            let mut running = running();
+            let child = program
+                .spawn()
+                .map_err(|e| format!("`{name}` cannot be started: {e}"))?;
+            running.push(child.id());
+            child
+        };
         let input = child.stdin.take().expect("a piped input");
         let output = child.stdout.take().expect("a piped output");
         let ((words, inbox), (outbox, written)) = (channel(), channel());
@@ -223,9 +228,8 @@ impl Drop for Partner {
         // Not yet waited for, so that its number is still its own.
         kill_group(self.child.id());
         let _ = self.child.kill();
+        running().retain(|group| *group != self.child.id());
         let _ = self.child.wait();
-        let mut running = RUNNING.lock().unwrap_or_else(PoisonError::into_inner);
-        running.retain(|group| *group != self.child.id());
     }
 }
 
@@ -246,10 +250,11 @@ fn read(output: ChildStdout, send: &SyncSender<Result<String, String>>, max_byte
         let mut line = vec![];
         let mut start = output.by_ref().take(max_bytes as u64);
         let line = match start.read_until(b'\n', &mut line) {
-            Ok(1..) if line.len() < max_bytes || line.ends_with(b"\n") => {
+            Ok(1..) if line.ends_with(b"\n") => {
                 String::from_utf8(line).map_err(|_| "a line is not UTF-8".to_owned())
             }
-            Ok(1..) => Err(format!("a line is longer than {max_bytes} bytes")),
+            Ok(n) if n >= max_bytes => Err(format!("a line is longer than {max_bytes} bytes")),
+            Ok(1..) => Err(cut_off(&line)),
             Ok(0) | Err(_) => return,
         };
         let last = line.is_err();
@@ -257,6 +262,15 @@ fn read(output: ChildStdout, send: &SyncSender<Result<String, String>>, max_byte
         if send.send(line).is_err() || last {
             return;
         }
+    }
+}
+
+/// What is said of a last line without its end: numbers may lack digits. A complaint is taken as it is.
+fn cut_off(line: &[u8]) -> String {
+    let line = String::from_utf8_lossy(line);
+    match line.trim().strip_prefix("error") {
+        Some(problem) => problem.trim().to_owned(),
+        None => format!("its output ended within a line: `{}`", line.trim()),
     }
 }
 

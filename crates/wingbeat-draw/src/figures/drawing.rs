@@ -1,4 +1,4 @@
-//! A drawing as a list of marks, from which SVG and pictures are made alike.
+//! A drawing as a list of marks, from which SVG, PDF and pictures are made alike.
 //!
 //! Coordinates are points (1/72 inch) from the upper left corner, the second one downwards.
 
@@ -170,7 +170,7 @@ impl Drawing {
         self.area((0..corners).map(corner).collect(), fill, 1.0);
     }
 
-    /// An arrow; its head is as long as three line widths, or as the arrow.
+    /// An arrow; its head is as long as four line widths, or as the arrow.
     pub fn arrow(&mut self, from: [f64; 2], to: [f64; 2], stroke: Stroke) {
         let [dx, dy] = [to[0] - from[0], to[1] - from[1]];
         let length = dx.hypot(dy);

@@ -3,6 +3,7 @@
 use wingbeat_flight::FlightSetup;
 
 use super::drawing::{Anchor, COLOURS, Drawing, INK};
+use super::font;
 use super::part::TimeWindow;
 use super::plot::{self, Area, Plot};
 use super::style::Look;
@@ -243,7 +244,7 @@ fn plot_of(
 fn start_mark(drawing: &mut Drawing, (start, end): ([f64; 2], f64), name: &str, look: &Look) {
     drawing.dot(start, 1.8 * look.line, INK);
     let gap = 0.6 * look.font;
-    let width = 0.6 * look.font * name.len() as f64;
+    let width = font::width(name, look.font);
     let (x, anchor) = match start[0] + gap + width > end {
         true => (start[0] - gap, Anchor::End),
         false => (start[0] + gap, Anchor::Start),

@@ -1,9 +1,11 @@
 //! Where the pictures of an animation go: a GIF, or a film (MP4) that ffmpeg makes of them.
 
+use std::ffi::OsString;
 use std::fs::File;
-use std::io::{BufWriter, Write as _};
+use std::io::{BufWriter, Read as _, Write as _};
 use std::path::Path;
-use std::process::{Child, Command, Stdio};
+use std::process::{Child, ChildStderr, Command, Stdio};
+use std::thread::{self, JoinHandle};
 
 use gif::{Encoder, Frame, Repeat};
 
@@ -72,7 +74,11 @@ impl Reel for Gif {
 }
 
 /// A film made by ffmpeg (H.264, 25 pictures a second).
-pub(super) struct Film(Child);
+pub(super) struct Film {
+    child: Child,
+    /// What it complains of, read all the while: it stops once nobody takes its words.
+    words: Option<JoinHandle<String>>,
+}
 
 impl Film {
     const SCALE: f64 = 2.0;
@@ -97,15 +103,31 @@ impl Film {
             .args(["-s", &format!("{width}x{height}"), "-r", "25", "-i", "-"])
             .args(after)
             .args(["-movflags", "+faststart"])
-            .arg(path)
+            .arg(file_url(path))
             .stdin(Stdio::piped())
             .stdout(Stdio::null())
             .stderr(Stdio::piped())
             .spawn();
-        child.map(Self).map_err(|e| {
+        let mut child = child.map_err(|e| {
             format!("ffmpeg, which makes films, cannot be started ({e}); install it, or use --format gif")
-        })
+        })?;
+        let words = child.stderr.take().map(|w| thread::spawn(|| all(w)));
+        Ok(Self { child, words })
     }
+}
+
+/// A file as ffmpeg takes it: by its name alone it may be an option or the address of a stream.
+fn file_url(path: &Path) -> OsString {
+    let mut url = OsString::from("file:");
+    url.push(path);
+    url
+}
+
+/// All that is said.
+fn all(mut words: ChildStderr) -> String {
+    let mut said = vec![];
+    let _ = words.read_to_end(&mut said); // words are no condition
+    String::from_utf8_lossy(&said).trim().to_owned()
 }
 
 impl Reel for Film {
@@ -114,7 +136,7 @@ impl Reel for Film {
     }
 
     fn add(&mut self, rgb: &[u8]) -> Result<(), String> {
-        let Some(inbox) = &mut self.0.stdin else {
+        let Some(inbox) = &mut self.child.stdin else {
             return Err("ffmpeg takes no pictures".to_owned());
         };
         if inbox.write_all(rgb).is_err() {
@@ -124,14 +146,14 @@ impl Reel for Film {
     }
 
     fn end(&mut self) -> Result<(), String> {
-        drop(self.0.stdin.take());
-        let mut said = String::new();
-        if let Some(words) = &mut self.0.stderr {
-            let _ = std::io::Read::read_to_string(words, &mut said); // words are no condition
-        }
-        match self.0.wait() {
+        drop(self.child.stdin.take());
+        let words = self.words.take().map(JoinHandle::join);
+        match self.child.wait() {
             Ok(status) if status.success() => Ok(()),
-            Ok(status) => Err(format!("ffmpeg failed ({status}): {}", said.trim())),
+            Ok(status) => {
+                let said = words.and_then(Result::ok).unwrap_or_default();
+                Err(format!("ffmpeg failed ({status}): {said}"))
+            }
             Err(e) => Err(format!("ffmpeg: {e}")),
         }
     }
@@ -139,7 +161,7 @@ impl Reel for Film {
 
 impl Drop for Film {
     fn drop(&mut self) {
-        let _ = self.0.kill(); // of one that has ended this does nothing
-        let _ = self.0.wait();
+        let _ = self.child.kill(); // of one that has ended this does nothing
+        let _ = self.child.wait();
     }
 }

@@ -18,7 +18,7 @@ from wingbeat._numbers import finite, flag, real, reals, whole
 from wingbeat._own import Air, Controller, Loads, Steering
 from wingbeat._paths import path
 from wingbeat._run import Run
-from wingbeat._source import Source
+from wingbeat._source import Source, is_case_text
 from wingbeat._vibration import Flutter, WingModes, flutter, wing_modes
 from wingbeat.errors import CaseError
 
@@ -60,7 +60,7 @@ class Flight:
         """A case: the text of one (TOML), the path of a file, or a dict of the same keys."""
         if isinstance(case, Mapping):
             return _made(Source("case", _toml.document(case), ""))
-        if isinstance(case, str) and ("\n" in case or "=" in case):
+        if isinstance(case, str) and is_case_text(case):
             return _made(Source("case", case, ""))
         if not isinstance(case, str | os.PathLike):
             raise CaseError(f"a case is no {type(case).__name__}", key="case", remedy="the path of a file, the text of a case, or a dict")

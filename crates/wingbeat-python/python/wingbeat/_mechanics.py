@@ -90,7 +90,9 @@ class LinearModel:
         return {k: getattr(self, k) for k in "ABCD"} | {k: list(getattr(self, k)) for k in names}
 
     def save(self, path: str | os.PathLike[str], *, overwrite: bool = False) -> None:
-        """Writes a ``.mat`` file for MATLAB, in place of one that exists only with ``overwrite``. Needs scipy."""
+        """Writes a file for MATLAB by the name given (end it in ``.mat``), in place of one that exists only with
+        ``overwrite``. Needs scipy.
+        """
         needs("scipy.io", "study", "save")
         import numpy as np
         from scipy.io import savemat
@@ -99,7 +101,7 @@ class LinearModel:
         if os.path.exists(name) and not overwrite:
             raise ResultError(f"{name} exists already", key=name, remedy="overwrite=True, or another file")
         texts = {k: np.array(v, dtype=object) for k, v in self.to_dict().items() if isinstance(v, list)}
-        savemat(name, self.to_dict() | texts)
+        savemat(name, self.to_dict() | texts, appendmat=False)  # no file but the one looked for
 
 
 @dataclass(frozen=True)

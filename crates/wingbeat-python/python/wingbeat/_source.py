@@ -2,10 +2,16 @@
 
 from __future__ import annotations
 
+import os
 from dataclasses import dataclass
 from pathlib import Path
 
 from wingbeat import _core
+
+
+def is_case_text(case: str) -> bool:
+    """Whether this is the text of a case rather than a name: lines, or a key that is set where no file has that name."""
+    return "\n" in case or ("=" in case and not os.path.isfile(case))
 
 
 @dataclass(frozen=True, slots=True)

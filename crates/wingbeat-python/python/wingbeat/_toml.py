@@ -26,7 +26,7 @@ def value(x: Any, key: str) -> str:
     if isinstance(x, float):
         return repr(x)
     if isinstance(x, str):
-        return json.dumps(x, ensure_ascii=False).replace("\x7f", "\\u007f")
+        return _quoted(x)
     if isinstance(x, Mapping):
         items = (f"{_name(name, key)} = {value(item, f'{key}.{name}')}" for name, item in x.items())
         return "{" + ", ".join(items) + "}"
@@ -50,4 +50,9 @@ def _name(name: object, key: str) -> str:
         raise CaseError(
             f"{key}: the key {name!r} is no text", key=key, remedy="texts as keys, e.g. 'frequency_hz'"
         )
-    return name if _BARE.fullmatch(name) else json.dumps(name)
+    return name if _BARE.fullmatch(name) else _quoted(name)
+
+
+def _quoted(text: str) -> str:
+    """A basic string: TOML takes no surrogate pairs, which JSON has for characters beyond U+FFFF, and no bare U+007F."""
+    return json.dumps(text, ensure_ascii=False).replace("\x7f", "\\u007f")

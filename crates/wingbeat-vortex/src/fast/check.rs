@@ -58,6 +58,11 @@ impl Check {
         }
     }
 
+    /// Whether vorticities are checked, too.
+    pub fn has_vorticity(&self) -> bool {
+        self.vorticity.is_some()
+    }
+
     /// Root mean square and largest error of these velocities, relative to the scale; zero where
     /// nothing moves.
     pub fn error(&self, velocity: &[DVec3]) -> [f64; 2] {

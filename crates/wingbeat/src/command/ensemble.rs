@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 use serde_json::json;
 use wingbeat::analysis::estimate;
-use wingbeat::case::LoadedCase;
+use wingbeat::case::{LoadedCase, presets};
 use wingbeat::results::summary::{Ensemble, EnsembleBeat, Estimate};
 use wingbeat::{Flight, ensemble};
 
@@ -24,7 +24,7 @@ const DEFAULT_MEMBERS: usize = 8;
 #[derive(Args)]
 pub(crate) struct EnsembleArgs {
     /// Case file or preset; - is the standard input.
-    #[arg(default_value = "fruit-fly-hover", value_parser = CaseName, hide_possible_values = true)]
+    #[arg(default_value = presets::DEFAULT, value_parser = CaseName, hide_possible_values = true)]
     case: PathBuf,
     /// Set a key of the case, e.g. time.beats=3; KEY= takes it away (may be repeated).
     #[arg(long = "set", value_name = "KEY=VALUE")]

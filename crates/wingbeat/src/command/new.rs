@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use clap::{Args, ValueEnum};
 use serde_json::json;
 use wingbeat::case::insect::{self, InsectAir, SPECIES, Size};
-use wingbeat::case::{self, presets};
+use wingbeat::case::{self, presets, shell_path};
 use wingbeat::results::file::{Existing, write_file};
 
 use crate::command::failure::Failure;
@@ -136,7 +136,11 @@ pub(crate) fn new(args: &NewArgs) -> Result<(), Failure> {
     }
     target.write(&case::with_schema(&text))?;
     if let Some(path) = target.path() {
-        say!("wrote {0}; fly it with `wingbeat run {0}`", path.display());
+        say!(
+            "wrote {}; fly it with `wingbeat run {}`",
+            path.display(),
+            shell_path(path)
+        );
     }
     Ok(())
 }

@@ -6,7 +6,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 use serde_json::{Map, Value};
-use wingbeat::case::IoError;
+use wingbeat::case::{IoError, shell_path};
 use wingbeat::results::Summary;
 use wingbeat::results::file::Existing;
 
@@ -157,8 +157,8 @@ impl Report {
     /// Says that a case was written, where it went to a file.
     pub(crate) fn wrote(&mut self, case: &Target) {
         if let Some(path) = case.path() {
-            let path = path.display();
-            line!(self, "\nwrote {path}; fly it with `wingbeat run {path}`");
+            let command = format!("wingbeat run {}", shell_path(path));
+            line!(self, "\nwrote {}; fly it with `{command}`", path.display());
         }
     }
 

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use clap::Args;
-use wingbeat::case::{IoError, LoadedCase, presets};
+use wingbeat::case::{IoError, LoadedCase, presets, shell_path};
 use wingbeat::draw::draw_run;
 use wingbeat::flight::{FlightError, Simulation};
 use wingbeat::results::{Outcome, RESULTS, RecordedFlight, ResultDir, Summary, saver};
@@ -221,7 +221,7 @@ fn fly(options: &RunOptions, mut run: Run, stop: &AtomicBool) -> Result<(), Fail
         Err(e @ IoError::Damaged { .. }) if outcome == Outcome::Finished => {
             tell!(
                 "error: {e}\nThe flight is at its end and its summary is written, `wingbeat show {0}`; what needs that file is not drawn.",
-                path.display()
+                shell_path(&path)
             );
             return Err(Failure::Told(FAILED));
         }
@@ -229,7 +229,7 @@ fn fly(options: &RunOptions, mut run: Run, stop: &AtomicBool) -> Result<(), Fail
             let said = failure::in_words(&e);
             tell!(
                 "{said}\nThe flight itself is kept: `wingbeat resume {0}` goes on from its last checkpoint.",
-                path.display()
+                shell_path(&path)
             );
             return Err(Failure::Told(FAILED));
         }
@@ -243,7 +243,7 @@ fn unwritten(flight: RecordedFlight, e: &IoError) -> Failure {
     flight.abandon(e.to_string());
     tell!(
         "error: {e}\nThe run stopped. What was written up to there is kept; when there is space again, `wingbeat resume {}` goes on from the last checkpoint, bit for bit.",
-        path.display()
+        shell_path(&path)
     );
     Failure::Told(FAILED)
 }
@@ -254,7 +254,8 @@ fn report(outcome: &Outcome, path: &Path) -> Result<(), Failure> {
         Outcome::Finished | Outcome::Running => Ok(()),
         Outcome::Interrupted => {
             tell!(
-                "interrupted: everything up to here is written to {dir}; `wingbeat resume {dir}` takes it up again"
+                "interrupted: everything up to here is written to {dir}; `wingbeat resume {}` takes it up again",
+                shell_path(path)
             );
             Err(Failure::Told(INTERRUPTED))
         }

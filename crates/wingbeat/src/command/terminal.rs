@@ -31,6 +31,14 @@ impl Stream {
         }
     }
 
+    /// Whether it is given up: nothing more is printed.
+    fn is_given_up(&self) -> bool {
+        self.0
+            .lock()
+            .unwrap_or_else(PoisonError::into_inner)
+            .is_some()
+    }
+
     /// The failure that nobody wanted.
     fn failure(&self) -> Option<ErrorKind> {
         let lost = self.0.lock().unwrap_or_else(PoisonError::into_inner);
@@ -57,6 +65,11 @@ pub(crate) use {say, tell};
 /// Prints on the standard output.
 pub(crate) fn output(text: Arguments<'_>) {
     OUTPUT.print(|| io::stdout().write_fmt(text));
+}
+
+/// Whether nothing that is printed on the standard output arrives any more: who only prints may end.
+pub(crate) fn output_is_given_up() -> bool {
+    OUTPUT.is_given_up()
 }
 
 /// Prints on the standard error.

@@ -63,7 +63,8 @@ pub(crate) fn view(args: &ViewArgs) -> Result<(), Failure> {
 pub(crate) fn open(page: &Path) -> bool {
     let starter: &[&str] = match std::env::consts::OS {
         "macos" => &["open"],
-        "windows" => &["cmd", "/C", "start", ""],
+        // No shell: in one, what follows `&` in a path would be run.
+        "windows" => &["rundll32", "url.dll,FileProtocolHandler"],
         _ => &["xdg-open"],
     };
     let mut command = Command::new(starter[0]);

@@ -227,6 +227,30 @@ fn behaves_a_point_that_kills_its_process_is_quarantined() {
     );
 }
 
+/// Where a process cannot be started the run fails, and ends only after those that were: none flies on by itself.
+#[test]
+fn refuses_more_processes_than_can_be_started_and_waits_for_the_others() {
+    let scratch = Scratch::new("campaign-unstarted");
+    let dir = &scratch.0;
+    write(dir, &blade(200));
+    // Two files for each process.
+    let few = format!(
+        "ulimit -n 40; exec '{}' campaign run c.toml --out few --jobs 64 2> said",
+        env!("CARGO_BIN_EXE_wingbeat")
+    );
+    let end = Command::new("sh")
+        .args(["-c", &few])
+        .current_dir(dir)
+        .status();
+    let said = fs::read_to_string(dir.join("said")).unwrap();
+    assert_eq!(end.unwrap().code(), Some(2), "{said}");
+    assert!(said.contains("cannot start a process"), "{said}");
+    let here = |p: &Path| fs::read_link(p.join("cwd")).is_ok_and(|cwd| cwd == *dir);
+    let left = fs::read_dir("/proc").unwrap().flatten();
+    let left: Vec<_> = left.map(|p| p.path()).filter(|p| here(p)).collect();
+    assert!(left.is_empty(), "{left:?} of this run go on");
+}
+
 /// Ctrl-C ends a run with its exit code, and the same command goes on.
 #[test]
 fn behaves_an_interrupted_run_goes_on() {

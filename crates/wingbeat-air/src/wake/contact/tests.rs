@@ -23,6 +23,7 @@ fn sheet(w: f64, fold: f64, left: bool) -> Obstacles {
     Obstacles {
         surfaces: vec![wing],
         clearance: 0.1,
+        ..Obstacles::default()
     }
 }
 
@@ -147,6 +148,7 @@ fn spheroid(way: DVec3) -> Obstacles {
     Obstacles {
         surfaces: vec![body],
         clearance: 0.126,
+        ..Obstacles::default()
     }
 }
 

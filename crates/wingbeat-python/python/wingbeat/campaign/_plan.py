@@ -11,6 +11,7 @@ from typing import Any
 
 from wingbeat._flight import Flight
 from wingbeat._paths import path
+from wingbeat._source import is_case_text
 from wingbeat.campaign import _engines, _names
 from wingbeat.campaign._points import Points
 from wingbeat.campaign._schedule import Schedule
@@ -127,7 +128,7 @@ def _based(base: Any) -> Base:
     if callable(base):
         made: Base = base
         return made
-    if isinstance(base, str) and "\n" not in base and "=" not in base:
+    if isinstance(base, str) and not is_case_text(base):
         return Flight.preset(base)
     return Flight.from_case(base)
 

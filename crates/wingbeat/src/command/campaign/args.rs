@@ -4,8 +4,8 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use wingbeat::campaign::{Campaign, Store, shell};
-use wingbeat::case::IoError;
+use wingbeat::campaign::{Campaign, Store};
+use wingbeat::case::{IoError, operand, shell_path};
 use wingbeat::results::RESULTS;
 
 use crate::command::failure::Failure;
@@ -19,14 +19,6 @@ pub(super) struct Place {
     /// Its directory; default results/NAME.
     #[arg(long, value_name = "DIR", value_parser = folder())]
     pub(super) out: Option<PathBuf>,
-}
-
-/// A path as a word that no program takes for an option.
-pub(super) fn operand(path: &Path) -> PathBuf {
-    match path.as_os_str().as_encoded_bytes().first() {
-        Some(b'-') => Path::new(".").join(path),
-        _ => path.to_owned(),
-    }
 }
 
 impl Place {
@@ -43,10 +35,9 @@ impl Place {
 
     /// What a shell takes for this place in a command.
     pub(super) fn words(&self) -> String {
-        let word = |path: &Path| shell(&path.display().to_string());
-        let file = word(&operand(&self.file));
+        let file = shell_path(&self.file);
         match &self.out {
-            Some(out) => format!("{file} --out {}", word(&operand(out))),
+            Some(out) => format!("{file} --out {}", shell_path(out)),
             None => file,
         }
     }

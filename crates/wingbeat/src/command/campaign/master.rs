@@ -12,7 +12,9 @@ use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressDrawTarget};
 
-use super::args::{duration, operand};
+use wingbeat::case::operand;
+
+use super::args::duration;
 use crate::command::failure::{FAILED, Failure, INTERRUPTED};
 use crate::command::progress::bar;
 use crate::command::terminal::tell;
@@ -86,14 +88,11 @@ impl Master {
         let begun = Instant::now();
         let jobs = jobs.min(self.total - done).max(1);
         let mut workers: Vec<Child> = vec![];
-        for _ in 0..jobs {
-            workers.push(self.start()?);
-        }
-        let (mut deaths, mut before, mut failed) = (0, 0, false);
+        let mut failure = (0..jobs).find_map(|_| self.start_in(&mut workers));
+        let (mut deaths, mut before) = (0, 0);
         while !workers.is_empty() {
             thread::sleep(LOOK);
-            let ends = !failed && stop.load(Ordering::SeqCst);
-            if ends || failed {
+            if failure.is_some() || stop.load(Ordering::SeqCst) {
                 workers.iter_mut().for_each(|w| drop(w.stdin.take())); // they end after their point
             }
             let points = self.points.load(Ordering::Relaxed);
@@ -106,31 +105,40 @@ impl Master {
                 match ended(&mut worker) {
                     None => left.push(worker),
                     Some(End::Complete | End::Stopped) => {}
-                    Some(End::Failed) => failed = true,
-                    Some(End::Died) if stop.load(Ordering::SeqCst) || failed => {}
+                    Some(End::Failed) => failure = failure.or(Some(Failure::Told(FAILED))),
+                    Some(End::Died) if stop.load(Ordering::SeqCst) || failure.is_some() => {}
                     Some(End::Died) if deaths >= MAX_DEATHS => {
                         tell!(
                             "error: {deaths} processes died one after the other before they did a point"
                         );
-                        failed = true;
+                        failure = Some(Failure::Told(FAILED));
                     }
                     Some(End::Died) => {
                         deaths += 1;
-                        left.push(self.start()?);
+                        failure = self.start_in(&mut left);
                     }
                 }
             }
             workers = left;
         }
         self.bar.finish_and_clear();
-        match (failed, stop.load(Ordering::SeqCst)) {
-            (true, _) => Err(Failure::Told(FAILED)),
-            (false, true) => {
+        match (failure, stop.load(Ordering::SeqCst)) {
+            (Some(failure), _) => Err(failure),
+            (None, true) => {
                 tell!("interrupted: what is done is kept; the same command goes on");
                 Err(Failure::Told(INTERRUPTED))
             }
-            (false, false) => Ok(()),
+            (None, false) => Ok(()),
         }
+    }
+
+    /// Starts a process among `workers`; why it cannot be started.
+    fn start_in(&self, workers: &mut Vec<Child>) -> Option<Failure> {
+        match self.start() {
+            Ok(worker) => workers.push(worker),
+            Err(failure) => return Some(failure),
+        }
+        None
     }
 
     /// Starts a process that counts its points on its standard output, and ends with its standard input.
@@ -171,10 +179,12 @@ impl Master {
     }
 }
 
-/// What became of a process, if it has ended.
+/// What became of a process, if it has ended; one that cannot be asked is not waited for.
 fn ended(worker: &mut Child) -> Option<End> {
-    let status = worker.try_wait().ok()??;
-    Some(match status.code() {
+    let Ok(status) = worker.try_wait() else {
+        return Some(End::Died);
+    };
+    Some(match status?.code() {
         Some(0) => End::Complete,
         Some(code) if code == i32::from(INTERRUPTED) => End::Stopped,
         Some(1 | 2) => End::Failed, // it has told why

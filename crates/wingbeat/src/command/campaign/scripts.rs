@@ -3,7 +3,9 @@
 use clap::Args;
 use wingbeat::campaign::Engine;
 
-use super::args::{Place, operand};
+use wingbeat::case::operand;
+
+use super::args::Place;
 use crate::command::failure::Failure;
 use crate::command::options::{self, MAX_THREADS};
 use crate::command::terminal::output;

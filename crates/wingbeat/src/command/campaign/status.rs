@@ -7,7 +7,7 @@ use wingbeat::campaign::{Status, plan_name, retry as forget};
 
 use super::args::{Place, duration};
 use crate::command::failure::Failure;
-use crate::command::terminal::say;
+use crate::command::terminal::{output_is_given_up, say};
 
 /// Time between two lines of `--watch`.
 const WATCH: Duration = Duration::from_secs(2);
@@ -34,7 +34,7 @@ pub(super) fn status(args: &StatusArgs) -> Result<(), Failure> {
             true => say!("{}", json(&status, &plan_name(&campaign))),
             false => say!("{}: {}", campaign.name(), words(&status)),
         }
-        if !args.watch || status.done == status.points {
+        if !args.watch || status.done == status.points || output_is_given_up() {
             return Ok(());
         }
         std::thread::sleep(WATCH);
