@@ -1,7 +1,7 @@
 //! Presets: ordinary case files, embedded, commented, ready to be written out and edited.
 
-use crate::decode::nearest;
 use crate::error::IoError;
+use crate::nearest::nearest;
 use crate::species::SPECIES;
 
 /// An embedded case.

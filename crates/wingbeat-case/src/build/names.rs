@@ -4,8 +4,8 @@ use wingbeat_dynamics::Joint;
 use wingbeat_model::{Animal, mirror_name};
 
 use super::fault::Built;
-use crate::decode::nearest;
 use crate::error::Fault;
+use crate::nearest::nearest;
 use crate::raw::{Case, WingCase};
 
 /// A name as it stands in names of columns: everything but letters and digits is an underscore.

@@ -11,8 +11,8 @@ use super::hinge::hinge;
 use super::numbers::{given_mass, symmetric, vector};
 use super::{deformation, motion, structure};
 use crate::carrier::rides_on_wing;
-use crate::decode::nearest;
 use crate::error::Fault;
+use crate::nearest::nearest;
 use crate::own_motion::takes;
 use crate::raw::{
     BetaCase, Case, OutlineCase, PlanformCase, RectangleCase, StructureCase, WingCase, WingMeshCase,
