@@ -4,8 +4,8 @@ use serde::de::DeserializeOwned;
 
 use crate::error::{CaseError, Fault};
 use crate::keys::without_unit;
-use crate::nearest::nearest;
-use crate::source::{self, CaseSource};
+use crate::text::nearest::nearest;
+use crate::text::source::{self, CaseSource};
 
 /// Decodes the document; unknown keys, missing keys and wrong types become located errors.
 pub(crate) fn decode<T: DeserializeOwned>(source: &CaseSource) -> Result<T, Box<CaseError>> {

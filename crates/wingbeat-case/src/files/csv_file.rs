@@ -6,7 +6,7 @@ use csv::StringRecord;
 
 use super::read::bytes_of;
 use crate::error::Fault;
-use crate::nearest::nearest;
+use crate::text::nearest::nearest;
 
 /// The byte order mark of UTF-8.
 const MARK: &[u8] = b"\xef\xbb\xbf";
