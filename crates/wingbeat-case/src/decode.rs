@@ -4,7 +4,8 @@ use serde::de::DeserializeOwned;
 
 use crate::error::{CaseError, Fault};
 use crate::keys::without_unit;
-use crate::source::{self, CaseSource};
+use crate::text::nearest::nearest;
+use crate::text::source::{self, CaseSource};
 
 /// Decodes the document; unknown keys, missing keys and wrong types become located errors.
 pub(crate) fn decode<T: DeserializeOwned>(source: &CaseSource) -> Result<T, Box<CaseError>> {
@@ -229,24 +230,6 @@ fn same_quantity<'a>(got: &str, expected: &[&'a str]) -> Option<&'a str> {
     };
     let same = expected.iter().filter(is_same);
     same.max_by_key(likeness).copied()
-}
-
-/// Words longer than this many bytes are no slips of known ones.
-const LONGEST_SLIP: usize = 64;
-
-/// The nearest of `names`, if it is near: alike as a whole, or a slip of the finger away.
-pub fn nearest<'a>(got: &str, names: &[&'a str]) -> Option<&'a str> {
-    if got.len() > LONGEST_SLIP {
-        return None; // the search would take its square
-    }
-    let got = got.to_lowercase();
-    let slips = |name: &str| strsim::damerau_levenshtein(&got, name);
-    let score = |name: &str| match slips(name) {
-        0 | 1 => 1.0,
-        _ => strsim::jaro_winkler(&got, name),
-    };
-    let best = names.iter().max_by(|a, b| score(a).total_cmp(&score(b)))?;
-    (got.chars().count() > 1 && score(best) > 0.8).then_some(best)
 }
 
 /// What serde found, in words; the value itself stands beside the key.

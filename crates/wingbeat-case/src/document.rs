@@ -9,7 +9,7 @@ use toml::Value;
 use crate::decode;
 use crate::error::{CaseError, Fault, IoError};
 use crate::files;
-use crate::source::{CaseSource, START};
+use crate::text::source::{CaseSource, START};
 
 /// Values longer than this are not shown beside their key \[bytes\].
 const LONGEST_VALUE: usize = 60;

@@ -1,8 +1,8 @@
 //! Case files: from text to a validated setup, and back to text with everything filled in.
 //!
-//! The way of a case: text -> `source` (document, positions of keys, overrides) -> `decode` (raw types of
+//! The way of a case: text -> `text` (document, positions of keys, overrides) -> `decode` (raw types of
 //! [`raw`], unknown keys refused) -> [`keys`] (every value in its range) -> `files` (meshes and tables read in) ->
-//! `resolve` (keys that follow from others) -> [`keys`] (every key has an effect) -> `build` ->
+//! `build` (keys that follow from others resolved, every key has an effect) ->
 //! [`wingbeat_flight::FlightSetup`], or an error that says what is wrong, where and what to do. [`presets`] are
 //! ordinary case files that come with the program, [`insect`] writes them for other animals.
 //!
@@ -14,47 +14,34 @@
 #![warn(missing_docs)]
 
 mod build;
-mod carrier;
-mod data;
 mod decode;
-mod differences;
-mod digits;
 mod document;
 mod error;
 pub mod external;
 mod files;
-mod fitted;
-mod idle;
+mod findings;
 pub mod insect;
 pub mod keys;
 mod loaded;
-mod measured;
-mod mixed_angles;
-mod output;
+mod motion;
 mod own_control;
-mod own_motion;
-pub mod presets;
 pub mod raw;
-mod resolve;
-mod shell;
-mod source;
-mod species;
-mod trimmed;
-mod ways;
+mod shipped;
+mod text;
 mod written;
 
-pub use build::{OwnControl, column_name};
-pub use data::data_sets;
-pub use decode::nearest;
-pub use differences::{Difference, differences};
+pub use build::{OutputSettings, OwnControl, SaveSettings, column_name};
 pub use document::{Document, overridden};
 pub use error::{CaseError, IoError};
 pub use files::{TableGaps, csv_reader};
-pub use fitted::FittedTable;
+pub use findings::fitted::FittedTable;
+pub use findings::mixed_angles::MixedAngles;
 pub use keys::{SCHEMA_FILE, schema, with_schema};
 pub use loaded::LoadedCase;
-pub use mixed_angles::MixedAngles;
-pub use output::{OutputSettings, SaveSettings};
-pub use shell::{operand, shell, shell_path};
-pub use trimmed::{derivative_case, lacks_feedback, trimmed_case, wake_trimmed_case};
+pub use shipped::data::data_sets;
+pub use shipped::presets;
+pub use text::nearest::nearest;
+pub use text::shell::{operand, shell, shell_path};
 pub use written::case_of;
+pub use written::differences::{Difference, differences};
+pub use written::trimmed::{derivative_case, lacks_feedback, trimmed_case, wake_trimmed_case};

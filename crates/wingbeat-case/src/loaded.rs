@@ -6,14 +6,15 @@ use std::sync::Arc;
 
 use wingbeat_flight::{AirModel, FlightError, FlightSetup};
 
+use crate::build::{OutputSettings, resolve};
 use crate::error::{CaseError, Fault, IoError};
 use crate::external::Unasked;
 use crate::external::controller::Uncommanded;
 use crate::files::TableGaps;
-use crate::output::OutputSettings;
-use crate::shell::{shell, shell_path};
-use crate::source::{CaseSource, table_of};
-use crate::{build, decode, files, keys, presets, raw, resolve};
+use crate::shipped::presets;
+use crate::text::shell::{shell, shell_path};
+use crate::text::source::{CaseSource, table_of};
+use crate::{build, decode, files, keys, raw};
 
 /// A case, validated and ready to fly.
 #[derive(Clone, Debug)]

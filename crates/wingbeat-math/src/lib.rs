@@ -15,43 +15,36 @@
 //! | m, U, I | [`MassProperties`] | mass, first and second inertia tensors about the body origin | eq. 19 |
 #![warn(missing_docs)]
 
-pub mod euler;
-mod extremes;
-mod iterative;
-pub mod lu;
-pub mod mass;
-mod matrix;
-mod mirror;
-pub mod newton;
+mod bodies;
+mod linear;
+mod nonlinear;
+mod numbers;
 pub mod ode;
 pub mod rotation;
-pub mod rotation_jacobian;
-mod secants;
-pub mod series;
-pub mod six_by_six;
-mod small_lu;
-mod smoothstep;
-mod spatial;
-mod split_mix;
-mod statistics;
 
-pub use euler::{EulerMatrices, EulerSequence};
-pub use extremes::{larger, largest, smaller};
+pub use bodies::mass;
+pub use bodies::mass::{MassError, MassProperties};
+pub use bodies::mirror::{mirrored, mirrored_axial, reflected};
+pub use bodies::spatial::{BodyAcceleration, BodyMotion, Wrench};
 pub use glam::{DMat3, DQuat, DVec2, DVec3};
-pub use iterative::{BiCgStab, Product};
-pub use lu::{DenseLu, LuError};
-pub use mass::{MassError, MassProperties};
-pub use matrix::{outer, trace};
-pub use mirror::{mirrored, mirrored_axial, reflected};
+pub use linear::iterative::{BiCgStab, Product};
+pub use linear::lu::{DenseLu, LuError};
+pub use linear::matrix::{outer, trace};
+pub use linear::six_by_six::{Six, SixBySix, six};
+pub use linear::small_lu::{SingularMatrix, SmallLu, solve_small};
+pub use linear::{lu, six_by_six};
+pub use nonlinear::newton;
+pub use nonlinear::secants::{Secants, Shown};
+pub use numbers::extremes::{larger, largest, smaller};
+pub use numbers::series;
+pub use numbers::series::{DriftingFourier, interpolate, interpolate_pairs, with_harmonics};
+pub use numbers::smoothstep::{smoothstep, smoothstep7};
+pub use numbers::split_mix::SplitMix64;
+pub use numbers::statistics::{median, root_mean_square, to_digits};
+pub use rotation::euler;
+pub use rotation::euler::{EulerMatrices, EulerSequence};
+pub use rotation::jacobian as rotation_jacobian;
 pub use rotation::{
     MovingRotation, RotationLaw, r1, r2, r3, rotation_about, rotation_vector,
     rotation_vector_of_matrix, tilde, untilde,
 };
-pub use secants::{Secants, Shown};
-pub use series::{DriftingFourier, interpolate, interpolate_pairs, with_harmonics};
-pub use six_by_six::{Six, SixBySix, six};
-pub use small_lu::{SingularMatrix, SmallLu, solve_small};
-pub use smoothstep::{smoothstep, smoothstep7};
-pub use spatial::{BodyAcceleration, BodyMotion, Wrench};
-pub use split_mix::SplitMix64;
-pub use statistics::{median, root_mean_square, to_digits};

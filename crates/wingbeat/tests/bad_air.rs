@@ -3,7 +3,7 @@
 
 use std::fs;
 
-use crate::support::{Scratch, wingbeat};
+use crate::support::{Scratch, refused_with, wingbeat};
 
 /// A tethered flight in the lattice with a cube for a body; fine and quick.
 const GOOD: &str = r#"format = 1
@@ -64,25 +64,8 @@ chordwise = 2
 spanwise = 3
 "#;
 
-/// Flies the good case with `from` replaced by `to` and checks the report and that nothing was
-/// written. `wanted` are parts of the report; `at` is the text that begins the line named.
 fn refused(name: &str, from: &str, to: &str, at: &str, wanted: &[&str]) {
-    assert!(GOOD.contains(from), "the test replaces nothing");
-    let scratch = Scratch::new(name);
-    let text = GOOD.replacen(from, to, 1);
-    fs::write(scratch.0.join("case.toml"), &text).unwrap();
-    let out = wingbeat(&scratch.0, &["run", "case.toml", "--out", "run"]);
-    let report = String::from_utf8(out.stderr).unwrap();
-    assert_eq!(out.status.code(), Some(2), "{report}");
-    let line = text.lines().position(|l| l.starts_with(at)).unwrap() + 1;
-    assert!(
-        report.contains(&format!("case.toml:{line}:")),
-        "line {line} not in:\n{report}"
-    );
-    for part in wanted {
-        assert!(report.contains(part), "`{part}` not in:\n{report}");
-    }
-    assert!(!scratch.0.join("run").exists(), "something was written");
+    refused_with(GOOD, name, [from, to], at, wanted);
 }
 
 #[test]

@@ -4,7 +4,7 @@
 use std::fs;
 use std::path::PathBuf;
 
-use crate::support::{Scratch, wingbeat};
+use crate::support::{Scratch, refused_with, says, wingbeat};
 
 /// A vacuum case that is fine and quick.
 const GOOD: &str = r#"format = 1
@@ -52,32 +52,11 @@ fn case_in(scratch: &Scratch, text: &str) -> PathBuf {
     path
 }
 
-/// Runs the good case with `from` replaced by `to` and checks the report and that nothing else
-/// was written. `wanted` are parts of the report; the line is found from the text `at`.
+/// As [`refused_with`], of the good case; the report says what is allowed and what to try.
 fn refused(name: &str, from: &str, to: &str, at: &str, wanted: &[&str]) {
-    assert!(GOOD.contains(from), "the test replaces nothing");
-    let scratch = Scratch::new(name);
-    let text = GOOD.replacen(from, to, 1);
-    let case = case_in(&scratch, &text);
-    let out = wingbeat(&scratch.0, &["run", "case.toml", "--out", "run"]);
-    let report = String::from_utf8(out.stderr).unwrap();
-    assert_eq!(out.status.code(), Some(2), "{report}");
-    let line = text.lines().position(|l| l.contains(at)).unwrap() + 1;
-    assert!(
-        report.contains(&format!("case.toml:{line}:")),
-        "line {line} not in:\n{report}"
-    );
-    assert!(
-        report.contains("allowed: ") && report.contains("try: "),
-        "{report}"
-    );
-    for part in wanted {
-        assert!(report.contains(part), "`{part}` not in:\n{report}");
-    }
-    assert!(
-        case.exists() && !scratch.0.join("run").exists(),
-        "something was written"
-    );
+    let report = refused_with(GOOD, name, [from, to], at, wanted);
+    says(&report, "allowed: ");
+    says(&report, "try: ");
 }
 
 #[test]

@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use crate::support::readers::{python, readers, store, works};
-use crate::support::{Scratch, flown, required, wingbeat};
+use crate::support::{Scratch, flown, refused_untouched, required, wingbeat};
 
 const CASE: [&str; 15] = [
     "run",
@@ -98,12 +98,7 @@ fn assert_validated(run: &Path, part: &str) {
 #[test]
 fn refuses_exports_of_what_is_not_there() {
     let scratch = Scratch::new("no-export");
-    let refused = |args: &[&str], reason: &str| {
-        let out = wingbeat(&scratch.0, args);
-        let said = String::from_utf8_lossy(&out.stderr).into_owned();
-        assert_eq!(out.status.code(), Some(2), "{said}");
-        assert!(said.contains(reason), "{said}\ndoes not say: {reason}");
-    };
+    let refused = |args: &[&str], reason: &str| refused_untouched(&scratch.0, args, reason);
     refused(
         &["export", ".", "--format", "hdf5"],
         "not a result directory of wingbeat",

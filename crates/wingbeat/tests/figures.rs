@@ -4,6 +4,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use crate::support::refused_untouched as refused;
 use crate::support::{Scratch, flown, wingbeat};
 use wingbeat::draw::figures::Kind;
 
@@ -32,13 +33,6 @@ fn plotted(dir: &Path, args: &[&str]) -> Vec<PathBuf> {
     assert!(out.status.success(), "{args:?}: {said}");
     let files = String::from_utf8(out.stdout).unwrap();
     files.lines().map(|f| dir.join(f)).collect()
-}
-
-fn refused(dir: &Path, args: &[&str], reason: &str) {
-    let out = wingbeat(dir, args);
-    let said = String::from_utf8_lossy(&out.stderr);
-    assert_eq!(out.status.code(), Some(2), "{args:?}: {said}");
-    assert!(said.contains(reason), "{said}\ndoes not say: {reason}");
 }
 
 /// Width and height of a PNG file.

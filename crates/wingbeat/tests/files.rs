@@ -6,7 +6,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use crate::support::{Scratch, contents, flown, quick_case, wingbeat};
+use crate::support::refused_untouched as refused;
+use crate::support::{Scratch, contents, flown, quick_case};
 
 /// Folder with a case, a run with its checkpoint, and a file of the user.
 fn with_run(name: &str) -> Scratch {
@@ -31,16 +32,6 @@ fn with_run(name: &str) -> Scratch {
 
 const VELOCITY: [&str; 4] = ["velocity", "r", "--point", "0,0,0.1"];
 const TABLE: [&str; 2] = ["stability", "table1-sun-2007"];
-
-/// Runs and refuses, changing nothing.
-fn refused(dir: &Path, args: &[&str], wanted: &str) {
-    let before = contents(dir);
-    let out = wingbeat(dir, args);
-    let said = String::from_utf8_lossy(&out.stderr);
-    assert_eq!(out.status.code(), Some(2), "{args:?}: {said}");
-    assert!(said.contains(wanted), "{args:?}: {said}");
-    assert!(before == contents(dir), "{args:?} changed something");
-}
 
 #[test]
 fn refuses_to_write_over_a_file_unasked() {

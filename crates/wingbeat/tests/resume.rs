@@ -10,7 +10,7 @@ use std::time::{Duration, Instant};
 mod lost_frames;
 mod support;
 
-use support::{Scratch, wingbeat};
+use support::{Scratch, refused_untouched, wingbeat};
 use wingbeat::case::LoadedCase;
 use wingbeat::flight::Simulation;
 use wingbeat::results::{History, Manifest, Outcome, ResultDir, RunWriter};
@@ -215,28 +215,7 @@ fn interrupted(dir: &Path) -> Vec<u8> {
 }
 
 fn refused(dir: &Path, reason: &str) {
-    let before = remains_of_all(dir);
-    let done = wingbeat(dir, &["resume", ".", "--quiet"]);
-    let said = String::from_utf8_lossy(&done.stderr);
-    assert_eq!(done.status.code(), Some(2), "{said}");
-    assert!(said.contains(reason), "{said}\ndoes not say: {reason}");
-    assert!(
-        remains_of_all(dir) == before,
-        "{reason}: something was changed"
-    );
-}
-
-fn remains_of_all(dir: &Path) -> Vec<(PathBuf, Vec<u8>)> {
-    let mut files: Vec<PathBuf> = fs::read_dir(dir)
-        .unwrap()
-        .map(|e| e.unwrap().path())
-        .collect();
-    files.retain(|f| f.is_file());
-    files.sort();
-    files
-        .into_iter()
-        .map(|f| (f.clone(), fs::read(f).unwrap()))
-        .collect()
+    refused_untouched(dir, &["resume", ".", "--quiet"], reason);
 }
 
 #[test]

@@ -6,8 +6,8 @@ use wingbeat_model::motion::Fourier;
 use wingbeat_model::{Animal, Deformation, ModelError, Wing, mirror_name};
 
 use super::fault::Built;
-use crate::carrier::carrier;
 use crate::error::Fault;
+use crate::motion::carrier::carrier;
 use crate::raw::{Case, CourseCase, DeformationCase, SurfaceCase};
 
 /// A term as it is written, whatever it deforms.

@@ -7,15 +7,15 @@ use wingbeat_model::{Animal, Wing, mirror_name};
 
 use super::fault::{Built, idle};
 use super::{model_keys, spacing, wingless};
-use crate::carrier::rides_on_wing;
-use crate::data::find_data;
 use crate::error::Fault;
-use crate::own_motion::{every_phase, every_wing, has_all_angles};
+use crate::motion::carrier::rides_on_wing;
+use crate::motion::own_motion::{every_phase, every_wing, has_all_angles};
 use crate::raw::{
     ANGLES, AirModel, Case, Formulation, JointCase, Mode, TetherCase, TurnCase, WingCase,
     WingMeshCase,
 };
-use crate::source::CaseSource;
+use crate::shipped::data::find_data;
+use crate::text::source::CaseSource;
 
 /// Checks what takes more than one look: `setup` was made of `case`, which was read from `source`.
 pub(crate) fn check(case: &Case, setup: &FlightSetup, source: &CaseSource) -> Built<()> {

@@ -5,7 +5,7 @@ use wingbeat_math::MassError;
 use wingbeat_model::ModelError;
 
 use crate::error::Fault;
-use crate::source::table_of;
+use crate::text::source::table_of;
 
 pub(super) type Built<T> = Result<T, Fault>;
 

@@ -5,8 +5,8 @@ use wingbeat_model::mirror_name;
 
 use super::fault::Built;
 use super::numbers::vector;
-use crate::carrier::carrier;
 use crate::error::Fault;
+use crate::motion::carrier::carrier;
 use crate::raw::Case;
 
 /// The hinge of a wing in body axes \[m\], all angles of the wings being zero: where it is given, or, of a wing that

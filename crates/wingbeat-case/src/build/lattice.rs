@@ -11,12 +11,12 @@ use super::fault::{Built, idle};
 use super::lengths::Chord;
 use super::numbers::vector;
 use super::{deformation, viscosity, wind};
+use crate::build::resolve;
 use crate::error::Fault;
 use crate::raw::{
     AirCase, Case, CoreCase, FrictionCase, LeadingEdgeCase, ParticlesCase, SchemeCase,
     SectionDragCase,
 };
-use crate::resolve;
 
 /// The lattice and what of the animal it sees.
 pub(super) fn options(whole: &Case, animal: &Animal) -> Built<AirOptions> {

@@ -10,7 +10,7 @@ use crate::raw::CoreCase;
 /// Size of a bound core in mean chords below which rounding decides what a turned filament does to points on its
 /// own line: their distance from it is 1e-16 of the places, which no narrower core hides (a thousandth of this
 /// changes the lift of flapping wings by 3 to 70 %). An algebraic core is part of the distance and may be 0.
-const LEAST_BOUND_CORE: f64 = 1e-6;
+const MIN_BOUND_CORE: f64 = 1e-6;
 
 /// The mean chord of all wings; of an animal without wings the mean width of the panels of its body, of
 /// several parts the smallest of their mean widths.
@@ -89,7 +89,7 @@ impl Chord {
             CoreModel::LambOseen { radius, .. } => ("lamb_oseen.radius_m", radius),
             CoreModel::Algebraic { .. } => return Ok(()),
         };
-        match self.0.map(|chord| LEAST_BOUND_CORE * chord) {
+        match self.0.map(|chord| MIN_BOUND_CORE * chord) {
             Some(least) if size < least => Err(Fault::new(
                 format!("air.bound_core.{key}"),
                 format!(

@@ -26,6 +26,7 @@ mod output;
 mod own_control;
 mod program;
 mod refused;
+pub(crate) mod resolve;
 mod route;
 mod segment;
 mod size;
@@ -42,6 +43,7 @@ pub(crate) use motion::radians;
 pub(crate) use names::check_characters as check_names;
 pub use names::column_name;
 pub(crate) use output::output;
+pub use output::{OutputSettings, SaveSettings};
 pub use own_control::OwnControl;
 pub(crate) use own_control::own_control;
 pub(crate) use refused::refused;
@@ -52,8 +54,8 @@ use wingbeat_model::{Animal, ModelError, Wing};
 use fault::Built;
 
 use super::raw::{Case, CorrectorCase, WingInertia};
-use crate::carrier::is_carried;
 use crate::error::Fault;
+use crate::motion::carrier::is_carried;
 
 /// The setup of a resolved case.
 pub(crate) fn setup(case: &Case, name: &str) -> Built<FlightSetup> {

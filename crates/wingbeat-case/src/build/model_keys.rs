@@ -2,10 +2,10 @@
 
 use super::fault::{Built, idle};
 use super::viscosity;
+use crate::build::resolve;
 use crate::error::Fault;
 use crate::raw::{AirCase, AirModel, Case, CoreCase, DerivativesCase};
-use crate::resolve;
-use crate::source::CaseSource;
+use crate::text::source::CaseSource;
 
 /// Where the model is chosen.
 const MODEL: &str = "air.model";

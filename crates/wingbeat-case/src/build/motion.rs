@@ -6,13 +6,13 @@ use wingbeat_model::motion::{
 use wingbeat_model::{AngleLaw, AngleLaws, Side, Start, WingMotion};
 
 use super::fault::Built;
-use crate::carrier::rides_on_wing;
-use crate::data::find_data;
 use crate::error::Fault;
-use crate::own_motion::gives_angles;
+use crate::motion::carrier::rides_on_wing;
+use crate::motion::own_motion::gives_angles;
 use crate::raw::{
     AngleCase, Case, FourierCase, MotionCase, StartCase, TableCase, WingCase, WingMotionCase,
 };
+use crate::shipped::data::find_data;
 
 /// The motion of `wing`, `name` in the case; what it leaves out is that of `base`, else that of `[motion]`. The axes of
 /// a wing that moves with another one are those of its carrier: stroke plane and data set of `[motion]` are not its

@@ -6,9 +6,9 @@ use wingbeat_dynamics::Joint;
 use wingbeat_model::{Animal, mirror_name};
 
 use super::fault::Built;
-use crate::decode::nearest;
 use crate::error::Fault;
 use crate::raw::{Case, WingCase};
+use crate::text::nearest::nearest;
 
 /// A name as it stands in names of columns: everything but letters and digits is an underscore.
 pub fn column_name(name: &str) -> String {

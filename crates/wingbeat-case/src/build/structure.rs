@@ -13,7 +13,7 @@ use crate::error::Fault;
 use crate::raw::{
     BeamCase, BeamMassCase, RegionCase, ShellCase, ShellRule, StructureCase, VeinCase,
 };
-use crate::source::{find, table_of};
+use crate::text::source::{find, table_of};
 
 /// Elements of a beam where nothing is said.
 const ELEMENTS: usize = 10;

@@ -10,13 +10,13 @@ use super::fault::{Built, fault_at};
 use super::hinge::hinge;
 use super::numbers::{given_mass, symmetric, vector};
 use super::{deformation, motion, structure};
-use crate::carrier::rides_on_wing;
-use crate::decode::nearest;
 use crate::error::Fault;
-use crate::own_motion::takes;
+use crate::motion::carrier::rides_on_wing;
+use crate::motion::own_motion::takes;
 use crate::raw::{
     BetaCase, Case, OutlineCase, PlanformCase, RectangleCase, StructureCase, WingCase, WingMeshCase,
 };
+use crate::text::nearest::nearest;
 
 /// All wings in the order of their names, mirror images among them.
 pub(super) fn build_all(case: &Case) -> Built<Vec<Wing>> {

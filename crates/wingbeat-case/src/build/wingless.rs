@@ -3,10 +3,10 @@
 use toml::Table;
 
 use super::fault::{Built, idle};
+use crate::build::resolve;
 use crate::error::Fault;
 use crate::raw::{AirCase, AirModel, Case};
-use crate::resolve;
-use crate::source::{CaseSource, table_of};
+use crate::text::source::{CaseSource, table_of};
 
 const WITHOUT_WINGS: &str = "without wings";
 

@@ -5,8 +5,8 @@ use std::path::PathBuf;
 use csv::StringRecord;
 
 use super::read::bytes_of;
-use crate::decode::nearest;
 use crate::error::Fault;
+use crate::text::nearest::nearest;
 
 /// The byte order mark of UTF-8.
 const MARK: &[u8] = b"\xef\xbb\xbf";

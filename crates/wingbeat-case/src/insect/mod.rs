@@ -17,7 +17,7 @@ use crate::error::IoError;
 use crate::loaded::LoadedCase;
 use scaling::Insect;
 
-pub use crate::species::{SPECIES, Species};
+pub use crate::shipped::species::{SPECIES, Species};
 pub use scaling::Size;
 pub use text::InsectAir;
 

@@ -10,7 +10,7 @@
 
 use super::number::number;
 use crate::error::IoError;
-use crate::species::{SPECIES, Species};
+use crate::shipped::species::{SPECIES, Species};
 
 /// Deakin's constant in SI units \[Hz m2 / sqrt(kg)\]: 317 for grams and square centimetres.
 const DEAKIN: f64 = 317.0 * 31.622_776_601_683_793 * 1e-4;

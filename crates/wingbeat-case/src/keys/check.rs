@@ -6,7 +6,7 @@ use super::bounds;
 use super::needs::{self, Need};
 use super::schema::Shape;
 use crate::error::Fault;
-use crate::source::{CaseSource, join};
+use crate::text::source::{CaseSource, join};
 
 /// Where the air's model is chosen.
 const MODEL: &str = "air.model";

@@ -5,10 +5,12 @@
 
 mod air;
 mod animal;
+pub(crate) mod differences;
 pub(crate) mod flight;
 mod motion;
 mod refusal;
 mod structure;
+pub(crate) mod trimmed;
 
 use std::fmt::Debug;
 

@@ -1,6 +1,6 @@
 //! Corrector passes: when they are done, how a step went, and why one fails.
 
-use crate::secants::{Secants, Shown};
+use crate::nonlinear::secants::{Secants, Shown};
 
 /// Most differences of passes that are kept for the next step.
 const MAX_KEPT: usize = 8;

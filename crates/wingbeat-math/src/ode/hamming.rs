@@ -11,7 +11,7 @@
 //! With one, two, three corrector passes the limits of stability on the real axis are
 //! |lambda h| = 0.88, 0.72, 1.46, on the imaginary axis 0.28, 0.80, 1.08.
 
-use crate::secants::Shown;
+use crate::nonlinear::secants::Shown;
 
 use super::corrector::{Asked, Convergence, Passing, StepError, StepReport, agree};
 

@@ -43,7 +43,7 @@ impl EqualSteps {
             }
             false => [1.0, -1.0].map(|sign| c64::new(-half, sign * (-under).sqrt())),
         };
-        crate::largest(roots.map(|z| self.root(z)))
+        crate::numbers::extremes::largest(roots.map(|z| self.root(z)))
     }
 
     /// Size of the largest root at `z` \[1\].
@@ -97,7 +97,7 @@ fn largest_root(a: [c64; 4]) -> f64 {
         });
         r * r * r * r - known
     };
-    let bound = 1.0 + crate::largest(a.map(c64::norm));
+    let bound = 1.0 + crate::numbers::extremes::largest(a.map(c64::norm));
     let mut roots: [c64; 4] = std::array::from_fn(|k| {
         let angle = 0.4 + 1.6 * k as f64;
         c64::new(bound * angle.cos(), bound * angle.sin())
@@ -111,7 +111,7 @@ fn largest_root(a: [c64; 4]) -> f64 {
             }
         }
     }
-    crate::largest(roots.map(c64::norm))
+    crate::numbers::extremes::largest(roots.map(c64::norm))
 }
 
 #[cfg(test)]

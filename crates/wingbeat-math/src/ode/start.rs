@@ -103,7 +103,7 @@ pub fn block_start<R: Replay>(
             replay.leave(k).map_err(StepError::Rates)?;
         }
         let change = |k: usize| scaled_difference(&before[k], &past.y[k], scales);
-        report.residual = crate::largest((1..4).map(change));
+        report.residual = crate::numbers::extremes::largest((1..4).map(change));
         if sweep > 0 && report.residual <= convergence.tolerance {
             break;
         }
@@ -132,7 +132,7 @@ pub fn stepwise_start<R: Replay>(
         let w = weights[k - 1];
         let inner = agree(k, w, step, convergence, scales, replay, &mut past)?;
         report.passes = report.passes.max(inner.passes);
-        report.residual = crate::larger(report.residual, inner.residual);
+        report.residual = crate::numbers::extremes::larger(report.residual, inner.residual);
         replay.leave(k).map_err(StepError::Rates)?;
     }
     Ok((past, report))

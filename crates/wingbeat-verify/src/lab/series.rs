@@ -2,28 +2,28 @@
 
 use std::f64::consts::TAU;
 
+use csv::StringRecord;
+use wingbeat_case::csv_reader;
+
 /// Columns of a table by their names; comment lines from `#` are left out.
 pub struct Table {
-    header: Vec<String>,
-    rows: Vec<Vec<String>>,
+    header: StringRecord,
+    rows: Vec<StringRecord>,
 }
 
 impl Table {
     /// Reads comma-separated text.
     pub fn new(text: &str) -> Self {
-        let cells = |l: &str| l.split(',').map(|w| w.trim().to_owned()).collect();
-        let mut lines = text
-            .lines()
-            .filter(|l| !l.starts_with('#') && !l.trim().is_empty());
-        let header = cells(lines.next().expect("a header"));
-        let rows = lines.map(cells).collect();
+        let mut reader = csv_reader(text.as_bytes());
+        let header = reader.headers().expect("a header").clone();
+        let rows = reader.records().map(|row| row.expect("a row")).collect();
         Self { header, rows }
     }
 
     /// A column as words.
     pub fn words(&self, name: &str) -> impl Iterator<Item = &str> {
         let k = self.header.iter().position(|h| h == name).expect(name);
-        self.rows.iter().map(move |r| r[k].as_str())
+        self.rows.iter().map(move |r| &r[k])
     }
 
     /// A column as numbers.

@@ -1,7 +1,5 @@
 //! `wingbeat check`: what a case holds, what its flight will be like, and whether it can be flown.
 
-use std::path::PathBuf;
-
 use clap::Args;
 use serde_json::{Value, json};
 use wingbeat::analysis::estimate;
@@ -12,7 +10,7 @@ use wingbeat::results::fixed::fixed;
 
 use crate::command::expectation::{self, Cost};
 use crate::command::failure::Failure;
-use crate::command::options::CaseName;
+use crate::command::options::CaseArgs;
 use crate::command::report::{Report, ReportArgs, entry, line};
 use crate::command::terminal::tell;
 use crate::command::watch::Watch;
@@ -20,12 +18,8 @@ use crate::command::watch::Watch;
 /// Arguments of `wingbeat check`.
 #[derive(Args)]
 pub(crate) struct CheckArgs {
-    /// Case file or preset; - is the standard input.
-    #[arg(value_parser = CaseName, hide_possible_values = true)]
-    case: PathBuf,
-    /// Set a key of the case, e.g. time.beats=3; KEY= takes it away (may be repeated).
-    #[arg(long = "set", value_name = "KEY=VALUE")]
-    set: Vec<String>,
+    #[command(flatten)]
+    case: CaseArgs,
     /// Build and try lattices, too, that take long to build.
     #[arg(long)]
     trial: bool,
@@ -42,7 +36,7 @@ pub(crate) fn check(args: &CheckArgs) -> Result<(), Failure> {
 }
 
 fn look(args: &CheckArgs, report: &mut Report) -> Result<(), IoError> {
-    let case = LoadedCase::find(&args.case, &args.set)?;
+    let case = args.case.load()?;
     let mut estimate = estimate(&case.setup);
     let fits = case.fitted_tables();
     estimate.doubts.extend(case.doubtful_measurements());

@@ -1,17 +1,15 @@
 //! `wingbeat ensemble`: the same flight many times over, from starts that differ by next to nothing.
 
-use std::path::PathBuf;
-
 use clap::Args;
 use serde_json::json;
 use wingbeat::analysis::estimate;
-use wingbeat::case::{LoadedCase, presets};
+use wingbeat::case::presets;
 use wingbeat::results::summary::{Ensemble, EnsembleBeat, Estimate};
 use wingbeat::{Flight, ensemble};
 
 use super::analyse::trimming::watched;
 use super::failure::Failure;
-use super::options::{self, CaseName};
+use super::options::{self, CaseArgs};
 use super::report::{Report, ReportArgs, line};
 use super::run::name_program;
 use super::terminal::tell;
@@ -22,13 +20,10 @@ const DEFAULT_MEMBERS: usize = 8;
 
 /// Arguments of `wingbeat ensemble`.
 #[derive(Args)]
+#[command(mut_arg("case", |a| a.required(false).default_value(presets::DEFAULT)))]
 pub(crate) struct EnsembleArgs {
-    /// Case file or preset; - is the standard input.
-    #[arg(default_value = presets::DEFAULT, value_parser = CaseName, hide_possible_values = true)]
-    case: PathBuf,
-    /// Set a key of the case, e.g. time.beats=3; KEY= takes it away (may be repeated).
-    #[arg(long = "set", value_name = "KEY=VALUE")]
-    set: Vec<String>,
+    #[command(flatten)]
+    case: CaseArgs,
     /// Flights; in all but the first the air moves by a millionth of the wings' speed, and noise of the senses
     /// is another.
     #[arg(long, value_name = "N", default_value_t = DEFAULT_MEMBERS,
@@ -44,7 +39,7 @@ pub(crate) struct EnsembleArgs {
 /// The whole command.
 pub(crate) fn run(args: &EnsembleArgs) -> Result<(), Failure> {
     args.report.deliver([], |report, []| {
-        let case = LoadedCase::find(&args.case, &args.set)?;
+        let case = args.case.load()?;
         name_program(&case);
         let doubts = estimate(&case.setup).doubts;
         doubts.iter().for_each(|d| tell!("warning: {d}"));

@@ -7,6 +7,7 @@ use clap::builder::{PathBufValueParser, PossibleValue, TypedValueParser};
 use clap::{Arg, Args, Command};
 use wingbeat::analysis::SPEED_OF_SOUND;
 use wingbeat::case::presets::PRESETS;
+use wingbeat::case::{IoError, LoadedCase};
 
 /// A finite number for which `allowed` holds; `range` says so in words.
 fn number(text: &str, allowed: impl Fn(f64) -> bool, range: &str) -> Result<f64, String> {
@@ -174,6 +175,24 @@ impl TypedValueParser for CaseName {
     fn possible_values(&self) -> Option<Box<dyn Iterator<Item = PossibleValue> + '_>> {
         let names = PRESETS.iter().map(|p| PossibleValue::new(p.name));
         Some(Box::new(names))
+    }
+}
+
+/// The case of a command, and what it changes of the case.
+#[derive(Args)]
+pub(crate) struct CaseArgs {
+    /// Case file or preset; - is the standard input.
+    #[arg(value_parser = CaseName, hide_possible_values = true)]
+    case: PathBuf,
+    /// Set a key of the case, e.g. time.beats=3; KEY= takes it away (may be repeated).
+    #[arg(long = "set", value_name = "KEY=VALUE")]
+    set: Vec<String>,
+}
+
+impl CaseArgs {
+    /// The case, checked.
+    pub(crate) fn load(&self) -> Result<LoadedCase, IoError> {
+        LoadedCase::find(&self.case, &self.set)
     }
 }
 

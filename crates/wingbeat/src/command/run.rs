@@ -11,7 +11,7 @@ use wingbeat::flight::{FlightError, Simulation};
 use wingbeat::results::{Outcome, RESULTS, RecordedFlight, ResultDir, Summary, saver};
 
 use crate::command::failure::{self, FAILED, Failure, INTERRUPTED};
-use crate::command::options::{CaseName, RunOptions};
+use crate::command::options::{CaseArgs, RunOptions};
 use crate::command::progress::Progress;
 use crate::command::signals::Interrupts;
 use crate::command::target::folder;
@@ -19,19 +19,16 @@ use crate::command::terminal::{self, say, tell};
 
 /// Arguments of `wingbeat run`.
 #[derive(Args)]
+#[command(mut_arg("case", |a| a.required(false).default_value(presets::DEFAULT)))]
 pub(crate) struct RunArgs {
-    /// Case file or preset; - is the standard input.
-    #[arg(default_value = presets::DEFAULT, value_parser = CaseName, hide_possible_values = true)]
-    case: PathBuf,
+    #[command(flatten)]
+    case: CaseArgs,
     /// Result directory; default results/NAME, with a number appended if that exists.
     #[arg(long, value_name = "DIR", value_parser = folder())]
     out: Option<PathBuf>,
     /// Replace an earlier run in the result directory.
     #[arg(long, requires = "out")]
     overwrite: bool,
-    /// Set a key of the case, e.g. time.beats=3; KEY= takes it away (may be repeated).
-    #[arg(long = "set", value_name = "KEY=VALUE")]
-    set: Vec<String>,
     #[command(flatten)]
     options: RunOptions,
 }
@@ -104,7 +101,7 @@ pub(crate) fn name_program(case: &LoadedCase) {
 
 /// Everything that can be refused before a step is made; the directory is made last.
 fn prepare(args: &RunArgs, threads: usize, interrupts: &Interrupts) -> Result<Run, IoError> {
-    let case = LoadedCase::find(&args.case, &args.set)?;
+    let case = args.case.load()?;
     if let Some(out) = args
         .out
         .as_deref()

@@ -172,8 +172,44 @@ pub fn said(dir: &Path, args: &[&str]) -> String {
 /// Standard error of a command that fails with this exit code.
 pub fn refused(dir: &Path, code: i32, args: &[&str]) -> String {
     let out = wingbeat(dir, args);
-    assert_eq!(out.status.code(), Some(code), "{args:?}");
-    String::from_utf8(out.stderr).unwrap()
+    let said = String::from_utf8(out.stderr).unwrap();
+    assert_eq!(out.status.code(), Some(code), "{args:?}: {said}");
+    said
+}
+
+/// What a text must say.
+pub fn says(text: &str, part: &str) {
+    assert!(text.contains(part), "{text}\ndoes not say: {part}");
+}
+
+/// Runs the program, which must refuse with exit code 2, say why, and change nothing in the folder.
+pub fn refused_untouched(dir: &Path, args: &[&str], reason: &str) {
+    let before = contents(dir);
+    says(&refused(dir, 2, args), reason);
+    assert!(before == contents(dir), "{args:?} changed something");
+}
+
+/// Runs a good case with a part of its text replaced, which must be refused with exit code 2 by a report that names
+/// the line where `at` stands and says all of `wanted`; nothing but the case is left.
+pub fn refused_with(
+    good: &str,
+    name: &str,
+    [from, to]: [&str; 2],
+    at: &str,
+    wanted: &[&str],
+) -> String {
+    assert!(good.contains(from), "the test replaces nothing");
+    let scratch = Scratch::new(name);
+    let text = good.replacen(from, to, 1);
+    fs::write(scratch.0.join("case.toml"), &text).unwrap();
+    let report = refused(&scratch.0, 2, &["run", "case.toml", "--out", "run"]);
+    let line = text.lines().position(|l| l.contains(at)).unwrap() + 1;
+    says(&report, &format!("case.toml:{line}:"));
+    for part in wanted {
+        says(&report, part);
+    }
+    assert_eq!(contents(&scratch.0).len(), 1, "something was written");
+    report
 }
 
 /// A column of the history of a run.

@@ -4,8 +4,6 @@ mod table;
 
 use std::f64::consts::TAU;
 
-use std::path::PathBuf;
-
 use clap::Args;
 use serde_json::{Value, json};
 use wingbeat::analysis::flutter::{
@@ -17,19 +15,19 @@ use wingbeat::case::LoadedCase;
 use self::table::{head, notes, tell};
 use super::trimming::watched;
 use crate::command::failure::Failure;
-use crate::command::options::{self, CaseName};
+use crate::command::options::{self, CaseArgs};
 use crate::command::report::{Report, ReportArgs, line};
 use crate::command::terminal::tell as announce;
 
 /// Arguments of `wingbeat flutter`.
 #[derive(Args)]
+#[command(
+    mut_arg("case", |a| a.help("Case file or preset with elastic wings held in a stream; - is the standard input")),
+    mut_arg("set", |a| a.help("Set a key of the case, e.g. air.density_kg_m3=1; KEY= takes it away (may be repeated)")),
+)]
 pub(crate) struct FlutterArgs {
-    /// Case file or preset with elastic wings held in a stream; - is the standard input.
-    #[arg(value_parser = CaseName, hide_possible_values = true)]
-    case: PathBuf,
-    /// Set a key of the case, e.g. air.density_kg_m3=1; KEY= takes it away (may be repeated).
-    #[arg(long = "set", value_name = "KEY=VALUE")]
-    set: Vec<String>,
+    #[command(flatten)]
+    case: CaseArgs,
     /// Speeds of the stream, m/s: from, to and their number, or one speed, whose modes are shown.
     #[arg(long, value_name = "FROM:TO:N", value_parser = options::speeds, allow_hyphen_values = true)]
     speeds: options::Speeds,
@@ -62,7 +60,7 @@ pub(crate) fn run(args: &FlutterArgs) -> Result<(), Failure> {
         ..FlutterSettings::default()
     };
     args.report.deliver([], |report, []| {
-        let case = LoadedCase::find(&args.case, &args.set)?;
+        let case = args.case.load()?;
         let mut found: Vec<Condition> = vec![];
         let asked = args.speeds.values().collect::<Vec<f64>>();
         report.value("asked_speeds_m_s", asked.clone());

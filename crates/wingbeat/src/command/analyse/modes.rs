@@ -8,12 +8,11 @@ use clap::Args;
 use serde_json::{Value, json};
 use wingbeat::analysis::flutter::ElasticRig;
 use wingbeat::analysis::{About, Alike, WingMode, WingModes, wing_modes};
-use wingbeat::case::LoadedCase;
 use wingbeat::model::Wing;
 
 use super::trimming::watched;
 use crate::command::failure::Failure;
-use crate::command::options::{self, CaseName};
+use crate::command::options::{self, CaseArgs};
 use crate::command::report::{Report, ReportArgs, line};
 use crate::command::terminal::tell as announce;
 
@@ -28,13 +27,13 @@ const ALIKE: f64 = 0.5;
 
 /// Arguments of `wingbeat modes`.
 #[derive(Args)]
+#[command(
+    mut_arg("case", |a| a.help("Case file or preset with elastic wings; - is the standard input")),
+    mut_arg("set", |a| a.help("Set a key of the case, e.g. wing.right.structure.shell.young_pa=2e9; KEY= takes it away (may be repeated)")),
+)]
 pub(crate) struct ModesArgs {
-    /// Case file or preset with elastic wings; - is the standard input.
-    #[arg(value_parser = CaseName, hide_possible_values = true)]
-    case: PathBuf,
-    /// Set a key of the case, e.g. wing.right.structure.shell.young_pa=2e9; KEY= takes it away (may be repeated).
-    #[arg(long = "set", value_name = "KEY=VALUE")]
-    set: Vec<String>,
+    #[command(flatten)]
+    case: CaseArgs,
     /// Modes of each wing.
     #[arg(long, value_name = "N", default_value_t = 6, value_parser = options::count::<1, 100>)]
     count: usize,
@@ -55,7 +54,7 @@ pub(crate) fn run(args: &ModesArgs) -> Result<(), Failure> {
         false => About::Rest,
     };
     args.report.deliver([&args.shapes], |report, [shapes]| {
-        let case = LoadedCase::find(&args.case, &args.set)?;
+        let case = args.case.load()?;
         if args.steady && case.setup.air.keeps_wake() && ElasticRig::covers(&case.setup) {
             announce!(
                 "{}: looking for the steady state in a wake; this takes minutes",

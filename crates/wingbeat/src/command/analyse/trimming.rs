@@ -1,7 +1,5 @@
 //! What is trimmed and how, for all analysing commands.
 
-use std::path::PathBuf;
-
 use clap::Args;
 use wingbeat::analysis::wake::{WakeSettings, WakeTrim, check_alike, trim_with_wake};
 use wingbeat::analysis::{
@@ -13,7 +11,7 @@ use wingbeat::math::DVec3;
 
 use super::found;
 use crate::command::failure::{FAILED, Failure};
-use crate::command::options::{self, CaseName};
+use crate::command::options::{self, CaseArgs};
 use crate::command::report::{Report, ReportArgs, line};
 use crate::command::run::name_program;
 use crate::command::terminal::tell;
@@ -32,18 +30,19 @@ const ORBIT: f64 = 1e-6;
 pub(crate) const BLADE_CASE: &str =
     "Case file or preset in blade elements; - is the standard input";
 
+/// What the analyses of any model take.
+const ANY_CASE: &str =
+    "Case file or preset, in blade elements or in the vortex lattice; - is the standard input";
+
 /// Heading of these options in the help.
 const HEADING: &str = "Trim";
 
 /// What is trimmed and how.
 #[derive(Args)]
+#[command(mut_arg("case", |a| a.required(false).default_value("fruit-fly-blade").help(ANY_CASE)))]
 pub(crate) struct Trimming {
-    /// Case file or preset, in blade elements or in the vortex lattice; - is the standard input.
-    #[arg(default_value = "fruit-fly-blade", value_parser = CaseName, hide_possible_values = true)]
-    case: PathBuf,
-    /// Set a key of the case, e.g. time.beats=3; KEY= takes it away (may be repeated).
-    #[arg(long = "set", value_name = "KEY=VALUE")]
-    set: Vec<String>,
+    #[command(flatten)]
+    case: CaseArgs,
     /// What trim may choose: three things [default: body_pitch stroke_amplitude stroke_offset]; six, three of them
     /// lateral, in turns, sideslip and of animals that differ right and left [default: these, body_roll,
     /// stroke_amplitude_difference, stroke_plane_difference]; those beyond for least power.
@@ -102,7 +101,7 @@ pub(super) fn unused(option: &str, why: &str) -> Failure {
 impl Trimming {
     /// The case, its feedback left out: the open loop is analysed.
     pub(crate) fn load(&self) -> Result<LoadedCase, IoError> {
-        let mut case = LoadedCase::find(&self.case, &self.set)?;
+        let mut case = self.case.load()?;
         case.setup.feedback = None;
         Ok(case)
     }

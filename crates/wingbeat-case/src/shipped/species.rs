@@ -1,7 +1,7 @@
 //! Insects that hover on one pair of wings, or on two that move as one, each number with its source.
 
-use crate::decode::nearest;
 use crate::error::IoError;
+use crate::text::nearest::nearest;
 
 /// What is known of an insect; SI units and degrees.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -2,8 +2,8 @@
 
 use wingbeat_model::kinematics::{self, FwuavInsect, PublishedMotion, Timing};
 
-use crate::decode::nearest;
 use crate::error::Fault;
+use crate::text::nearest::nearest;
 
 /// Names of the shipped sets of wing angles with a line about each.
 pub fn data_sets() -> Vec<(&'static str, String)> {

@@ -9,15 +9,15 @@ use wingbeat_math::{DVec3, EulerSequence};
 use wingbeat_model::Side;
 use wingbeat_model::motion::Adjustment;
 
-use super::LoadedCase;
-use super::raw::{
+use super::flight::tethered;
+use crate::loaded::LoadedCase;
+use crate::loaded::written_to_change as written;
+use crate::motion::own_motion::every_phase;
+use crate::raw::{
     AdjustCase, AirCase, AirModel, BodyCase, Case, ControlCase, ControllerCase, CorrectorCase,
     DerivativesCase, DynamicsCase, FlightCase, Formulation, IntegratorCase, JointCase, JointKind,
     LoadCase, Mode, MotionCase, StabilisationCase, StartCase, TargetCase, TimeCase,
 };
-use crate::loaded::written_to_change as written;
-use crate::own_motion::every_phase;
-use crate::written::flight::tethered;
 
 /// The case of a trimmed flight as TOML: the given case with the adjusted wing motion, hinges and
 /// the state of body and free joints at the start of the periodic beat, impulsively started, in the

@@ -4,13 +4,13 @@
 use wingbeat_air::{AirSettings, OVERLAP_SLOPE, viscosity_of_density};
 use wingbeat_math::DVec3;
 
-use crate::data::find_data;
 use crate::error::Fault;
-use crate::own_motion::{every_wing, has_all_angles};
+use crate::motion::own_motion::{every_wing, has_all_angles};
 use crate::raw::{
     AirCase, AirModel, Case, CoreCase, Formulation, IntegratorCase, JointCase, JointKind, Mode,
     MotionCase, SchemeCase, TimeCase,
 };
+use crate::shipped::data::find_data;
 
 /// Steps per wingbeat where the case does not say.
 const STEPS_PER_BEAT: usize = 40;

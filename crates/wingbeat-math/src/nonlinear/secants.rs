@@ -89,7 +89,8 @@ impl Secants {
     /// differ by at least the part `telling` \[1\] of the largest difference.
     pub fn keep(&mut self, telling: f64, most: usize, shown: &mut Vec<Shown>) {
         self.keep_none(shown);
-        let least = telling * crate::largest(self.corrections.iter().map(|d| norm(d)));
+        let least =
+            telling * crate::numbers::extremes::largest(self.corrections.iter().map(|d| norm(d)));
         for k in (0..self.corrections.len()).rev() {
             if shown.len() < most && norm(&self.corrections[k]) > least {
                 let [mut correction, mut sum] = [self.column(), self.column()];

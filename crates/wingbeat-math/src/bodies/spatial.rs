@@ -2,7 +2,7 @@
 
 use glam::{DMat3, DVec3};
 
-use crate::mirror::{mirrored, mirrored_axial, reflected};
+use crate::bodies::mirror::{mirrored, mirrored_axial, reflected};
 
 /// Where a body is and how it moves.
 #[derive(Clone, Copy, Debug, PartialEq)]

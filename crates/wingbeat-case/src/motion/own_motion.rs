@@ -2,7 +2,7 @@
 
 use wingbeat_model::{Animal, mirror_name};
 
-use crate::carrier::rides_on_wing;
+use crate::motion::carrier::rides_on_wing;
 use crate::raw::{ANGLES, Case, WingCase, WingMotionCase};
 
 /// Whether a wing of this motion takes what it leaves out from the mirror image of that of its `counterpart`: it gives

@@ -1,6 +1,6 @@
 //! Euler-angle sequences: rotation, the matrix G of seed eq. 15 and its derivatives, inverse.
 
-use crate::rotation::rotation_about;
+use super::elementary::rotation_about;
 use glam::{DMat3, DVec3};
 
 /// Three successive rotations about body axes, `R = R_i(eta_0) R_j(eta_1) R_k(eta_2)`.

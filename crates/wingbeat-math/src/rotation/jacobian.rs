@@ -8,7 +8,7 @@
 
 use glam::{DMat3, DVec3};
 
-use crate::rotation::tilde;
+use super::elementary::tilde;
 
 /// `c(x) = (1 - h cot h) / x`, `h = sqrt(x) / 2`, with its first two derivatives by x = theta^2.
 #[derive(Clone, Copy, Debug)]

@@ -89,7 +89,7 @@ impl SmallLu {
 
 /// A pivot up to here is round-off.
 fn negligible(a: &[f64], n: usize) -> f64 {
-    n as f64 * f64::EPSILON * crate::largest(a.iter().map(|x| x.abs()))
+    n as f64 * f64::EPSILON * crate::numbers::extremes::largest(a.iter().map(|x| x.abs()))
 }
 
 /// Brings the largest entry of column k on or below the diagonal to the diagonal; returns its row.

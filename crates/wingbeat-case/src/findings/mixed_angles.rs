@@ -1,7 +1,7 @@
 //! Wings whose angles come partly from the case and partly from a set of measured ones.
 
-use crate::carrier::rides_on_wing;
 use crate::loaded::LoadedCase;
+use crate::motion::carrier::rides_on_wing;
 use crate::raw::{ANGLES, AdjustCase, AngleCase, WingCase, WingMotionCase};
 
 /// A wing with angles of its own, and with others from a shipped set.

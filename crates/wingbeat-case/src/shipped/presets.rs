@@ -1,8 +1,8 @@
 //! Presets: ordinary case files, embedded, commented, ready to be written out and edited.
 
-use crate::decode::nearest;
 use crate::error::IoError;
-use crate::species::SPECIES;
+use crate::shipped::species::SPECIES;
+use crate::text::nearest::nearest;
 
 /// An embedded case.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -29,7 +29,7 @@ macro_rules! presets {
         /// All presets, the default first.
         pub const PRESETS: &[Preset] = &[$(Preset {
             name: $name,
-            text: include_str!(concat!("../presets/", $name, ".toml")),
+            text: include_str!(concat!("../../presets/", $name, ".toml")),
         }),*];
     };
 }

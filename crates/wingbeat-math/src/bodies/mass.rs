@@ -1,8 +1,8 @@
 //! Mass properties of rigid bodies about a frame origin and their algebra (seed eq. 19).
 
-use crate::matrix::outer;
+use crate::linear::matrix::outer;
+use crate::linear::six_by_six::{SixBySix, from_quarters};
 use crate::rotation::{rotation_about, tilde};
-use crate::six_by_six::{SixBySix, from_quarters};
 use glam::{DMat3, DVec3};
 
 /// Mass, first and second moment of mass of a rigid body about its frame origin, in body

@@ -7,7 +7,7 @@ use toml::{Table, Value};
 
 use crate::LoadedCase;
 use crate::keys::effective;
-use crate::source::{in_one_line, table_of};
+use crate::text::source::{in_one_line, table_of};
 
 /// A key that two cases do not have alike.
 #[derive(Clone, Debug, PartialEq, Serialize)]

@@ -7,8 +7,8 @@ use toml::de::{DeTable, DeValue};
 use toml::{Spanned, Table, Value};
 use wingbeat_model::mirror_name;
 
-use crate::digits::{token, with_all_digits};
 use crate::error::{CaseError, Fault};
+use crate::text::digits::{token, with_all_digits};
 
 /// What is advised where a text is no TOML.
 pub(crate) const START: &str = "`wingbeat new fruit-fly-hover` writes a case to start from";

@@ -1,7 +1,7 @@
 //! Newton-Raphson for small systems of equations.
 
-use crate::extremes::larger;
-use crate::small_lu::{SingularMatrix, solve_small};
+use crate::linear::small_lu::{SingularMatrix, solve_small};
+use crate::numbers::extremes::larger;
 
 /// When to stop.
 #[derive(Clone, Copy, Debug, PartialEq)]

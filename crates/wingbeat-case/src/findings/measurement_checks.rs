@@ -4,7 +4,7 @@ use wingbeat_math::{DVec3, median};
 use wingbeat_model::motion::Fourier;
 use wingbeat_model::{Planform, Wing};
 
-use crate::fitted::FittedTable;
+use crate::findings::fitted::FittedTable;
 use crate::loaded::LoadedCase;
 use crate::raw::{AngleCase, BodyCase, OutlineCase, PlanformCase, SurfaceCase, WingMotionCase};
 

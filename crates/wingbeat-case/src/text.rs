@@ -1,0 +1,7 @@
+//! The text of a case: its tables and the place of every key in it, all digits of its numbers, names nearly right,
+//! words of command lines.
+
+pub(crate) mod digits;
+pub(crate) mod nearest;
+pub(crate) mod shell;
+pub(crate) mod source;
