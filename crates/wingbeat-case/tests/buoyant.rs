@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use crate::common;
 use wingbeat_case::LoadedCase;
 use wingbeat_flight::{DoubtKind, Record, Simulation};
 
@@ -91,9 +92,8 @@ fn exact_loads_of_body_and_segments_are_the_weights_of_what_they_displace() {
 #[test]
 fn refuses_buoyancy_that_can_be_none() {
     let refused = |text: &str, set: &[&str]| {
-        let set: Vec<String> = set.iter().map(|s| (*s).to_owned()).collect();
-        let found = LoadedCase::from_text("case", text, Path::new(""), &set);
-        found.map(|_| ()).unwrap_err().to_string()
+        let found = common::load(text, set);
+        found.map(|_| ()).unwrap_err()
     };
     let text = ball(1.0, "buoyancy = true").unwrap().resolved();
     let still = refused(&text, &["gravity_m_s2=[0, 0, 0]"]);

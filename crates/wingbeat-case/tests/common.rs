@@ -1,5 +1,7 @@
 //! Flights and refusals that several tests look at.
 
+use std::path::Path;
+
 use wingbeat_case::LoadedCase;
 use wingbeat_flight::{FlightError, FlightSetup, Record, Simulation};
 
@@ -16,6 +18,12 @@ pub fn go_on(flight: &mut Simulation) -> Result<Vec<Record>, FlightError> {
         records.push(flight.step()?.clone());
     }
     Ok(records)
+}
+
+/// The case of this text with overrides, and why there is none.
+pub fn load(text: &str, set: &[&str]) -> Result<LoadedCase, String> {
+    let set: Vec<String> = set.iter().map(|s| (*s).to_owned()).collect();
+    LoadedCase::from_text("case.toml", text, Path::new(""), &set).map_err(|e| e.to_string())
 }
 
 /// What is said about a preset with overrides.

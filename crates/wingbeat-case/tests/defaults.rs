@@ -1,17 +1,10 @@
 //! What a case that says nothing about the air flies in, lengths in chords, presets that say what
 //! differs, and keys without effect.
 
-use std::path::Path;
-
+use crate::common::load;
 use wingbeat_air::{AirSettings, CoreModel};
 use wingbeat_case::{LoadedCase, presets};
 use wingbeat_flight::{AirModel, Simulation};
-
-/// The case of this text, and why there is none.
-pub(crate) fn load(text: &str, set: &[&str]) -> Result<LoadedCase, String> {
-    let set: Vec<String> = set.iter().map(|s| (*s).to_owned()).collect();
-    LoadedCase::from_text("case.toml", text, Path::new(""), &set).map_err(|e| e.to_string())
-}
 
 fn preset(name: &str, set: &[&str]) -> Result<LoadedCase, String> {
     load(presets::find(name).unwrap().text, set)

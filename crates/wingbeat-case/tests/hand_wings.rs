@@ -1,9 +1,7 @@
 //! What is doubted of a wing that hangs on another one: its motion is that of both.
 
-use std::path::Path;
-
+use crate::common;
 use wingbeat_analysis::{doubtful_reynolds_numbers, estimate};
-use wingbeat_case::LoadedCase;
 use wingbeat_flight::FlightSetup;
 use wingbeat_math::DVec3;
 
@@ -49,9 +47,7 @@ const FREE: [&str; 2] = [
 ];
 
 fn setup(keys: &[&str]) -> FlightSetup {
-    let keys: Vec<String> = keys.iter().map(|key| (*key).to_owned()).collect();
-    let case = LoadedCase::from_text("case.toml", HAND, Path::new(""), &keys);
-    case.unwrap().setup
+    common::load(HAND, keys).unwrap().setup
 }
 
 /// A welded hand is where an arm twice as long would be, and its velocity is that of its places a microsecond

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use crate::common::fly;
+use crate::common::{self, fly};
 use wingbeat_case::LoadedCase;
 use wingbeat_flight::{Record, Simulation};
 
@@ -35,9 +35,7 @@ stiffness_newton_m_per_rad = 1.0
 ";
 
 fn load(set: &[&str]) -> Result<LoadedCase, String> {
-    let set: Vec<String> = set.iter().map(|&s| s.to_owned()).collect();
-    let case = LoadedCase::from_text("tail", TAIL, Path::new(""), &set);
-    case.map_err(|e| e.to_string())
+    common::load(TAIL, set)
 }
 
 fn flown(set: &[&str]) -> Vec<Record> {

@@ -1,7 +1,7 @@
 //! Wings on passive hinges in the lattice, and flyers that are light as a whole: the air that wings carry along
 //! weighs more than what carries them.
 
-use crate::common::fly;
+use crate::common::{self, fly};
 use wingbeat_case::LoadedCase;
 use wingbeat_flight::{FlightError, FlightSetup, Record, Simulation};
 
@@ -371,8 +371,7 @@ fn slender(set: &[&str]) -> FlightSetup {
         axis = [0, 1, 0]
         element = [{ stiffness_newton_m_per_rad = 2.0 }]
     "#;
-    let set: Vec<String> = set.iter().map(|s| (*s).to_owned()).collect();
-    let case = LoadedCase::from_text("slender", text, std::path::Path::new(""), &set);
+    let case = common::load(text, set);
     case.expect("a case").setup
 }
 

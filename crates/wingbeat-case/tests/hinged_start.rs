@@ -1,11 +1,8 @@
 //! The first instant of wings on passive hinges: what they do to each other's added mass.
 
-use std::path::Path;
-
-use wingbeat_case::LoadedCase;
 use wingbeat_flight::Record;
 
-use crate::common::fly;
+use crate::common::{self, fly};
 
 /// Wings that let go of their hinges from 30 deg in still air, nothing shed: the second third of a chord above the first.
 const STACKED: &str = r#"
@@ -48,8 +45,7 @@ element = [{ stiffness_newton_m_per_rad = 2.4e-6, damping_newton_m_s_per_rad = 2
 
 /// The records of the wings above, and the place of the right wing among the bodies.
 fn stacked(set: &[&str]) -> (Vec<Record>, usize) {
-    let set: Vec<String> = set.iter().map(|s| (*s).to_owned()).collect();
-    let case = LoadedCase::from_text("stacked.toml", STACKED, Path::new(""), &set);
+    let case = common::load(STACKED, set);
     let setup = case.expect("a case").setup;
     let wings = &setup.animal.wings;
     let right = wings

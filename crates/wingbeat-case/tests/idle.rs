@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use crate::common;
 use wingbeat_case::LoadedCase;
 
 pub(crate) const ANIMAL: &str = "format = 1
@@ -35,8 +36,7 @@ phi.fourier = { sine_deg = [60.0] }
 ";
 
 pub(crate) fn load(set: &[&str]) -> Result<LoadedCase, String> {
-    let set: Vec<String> = set.iter().map(|&s| s.to_owned()).collect();
-    LoadedCase::from_text("idle", ANIMAL, Path::new(""), &set).map_err(|e| e.to_string())
+    common::load(ANIMAL, set)
 }
 
 pub(crate) const VACUUM: &str = "air.model=none";

@@ -1,9 +1,7 @@
 //! Wings that are parts of one lifting surface: half a model on a wall, a hand wing on an arm wing; and edges that
 //! only seem to be joined.
 
-use std::path::Path;
-
-use wingbeat_case::LoadedCase;
+use crate::common;
 use wingbeat_flight::{FlightSetup, Simulation};
 use wingbeat_math::DVec3;
 
@@ -78,9 +76,7 @@ mesh = { chordwise = 3, spanwise = 4 }
 "#;
 
 fn setup(text: &str, keys: &[&str]) -> Result<FlightSetup, String> {
-    let keys: Vec<String> = keys.iter().map(|key| key.to_string()).collect();
-    let case = LoadedCase::from_text("case.toml", text, Path::new(""), &keys);
-    case.map(|c| c.setup).map_err(|e| e.to_string())
+    common::load(text, keys).map(|case| case.setup)
 }
 
 /// Force of the air on all wings at the end of the flight [N], N components.

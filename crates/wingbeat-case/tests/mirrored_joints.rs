@@ -1,7 +1,5 @@
 //! Joints of wings: mirror images on the left, one place of the hinge, and what is not scaled or shifted with it.
 
-use std::path::Path;
-
 use crate::common;
 use wingbeat_analysis::{TrimProblem, Unknown, trim};
 use wingbeat_case::LoadedCase;
@@ -46,8 +44,7 @@ const BALL: &str = "joint.h={ child = \"right\", kind = \"spherical\", start_deg
 ] }";
 
 fn load(set: &[&str]) -> Result<LoadedCase, String> {
-    let set: Vec<String> = set.iter().map(|&s| s.to_owned()).collect();
-    LoadedCase::from_text("flyer", FLYER, Path::new(""), &set).map_err(|e| e.to_string())
+    common::load(FLYER, set)
 }
 
 fn fly(set: &[&str]) -> Vec<Record> {

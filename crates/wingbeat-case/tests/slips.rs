@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use crate::common::refusal;
+use crate::common::{self, refusal};
 use wingbeat_case::{LoadedCase, presets};
 
 #[test]
@@ -238,8 +238,7 @@ planform.rectangle = { chord_m = 0.1, span_m = 3 }
 mode = \"tethered\"
 ";
     let estimate = |set: &[&str]| {
-        let set: Vec<String> = set.iter().map(|&s| s.to_owned()).collect();
-        let case = LoadedCase::from_text("tether", text, Path::new(""), &set);
+        let case = common::load(text, set);
         wingbeat_analysis::estimate(&case.unwrap_or_else(|e| panic!("{e}")).setup)
     };
     let speed = |set: &[&str]| estimate(set).wings[0].speed;

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use crate::common::go_on;
+use crate::common::{self, go_on};
 use wingbeat_case::LoadedCase;
 use wingbeat_flight::{FlightError, FlightSetup, MotionMode, PrescribedMotion, Record, Simulation};
 use wingbeat_math::{DMat3, DVec3};
@@ -42,8 +42,7 @@ const SPRUNG: &str = "joint.h={ child = \"right\", kind = \"revolute\", axis = [
 const QUATERNION: &str = "dynamics.formulation=quaternion";
 
 fn setup(set: &[&str]) -> FlightSetup {
-    let set: Vec<String> = set.iter().map(|&s| s.to_owned()).collect();
-    let case = LoadedCase::from_text("vane", VANE, Path::new(""), &set);
+    let case = common::load(VANE, set);
     case.unwrap_or_else(|e| panic!("{e}")).setup
 }
 

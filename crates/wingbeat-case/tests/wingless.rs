@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use crate::common;
 use wingbeat_case::LoadedCase;
 
 use crate::idle::{ANIMAL, BLADE};
@@ -39,8 +40,7 @@ fn body(set: &[&str]) -> Result<LoadedCase, String> {
     let time =
         ANIMAL[..wings].replace("steps_per_beat = 20\nbeats = 1", "step_s = 1e-3\nsteps = 5");
     let text = format!("{time}[air]\nstream_m_s = [-1, 0, 0]\n{}", &ANIMAL[parts]);
-    let set: Vec<String> = set.iter().map(|&s| s.to_owned()).collect();
-    LoadedCase::from_text("body", &text, Path::new(""), &set).map_err(|e| e.to_string())
+    common::load(&text, set)
 }
 
 #[test]

@@ -1,8 +1,7 @@
 //! Deforming and joined wings, section drag and side edges from case files; what does not fit is
 //! refused at its line.
 
-use crate::common::fly;
-use crate::defaults::load;
+use crate::common::{fly, load};
 use wingbeat_flight::{AirModel, FlightSetup, Simulation};
 use wingbeat_model::WingMotion;
 
