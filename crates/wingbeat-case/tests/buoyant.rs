@@ -3,8 +3,11 @@
 use std::path::Path;
 
 use crate::common;
-use wingbeat_case::LoadedCase;
+use wingbeat_analysis::{LinearModel, Plane, floquet, linear_model, table_model, trim};
+use wingbeat_analysis::{Trim, TrimProblem};
+use wingbeat_case::{LoadedCase, derivative_case, trimmed_case};
 use wingbeat_flight::{DoubtKind, Record, Simulation};
+use wingbeat_math::DVec3;
 
 const GRAVITY: f64 = 9.81;
 
@@ -43,7 +46,8 @@ fn exact_a_neutral_ball_stays() {
 fn rise(density: f64, buoyancy: bool) -> f64 {
     let records = flown(&ball(density, &format!("buoyancy = {buoyancy}")).unwrap());
     let last = records.last().unwrap();
-    assert!(last.root_angular_velocity.length() < 1e-9);
+    // Roundings within the tolerance of the corrector: 9e-9 rad/s measured.
+    assert!(last.root_angular_velocity.length() < 5e-8);
     2.0 * (records[0].mass_centre.z - last.mass_centre.z) / last.time.powi(2)
 }
 
@@ -51,16 +55,17 @@ fn rise(density: f64, buoyancy: bool) -> f64 {
 /// by `-m g` in place of that force: their ratio is that of the forces, whatever added mass panels have.
 #[test]
 fn limit_a_light_ball_rises_against_its_added_mass() {
-    for density in [0.8, 0.5] {
+    for density in [0.8, 0.5, 0.1, 0.02] {
         let [rises, falls] = [true, false].map(|buoyancy| rise(density, buoyancy));
+        // Added mass of 0.5 to 25 times the ball's own.
         let expected = (1.0 - density) / (density + 0.5) * GRAVITY;
         let off = rises / expected - 1.0;
         let ratio = rises / falls * density / (density - 1.0) - 1.0;
         println!("{density}: {rises} of {expected}, {off:e}; ratio {ratio:e}");
-        // 16 by 16 panels lie within the ball and have less added mass: 5 % measured with half of the weight.
+        // 16 by 16 panels lie within the ball and have less added mass: 2 to 6 % measured.
         assert!(off.abs() < 0.15, "{density}: {rises} of {expected}");
-        // To the tolerance of the corrector: 1e-8 measured with 0.8 of the weight.
-        assert!(ratio.abs() < 1e-7, "{density}: {ratio:e}");
+        // To the tolerance of the corrector: 4e-9 measured with 0.02 of the weight.
+        assert!(ratio.abs() < 4e-8, "{density}: {ratio:e}");
     }
 }
 
@@ -135,4 +140,106 @@ fn behaves_bodies_in_water_are_doubted_without_buoyancy() {
     assert!(has(&hamming, DoubtKind::LightBody));
     let fly = LoadedCase::find("fruit-fly-hover", &[]).unwrap();
     assert!(!has(&fly, DoubtKind::NoBuoyancy) && !has(&fly, DoubtKind::LightBody));
+}
+
+/// Small hawkmoth wings on which a balloon bears up three tenths of the weight, with `more` set besides.
+fn moth(more: &[&str]) -> LoadedCase {
+    let balloon = [
+        "body.part.balloon.length_m=0.1",
+        "body.part.balloon.diameter_m=0.1",
+        "body.part.balloon.centre_m=[0,0,-0.06]",
+        "air.buoyancy=true",
+    ];
+    let set: Vec<String> = balloon
+        .iter()
+        .chain(more)
+        .map(|s| (*s).to_owned())
+        .collect();
+    LoadedCase::find("hawkmoth-blade", &set).unwrap()
+}
+
+/// Hover of the moth, and its averaged model.
+fn hover(case: &LoadedCase) -> (Trim, LinearModel) {
+    let pitch = case.setup.angles_at_release().x;
+    let found = trim(&case.setup, &TrimProblem::straight(DVec3::ZERO, pitch)).unwrap();
+    assert!(found.solution.converged);
+    let model = linear_model(&found.beat, &found.state).unwrap();
+    (found, model)
+}
+
+/// Buoyancy above the mass centre rights the body: the averaged model has the oscillation of the wingbeat (Floquet), and
+/// so has the table of derivatives that is made of it, whose case carries the load.
+#[test]
+fn agrees_averaged_modes_of_a_flyer_on_a_balloon_with_those_of_its_wingbeat() {
+    let case = moth(&[]);
+    let (found, averaged) = hover(&case);
+    let exact = floquet(&found.beat, &found.state).unwrap();
+    let table = derivative_case(&case, &found, &averaged).unwrap();
+    let table = LoadedCase::from_text("table", &table, Path::new(""), &[]).unwrap();
+    let table = table_model(&table.setup).unwrap();
+    let find = |set: &wingbeat_analysis::ModeSet| {
+        ["stable phugoid", "stable short period"].map(|name| {
+            let mode = set.find(Plane::Longitudinal, name).unwrap();
+            [mode.growth, mode.frequency]
+        })
+    };
+    let [all, mean, written] = [&exact, &averaged.modes, &table.modes].map(find);
+    for ((exact, mean), written) in all.iter().zip(mean).zip(written) {
+        let size = exact[0].hypot(exact[1]);
+        let apart = |a: [f64; 2], b: [f64; 2]| (a[0] - b[0]).hypot(a[1] - b[1]) / size;
+        println!("{exact:?} {mean:?} {written:?}");
+        // What moves within a beat: 0.019 and 0.035 measured; without the load 3 and 1.
+        assert!(apart(*exact, mean) < 0.1, "{exact:?} {mean:?}");
+        // Digits written.
+        assert!(apart(mean, written) < 1e-6, "{mean:?} {written:?}");
+    }
+    // 0.05 of the weight measured, without the load 0.34.
+    assert!(averaged.imbalance[0] < 0.1, "{:?}", averaged.imbalance);
+}
+
+/// The work of buoyancy is its force times the way of the centre of the volume, and the balance of energy holds.
+#[test]
+fn balances_the_work_of_buoyancy() {
+    let records = flown(&ball(0.5, "buoyancy = true").unwrap());
+    let [first, last] = [&records[0], &records[records.len() - 1]];
+    let force = 1000.0 * std::f64::consts::PI / 6.0 * 1e-3 * GRAVITY;
+    let risen = first.mass_centre.z - last.mass_centre.z; // the ball does not turn
+    let off = last.applied_work / (force * risen) - 1.0;
+    let left = last.energy_residual / last.applied_work;
+    println!("{off:e} {left:e}");
+    // Work is summed by the trapezoidal rule from a start whose velocity is of first order.
+    assert!(off.abs() < 0.01 && left.abs() < 0.01, "{off:e} {left:e}");
+}
+
+/// A flight that goes on from a saved state is that which was not interrupted, to the bit.
+#[test]
+fn exact_a_buoyant_flight_resumes_bit_for_bit() {
+    let case = ball(0.1, "buoyancy = true").unwrap();
+    let whole = flown(&case);
+    let mut flight = Simulation::new(case.setup.clone()).unwrap();
+    (0..20).for_each(|_| drop(flight.step().unwrap().clone()));
+    let mut resumed = Simulation::resume(case.setup, flight.state().clone()).unwrap();
+    while !resumed.finished() {
+        resumed.step().unwrap();
+    }
+    let [last, again] = [&whole[whole.len() - 1], resumed.record()];
+    assert_eq!(last.mass_centre, again.mass_centre);
+    assert_eq!(last.applied_work.to_bits(), again.applied_work.to_bits());
+}
+
+/// Over a beat of the trimmed flight the air carries what buoyancy leaves of the weight.
+#[test]
+fn balances_lift_and_buoyancy_of_a_trimmed_flyer() {
+    let case = moth(&[]);
+    let text = trimmed_case(&case, &hover(&case).0).unwrap();
+    let beat = ["time.beats=1".to_owned()];
+    let hovering = LoadedCase::from_text("hover", &text, Path::new(""), &beat).unwrap();
+    let records = flown(&hovering);
+    let lift = |r: &Record| -r.air.iter().map(|w| w.force.z).sum::<f64>();
+    let mean = records[1..].iter().map(lift).sum::<f64>() / (records.len() - 1) as f64;
+    let weight = case.setup.animal.mass() * GRAVITY;
+    let borne = case.setup.lift_of_loads() / weight;
+    let off = mean / weight + borne - 1.0;
+    println!("{borne} {off:e}");
+    assert!(borne > 0.2 && off.abs() < 1e-3, "{borne} {off:e}");
 }
