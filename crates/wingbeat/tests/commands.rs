@@ -195,7 +195,7 @@ fn behaves_a_sweep_draws_power_against_speed_and_says_where_flight_ends() {
         .concat(),
     );
     // Power falls from hover and rises again: the curve of all that hover.
-    let least = figure(&text, "least power at");
+    let least = figure(&text, "least power (storage) at");
     assert!(
         least.starts_with("2.000 m/s of these; between them"),
         "{text}"
