@@ -190,8 +190,8 @@ fn agrees_averaged_modes_of_a_flyer_on_a_balloon_with_those_of_its_wingbeat() {
         println!("{exact:?} {mean:?} {written:?}");
         // What moves within a beat: 0.019 and 0.035 measured; without the load 3 and 1.
         assert!(apart(*exact, mean) < 0.1, "{exact:?} {mean:?}");
-        // Digits written.
-        assert!(apart(mean, written) < 1e-6, "{mean:?} {written:?}");
+        // All digits are written: roundings, 7e-13 measured.
+        assert!(apart(mean, written) < 5e-12, "{mean:?} {written:?}");
     }
     // 0.05 of the weight measured, without the load 0.34.
     assert!(averaged.imbalance[0] < 0.1, "{:?}", averaged.imbalance);
@@ -207,8 +207,8 @@ fn balances_the_work_of_buoyancy() {
     let off = last.applied_work / (force * risen) - 1.0;
     let left = last.energy_residual / last.applied_work;
     println!("{off:e} {left:e}");
-    // Work is summed by the trapezoidal rule from a start whose velocity is of first order.
-    assert!(off.abs() < 0.01 && left.abs() < 0.01, "{off:e} {left:e}");
+    // A constant force: roundings. The balance: 2e-4, of the first steps, of first order.
+    assert!(off.abs() < 4e-15 && left.abs() < 2e-3, "{off:e} {left:e}");
 }
 
 /// A flight that goes on from a saved state is that which was not interrupted, to the bit.
@@ -241,7 +241,8 @@ fn balances_lift_and_buoyancy_of_a_trimmed_flyer() {
     let borne = case.setup.lift_of_loads() / weight;
     let off = mean / weight + borne - 1.0;
     println!("{borne} {off:e}");
-    assert!(borne > 0.2 && off.abs() < 1e-3, "{borne} {off:e}");
+    // Means of steps in place of the integral over the beat: 2.5e-7 measured.
+    assert!(borne > 0.2 && off.abs() < 2.5e-6, "{borne} {off:e}");
 }
 
 /// A regulator that is laid out for the trimmed flight holds it: without buoyancy in its layout the moth rose 222 mm.

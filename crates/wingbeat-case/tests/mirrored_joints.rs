@@ -217,3 +217,11 @@ fn refuses_loads_and_speeds_of_one_side_where_half_of_the_air_is_computed() {
     // A load in the plane parts nothing.
     robot("load=[{ force_newton = [1e-6, 0, 1e-6] }]").unwrap();
 }
+
+#[test]
+fn refuses_strokes_that_differ_beside_the_mirror_by_their_key() {
+    let set = ["motion.difference.stroke_offset_deg=2.5", "air.mirror=true"];
+    let said = common::refusal("fruit-fly-hover", &set);
+    assert!(said.contains("motion.difference"), "{said}");
+    assert!(said.contains("air.mirror = false"), "{said}");
+}

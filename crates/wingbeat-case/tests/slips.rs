@@ -491,11 +491,3 @@ fn refuses_numbers_that_are_too_large_or_none() {
         assert!(said.contains(says) && !said.contains("a text\n"), "{said}");
     }
 }
-
-#[test]
-fn refuses_strokes_that_differ_beside_the_mirror_by_their_key() {
-    let set = ["motion.difference.stroke_offset_deg=2.5", "air.mirror=true"];
-    let said = refusal("fruit-fly-hover", &set);
-    assert!(said.contains("motion.difference"), "{said}");
-    assert!(said.contains("air.mirror = false"), "{said}");
-}
