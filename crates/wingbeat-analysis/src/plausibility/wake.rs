@@ -59,9 +59,11 @@ pub fn kept_wake(setup: &FlightSetup) -> Option<KeptWake> {
     let by_itself = cut
         .iter()
         .filter_map(|(_, wing, time, _)| felt(setup, &estimate, wing, *time));
-    let behind = cut
+    let left = cut
         .iter()
-        .filter_map(|(w, ..)| felt_behind(setup, *w, cuts.reach(estimate.flight_speed)?));
+        .filter(|(_, wing, ..)| Wakes::of(setup, &estimate, wing).are_left);
+    let behind =
+        left.filter_map(|(w, ..)| felt_behind(setup, *w, cuts.reach(estimate.flight_speed)?));
     let worst = by_itself.chain(behind).max_by(|a, b| a.0.total_cmp(&b.0));
     let soonest = cut.iter().min_by(|a, b| a.2.total_cmp(&b.2));
     let (_, wing, time, key) = soonest?;
