@@ -66,8 +66,9 @@ fn invariant_a_tail_does_not_hide_that_the_wake_of_the_wings_is_short() {
     assert!((step - 6.0 * 0.006 / 0.05).abs() < 1e-12, "{step}"); // of the tail; roundings
 }
 
-/// A tail in the wake of the wings asks for a wake that goes on beyond it by the length of a wing, 0.25 m; the trailing edges
-/// are 0.24 m apart. The wings behind a wing ahead, 0.31 m apart, ask for as much of its own 0.09 m.
+/// A tail in the wake of the wings asks for a wake that goes on beyond it by the length of a wing, 0.25 m; the
+/// trailing edges are 0.24 m apart. The wings behind a wing ahead, 0.31 m apart, ask for as much of its own
+/// 0.09 m.
 #[test]
 fn behaves_wakes_that_end_before_a_wing_behind_are_named() {
     let short = |parts: &[&str], way: f64| {

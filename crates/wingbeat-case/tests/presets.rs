@@ -416,8 +416,8 @@ fn behaves_vortex_lift_is_doubted_at_swept_edges() {
     assert_eq!(wing(fly, &outline(1.3), "suction"), None);
 }
 
-/// A delta held at 20 deg whose sharply swept edges shed is named; one swept by less, one that goes two chords, one whose edges
-/// hold all and wings that beat are not.
+/// A delta held at 20 deg whose sharply swept edges shed is named; one swept by less, one that goes two chords,
+/// one whose edges hold all and wings that beat are not.
 #[test]
 fn behaves_shedding_of_sharply_swept_edges_is_doubted() {
     let delta = |half: f64, steps: usize, angle: f64| {

@@ -11,10 +11,11 @@
 //! exact for even spacing of the angle [Lan 1974, J. Aircraft 11:518]: then rings reach to the tips. The middles of
 //! columns of unequal width make an error of first order, 2 to 5 % of the lift on 8 to 24 columns.
 //!
-//! Along the chord it is so, too, where neither leading nor trailing edges shed: circulation is then as large at both edges
-//! as at those of the span, and on rows of cosine spacing that reach to them the rule of Lobatto and Chebyshev has the
-//! added mass of a flat plate in plane flow exact [Theocaris & Ioakimidis 1977, Q. Appl. Math. 35:173]. In the middles of
-//! rings inset by a quarter panel it is 13, 9 and 5 % high on 6, 12 and 24 rows.
+//! Along the chord it is so, too, where neither leading nor trailing edges shed: circulation is then as large
+//! at both edges as at those of the span, and on rows of cosine spacing that reach to them the rule of Lobatto
+//! and Chebyshev has the added mass of a flat plate in plane flow exact [Theocaris & Ioakimidis 1977, Q. Appl.
+//! Math. 35:173]. In the middles of rings inset by a quarter panel it is 13, 8 and 5 % high on 6, 12 and 24
+//! rows.
 //!
 //! Where panels are equal the point is the mean of the corners, the normal along the cross product of the diagonals.
 
@@ -239,8 +240,8 @@ fn place_midway(d: &[f64], k: usize) -> [f64; 3] {
     [along, (along - 0.5) * d[k] / apart, d[k] / d[n]]
 }
 
-/// Whether rings reach to the leading and trailing edges, which shed nothing: where all strips of a surface have more than
-/// two rows, of cosine spacing.
+/// Whether rings reach to the leading and trailing edges, which shed nothing: where all strips of a surface
+/// have more than two rows, of cosine spacing.
 pub(super) fn has_cosine_rows<'a>(
     mut strips: impl Iterator<Item = &'a Strip>,
     on_surface: (&Surface, usize),
@@ -258,8 +259,8 @@ pub(super) fn has_cosine_rows<'a>(
         && strips.all(|strip| lengths(strip, on_surface).is_some_and(is_cosine))
 }
 
-/// Lengths of the panels of a strip along its chord at rest [m]; none if they are not known. With the surface goes the
-/// number of its first node.
+/// Lengths of the panels of a strip along its chord at rest [m]; none if they are not known. With the surface
+/// goes the number of its first node.
 fn lengths(strip: &Strip, (surface, first_node): (&Surface, usize)) -> Option<Vec<f64>> {
     let rest = surface.rest.as_ref()?;
     let middle = |&[a, b]: &[usize; 2]| rest[a - first_node].midpoint(rest[b - first_node]);

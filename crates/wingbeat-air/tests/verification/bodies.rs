@@ -354,11 +354,11 @@ fn limit_force_of_a_frozen_gust_on_bodies() {
     }
 }
 
-/// In a steady stream U with the gradient E, both without vorticity, a body whose added mass over the displaced one is
-/// the tensor k has the force `rho Vol E (1 + k) U`, the change of the energy of the air with its place [Taylor 1928, Proc. R. Soc.
-/// Lond. A 120:260]. Of a gradient that is symmetric about no plane across the axis but stretches along it the rings of an oblong
-/// body leave a net flux; it goes with the panels as the error of the force does, which is no larger than that of a
-/// sphere without net flux.
+/// In a steady stream U with the gradient E, both without vorticity, a body whose added mass over the displaced
+/// one is the tensor k has the force `rho Vol E (1 + k) U`, the change of the energy of the air with its place
+/// [Taylor 1928, Proc. R. Soc. Lond. A 120:260]. In a stream that is stretched along the axis of an oblong body
+/// its rings leave a net flux; that goes with the panels as the error of the force does, which is no larger
+/// than that of a sphere without net flux.
 #[test]
 fn order_force_on_a_spheroid_in_a_straining_stream() {
     let [k1, k2] = spheroid_inertia(2.0, 1.0);
@@ -385,8 +385,8 @@ fn order_force_on_a_spheroid_in_a_straining_stream() {
     let [coarse, fine] = [4, 8].map(|n| found(n, oblong, DVec3::new(k1, k2, k2)));
     let round = found(8, DVec3::ONE, DVec3::splat(0.5));
     println!("straining stream: spheroid {coarse:.4?} {fine:.4?}, sphere {round:.4?}");
-    // Flat panels, first order: 0.196 and 0.090, of a sphere 0.095; 0.107 and 0.061 m/s of net flux beside normal velocities
-    // of up to 4 m/s.
+    // Flat panels, first order: 0.196 and 0.090, of a sphere 0.095; 0.107 and 0.061 m/s of net flux beside
+    // normal velocities of up to 4 m/s.
     assert!(fine[0] < 0.1 && order(coarse[0], fine[0]) > 0.9);
     assert!(round[0] > fine[0] && round[1].abs() < 1e-12);
     assert!(fine[1] < 0.07 && order(coarse[1], fine[1]) > 0.7);

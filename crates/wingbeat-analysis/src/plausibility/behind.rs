@@ -6,9 +6,9 @@ use wingbeat_math::{DVec3, RotationLaw};
 
 use super::air::stream;
 
-/// Way downstream [m] that the wake of wing `ahead` has to go so that wings behind it meet it: to the trailing edge of
-/// the last of them, and beyond it by the length of the wing ahead. Wings aside of the wake by more than that length are
-/// left out; none where there are no others, and in air at rest.
+/// Way downstream [m] that the wake of wing `ahead` has to go so that wings behind it meet it: to the trailing
+/// edge of the last of them, and beyond it by the length of the wing ahead. Wings aside of the wake by more
+/// than that length are left out; none where there are no others, and in air at rest.
 pub(super) fn way_to_wings_behind(setup: &FlightSetup, ahead: usize) -> Option<f64> {
     let root = setup.root_at_start();
     let downstream = (root.r.transpose() * (stream(&setup.air) - root.v)).try_normalize()?;

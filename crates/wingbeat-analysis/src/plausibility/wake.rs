@@ -124,8 +124,9 @@ impl Cut {
     }
 }
 
-/// By what factor the wake of wing `w`, which goes `reach` downstream \[m\], is too short for wings behind it \[1\], and
-/// what was measured of such wakes; none where what is left out is felt little, or nothing is behind it.
+/// By what factor the wake of wing `w`, which goes `reach` downstream \[m\], is too short for wings behind it
+/// \[1\], and what was measured of such wakes; none where what is left out is felt little, or nothing is behind
+/// it.
 fn felt_behind(setup: &FlightSetup, w: usize, reach: f64) -> Option<(f64, &'static str)> {
     let way = way_to_wings_behind(setup, w)?;
     (reach < way).then_some((way / reach, BEHIND))
@@ -156,8 +157,8 @@ const IN_HOVER: &str =
     "lift in hover came out 19 % high with half a wingbeat, 3 to 11 % with one to three";
 const IN_A_STREAM: &str = "lift in a stream came out 36, 14, 7 and 2 % low with 0.25, 1, 2 and 4 chords at an aspect ratio of 8";
 
-/// The tail, of half the span, four and eight chords behind: with a wake that ends a quarter, a half and a whole wing length
-/// beyond it its lift is 21 to 30, 10 to 13 and 4 % low.
+/// The tail, of half the span, four and eight chords behind: with a wake that ends a quarter, a half and a
+/// whole wing length beyond it its lift is 21 to 30, 10 to 13 and 4 % low.
 const BEHIND: &str = "a tail behind a wing of aspect ratio 8 had 41 to 70 % more lift where the wake of the wing ended ahead of it, 52 to 91 % less where it ended at it, and 4 % less with a wing length more";
 
 /// What wakes that are too short do, by the part that they should be longer.

@@ -14,13 +14,14 @@ const ROUNDING: f64 = 1e-9;
 /// aspect ratio of 4 has it.
 const SWEPT: f64 = PI / 4.0;
 
-/// Sweep from root to tip \[rad\] from which on the lift of leading edges that shed is known to fail. A delta swept by 76 deg
-/// (aspect ratio 1, 8 x 8 panels, six chords after the start) at 10, 20 and 30 deg has 1.26, 0.98 and 0.82 of the lift that
-/// Polhamus (1966) has with `suction`, 1.23, 0.90 and 0.65 with `suction_implicit`; one of 63 deg 0.86 and 0.71 of that by
-/// his analogy in the same lattice at 20 deg.
+/// Sweep from root to tip \[rad\] from which on the lift of leading edges that shed is known to fail. A delta
+/// swept by 76 deg (aspect ratio 1, 8 x 8 panels, six chords after the start) at 10, 20 and 30 deg has 1.26,
+/// 0.98 and 0.82 of the lift that Polhamus (1966) has with `suction`, 1.23, 0.90 and 0.65 with
+/// `suction_implicit`; one of 63 deg 0.86 and 0.71 of that by his analogy in the same lattice at 20 deg.
 const SHARPLY_SWEPT: f64 = PI / 3.0;
 
-/// Way in mean chords on which the edge sheds without a pause, from which on its lift is that of a vortex that stays.
+/// Way in mean chords on which the edge sheds without a pause, from which on its lift is that of a vortex that
+/// stays.
 const STAYS: f64 = 3.0;
 
 impl FlightSetup {
@@ -70,8 +71,8 @@ impl FlightSetup {
         ))
     }
 
-    /// The largest suction parameter that a strip of the wing has while one or another has more than `threshold` for
-    /// [`STAYS`] mean chords on end \[1\]; none where that is never so.
+    /// The largest suction parameter that a strip of the wing has while one or another has more than
+    /// `threshold` for [`STAYS`] mean chords on end \[1\]; none where that is never so.
     fn sheds_on(&self, wing: &Wing, threshold: f64) -> Option<f64> {
         let motion = wing.motion.impulsive();
         let (count, step) = self.time.looks(LOOKS);
