@@ -14,6 +14,7 @@
 //! unusual animals. Nothing here is used by a flight.
 
 mod air;
+mod behind;
 mod doubts;
 mod elastic;
 mod joints;

@@ -48,11 +48,13 @@ fn glider(parts: &[&str], set: &str) -> LoadedCase {
 }
 
 /// A tail that goes as fast leaves its own short chords behind sooner; its area is no measure of the wake of the wings.
+/// It stands above their wake.
 #[test]
 fn invariant_a_tail_does_not_hide_that_the_wake_of_the_wings_is_short() {
     for way in ["0.14", "0.2"] {
         let set = format!("air.max_wake_distance_m={way}");
-        let [alone, with_tail] = [&[WINGS][..], &[WINGS, TAIL]].map(|parts| {
+        let high = TAIL.replace("-0.25, 0, 0", "-0.25, 0, -0.3");
+        let [alone, with_tail] = [&[WINGS][..], &[WINGS, &high]].map(|parts| {
             let kept = kept_wake(&glider(parts, &set).setup).unwrap();
             kept.is_short.unwrap()
         });
@@ -62,6 +64,24 @@ fn invariant_a_tail_does_not_hide_that_the_wake_of_the_wings_is_short() {
     assert_eq!(kept_wake(&long.setup).unwrap().is_short, None);
     let step = way_in_a_step(&glider(&[WINGS, TAIL], "time.steps=10").setup);
     assert!((step - 6.0 * 0.006 / 0.05).abs() < 1e-12, "{step}"); // of the tail; roundings
+}
+
+/// A tail in the wake of the wings asks for a wake that goes on beyond it by the length of a wing, 0.25 m; the
+/// trailing edges are 0.24 m apart. The wings behind a wing ahead, 0.31 m apart, ask for as much of its own
+/// 0.09 m.
+#[test]
+fn behaves_wakes_that_end_before_a_wing_behind_are_named() {
+    let short = |parts: &[&str], way: f64| {
+        let set = format!("air.max_wake_distance_m={way}");
+        kept_wake(&glider(parts, &set).setup).unwrap().is_short
+    };
+    let ahead = TAIL.replace("-0.25, 0, 0", "0.3, 0, 0");
+    for (other, named, long) in [(TAIL, 0.47, 0.52), (&ahead[..], 0.37, 0.43)] {
+        let said = short(&[WINGS, other], named).unwrap();
+        assert!(said.contains("a tail behind a wing"), "{said}");
+        assert_eq!(short(&[WINGS, other], long), None);
+    }
+    assert_eq!(short(&[WINGS], 0.37), None);
 }
 
 /// The mean chord of what is said is that of the keys: all areas over all lengths.

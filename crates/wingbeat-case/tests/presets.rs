@@ -415,3 +415,45 @@ fn behaves_vortex_lift_is_doubted_at_swept_edges() {
     assert_eq!(wing(fly, &outline(0.9), "vortex_lift"), None);
     assert_eq!(wing(fly, &outline(1.3), "suction"), None);
 }
+
+/// A delta held at 20 deg whose sharply swept edges shed is named; one swept by less, one that goes two chords,
+/// one whose edges hold all and wings that beat are not.
+#[test]
+fn behaves_shedding_of_sharply_swept_edges_is_doubted() {
+    let delta = |half: f64, steps: usize, angle: f64| {
+        let text = format!(
+            "format = 1\n[time]\nstep_s = 1e-3\nsteps = {steps}\n[flight]\nmode = \"tethered\"\n\
+             [air]\nstream_m_s = [-10, 0, 0]\nbody = false\nleading_edge = \"suction_implicit\"\n\
+             [body]\nmass_kg = 0.1\ninertia_about_centre_kg_m2 = [1e-4, 1e-4, 1e-4, 0, 0, 0]\n\
+             [wing.right]\nhinge_m = [0, 0, 0]\njoined = true\nmass_kg = 0\nmotion.psi.constant_deg = {angle}\n\
+             planform.outline = {{ leading_m = [[0, 0.05], [{half}, -0.048]], trailing_m = [[0, -0.05], [{half}, -0.05]], \
+             least_chord = 0.02 }}\n"
+        );
+        let case = LoadedCase::from_text("delta", &text, Path::new("."), &[]);
+        case.unwrap_or_else(|e| panic!("{e}"))
+            .setup
+            .shedding_of_swept_edges()
+    };
+    let said = delta(0.025, 40, 20.0).unwrap();
+    assert!(said.contains("76 deg") && said.contains("20 deg"), "{said}");
+    assert_eq!(delta(0.06, 40, 20.0), None);
+    assert_eq!(delta(0.025, 10, 20.0), None);
+    assert_eq!(delta(0.025, 40, 8.0), None);
+    for preset in PRESETS {
+        let setup = LoadedCase::find(preset.name, &[]).unwrap().setup;
+        assert_eq!(setup.shedding_of_swept_edges(), None, "{}", preset.name);
+    }
+}
+
+/// The slope that is advised for attached wings is doubted where leading edges shed.
+#[test]
+fn behaves_thin_cores_behind_leading_edges_are_doubted() {
+    let said = |name: &str, slope: &str| {
+        let set = [format!("air.wake_overlap_slope={slope}")];
+        let case = LoadedCase::find(name, &set).unwrap_or_else(|e| panic!("{e}"));
+        case.setup.thin_cores_behind_leading_edges()
+    };
+    assert!(said("fruit-fly-tethered", "0.03").unwrap().contains("0.03"));
+    assert_eq!(said("fruit-fly-tethered", "0.25"), None);
+    assert_eq!(said("dragonfly", "0.03"), None); // attached
+}

@@ -11,6 +11,12 @@
 //! exact for even spacing of the angle [Lan 1974, J. Aircraft 11:518]: then rings reach to the tips. The middles of
 //! columns of unequal width make an error of first order, 2 to 5 % of the lift on 8 to 24 columns.
 //!
+//! Along the chord it is so, too, where neither leading nor trailing edges shed: circulation is then as large
+//! at both edges as at those of the span, and on rows of cosine spacing that reach to them the rule of Lobatto
+//! and Chebyshev has the added mass of a flat plate in plane flow exact [Theocaris & Ioakimidis 1977, Q. Appl.
+//! Math. 35:173]. In the middles of rings inset by a quarter panel it is 13, 8 and 5 % high on 6, 12 and 24
+//! rows.
+//!
 //! Where panels are equal the point is the mean of the corners, the normal along the cross product of the diagonals.
 
 use crate::geometry::corners::{corner_weights, mean_corner, repeated, vector_area};
@@ -56,28 +62,31 @@ impl Controls {
         let surface = |strip: &Strip| topology.panel_surface[strip.panels[0]];
         for columns in strips.chunk_by(|a, b| surface(a) == surface(b)) {
             let s = surface(&columns[0]);
+            let on_surface = (&surfaces[s], topology.first_node[s]);
+            let to_the_edges = has_cosine_rows(columns.iter(), on_surface, settings);
             for (j, strip) in columns.iter().enumerate() {
                 let across = match has_cosine_columns(&surfaces[s], columns.len(), settings) {
                     true => midway(j, columns.len()),
                     false => 0.5,
                 };
-                let lengths = lengths(strip, &surfaces[s], topology.first_node[s]);
-                new.add(topology, strip, (lengths, across), settings.ring_shift());
+                let places = match lengths(strip, on_surface) {
+                    None => vec![MIDDLE; strip.panels.len()],
+                    Some(d) if to_the_edges => (0..d.len()).map(|k| place_midway(&d, k)).collect(),
+                    Some(d) => {
+                        let shift = settings.ring_shift();
+                        (0..d.len()).map(|k| place(&d, k, shift)).collect()
+                    }
+                };
+                new.add(topology, strip, (&places, across));
             }
         }
         new
     }
 
-    /// Those of a strip with panels of these lengths, rings aft by `shift`.
-    fn add(
-        &mut self,
-        topology: &Topology,
-        strip: &Strip,
-        (lengths, across): (Option<Vec<f64>>, f64),
-        shift: f64,
-    ) {
+    /// Those of a strip, at these places along the rings and this part of the way across.
+    fn add(&mut self, topology: &Topology, strip: &Strip, (places, across): (&[[f64; 3]], f64)) {
         for (k, &p) in strip.panels.iter().enumerate() {
-            let [along, lean, ratio] = lengths.as_deref().map_or(MIDDLE, |d| place(d, k, shift));
+            let [along, lean, ratio] = places[k];
             let is_middle = along == 0.5 && across == 0.5;
             if is_middle || repeated(&topology.panels[p]).is_some() {
                 continue;
@@ -224,8 +233,35 @@ fn place(d: &[f64], k: usize, shift: f64) -> [f64; 3] {
     [along, lean, ring(k) / ring(n)]
 }
 
-/// Lengths of the panels of a strip along its chord at rest [m]; none if they are not known.
-fn lengths(strip: &Strip, surface: &Surface, first_node: usize) -> Option<Vec<f64>> {
+/// The same where control points are midway in the angle along the chord and rings on the edges of panels.
+fn place_midway(d: &[f64], k: usize) -> [f64; 3] {
+    let (n, along) = (neighbour(k, d.len()), midway(k, d.len()));
+    let apart = if n > k { 0.5 } else { -0.5 } * (d[k] + d[n]);
+    [along, (along - 0.5) * d[k] / apart, d[k] / d[n]]
+}
+
+/// Whether rings reach to the leading and trailing edges, which shed nothing: where all strips of a surface
+/// have more than two rows, of cosine spacing.
+pub(super) fn has_cosine_rows<'a>(
+    mut strips: impl Iterator<Item = &'a Strip>,
+    on_surface: (&Surface, usize),
+    settings: &AirSettings,
+) -> bool {
+    let sheds = settings.shedding.trailing || settings.shedding.leading;
+    let is_cosine = |d: Vec<f64>| {
+        let (n, all) = (d.len(), d.iter().sum::<f64>());
+        let edge = |k: usize| 0.5 * (1.0 - (PI * k as f64 / n as f64).cos());
+        let is_here = |k: usize| (d[k] / all - (edge(k + 1) - edge(k))).abs() < EQUAL;
+        n > 2 && (0..n).all(is_here)
+    };
+    settings.inset > 0.0
+        && !sheds
+        && strips.all(|strip| lengths(strip, on_surface).is_some_and(is_cosine))
+}
+
+/// Lengths of the panels of a strip along its chord at rest [m]; none if they are not known. With the surface
+/// goes the number of its first node.
+fn lengths(strip: &Strip, (surface, first_node): (&Surface, usize)) -> Option<Vec<f64>> {
     let rest = surface.rest.as_ref()?;
     let middle = |&[a, b]: &[usize; 2]| rest[a - first_node].midpoint(rest[b - first_node]);
     let places: Vec<DVec3> = strip.sides.iter().map(middle).collect();

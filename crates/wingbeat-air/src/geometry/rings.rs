@@ -7,7 +7,7 @@
 
 use crate::edges::EdgeKind;
 use crate::geometry::aft::{Aft, nodes_of_strips};
-use crate::geometry::control::has_cosine_columns;
+use crate::geometry::control::{has_cosine_columns, has_cosine_rows};
 use crate::geometry::node_motion::NodeMotion;
 use crate::geometry::strips::Strip;
 use crate::geometry::surface::Surface;
@@ -49,8 +49,8 @@ pub(crate) fn rings(
         ..Rings::default()
     };
     if settings.inset > 0.0 {
-        let to_the_tips = cosine_columns(topology, surfaces, strips, settings);
-        inset(topology, (surfaces, &to_the_tips), settings, &mut rings);
+        let reach = Reach::of_surfaces(topology, surfaces, strips, settings);
+        inset(topology, (surfaces, &reach), settings, &mut rings);
         rings.shift = settings.ring_shift();
     }
     rings.offsets.sort_by_key(|o| o.node);
@@ -61,7 +61,7 @@ pub(crate) fn rings(
 /// (docs/wings-on-bodies.md, "Wings on a body").
 fn inset(
     topology: &Topology,
-    (surfaces, to_the_tips): (&[Surface], &[bool]),
+    (surfaces, reach): (&[Surface], &[Reach]),
     settings: &AirSettings,
     rings: &mut Rings,
 ) {
@@ -71,8 +71,9 @@ fn inset(
         let s = topology.panel_surface[edge.plus];
         let pair = [edge.from.min(edge.to), edge.from.max(edge.to)];
         let kept = match kinds.get(&pair) {
-            Some(EdgeKind::Leading) => settings.shedding.trailing,
-            Some(EdgeKind::Tip | EdgeKind::Root) => to_the_tips[s],
+            Some(EdgeKind::Leading) => settings.shedding.trailing || reach[s].edges,
+            Some(EdgeKind::Trailing) => reach[s].edges,
+            Some(EdgeKind::Tip | EdgeKind::Root) => reach[s].tips,
             _ => false,
         };
         // Plane flow has no side edges, however many columns reach from end to end.
@@ -100,19 +101,31 @@ fn inset(
     );
 }
 
-/// Whether each surface has columns of cosine spacing, whose rings reach to the tips.
-fn cosine_columns(
-    topology: &Topology,
-    surfaces: &[Surface],
-    strips: &[Strip],
-    settings: &AirSettings,
-) -> Vec<bool> {
-    let of = |s: usize| {
-        let is_here = |strip: &&Strip| topology.panel_surface[strip.panels[0]] == s;
-        let count = strips.iter().filter(is_here).count();
-        has_cosine_columns(&surfaces[s], count, settings)
-    };
-    (0..surfaces.len()).map(of).collect()
+/// Which side edges of a surface its rings reach that shed nothing: those across spacing by the cosine.
+struct Reach {
+    tips: bool,
+    /// Leading and trailing edges.
+    edges: bool,
+}
+
+impl Reach {
+    fn of_surfaces(
+        topology: &Topology,
+        surfaces: &[Surface],
+        strips: &[Strip],
+        settings: &AirSettings,
+    ) -> Vec<Self> {
+        let of = |s: usize| {
+            let is_here = |strip: &&Strip| topology.panel_surface[strip.panels[0]] == s;
+            let columns = || strips.iter().filter(is_here);
+            let on_surface = (&surfaces[s], topology.first_node[s]);
+            Self {
+                tips: has_cosine_columns(&surfaces[s], columns().count(), settings),
+                edges: has_cosine_rows(columns(), on_surface, settings),
+            }
+        };
+        (0..surfaces.len()).map(of).collect()
+    }
 }
 
 /// Whether the edge of `panel` between these nodes is its surface's border.

@@ -153,3 +153,52 @@ fn agrees_camber_on_cosine_panels_with_thin_airfoils() {
         assert!(off.abs() < 1e-5 && (centre - 0.5).abs() < 1.0 / (rows * rows) as f64);
     }
 }
+
+/// Force over the acceleration across a plate without wakes, over `pi/4 rho c^2 b`.
+fn added_mass(loads: LoadMethod, (surface, nodes): (Surface, Vec<DVec3>), span: f64) -> f64 {
+    let settings = AirSettings {
+        loads,
+        shedding: SheddingKinds::NONE,
+        ..schemes(0.0)[1].clone()
+    };
+    let density = settings.density;
+    let lattice = Lattice::new(vec![surface], settings).unwrap();
+    let motion = |t: f64| {
+        let up = 0.5 * t * t * DVec3::Z;
+        translating(nodes.iter().map(|x| *x + up).collect(), t * DVec3::Z)
+    };
+    let run = fly(&lattice, motion, 0.1, 3, |_, _, _, _| {}).unwrap();
+    -total_force(&run.loads).z / (0.25 * PI * density * span)
+}
+
+/// The rule of Lobatto and Chebyshev along the chord: exact in plane flow on any rows of cosine spacing.
+#[test]
+fn exact_added_mass_of_a_flat_plate_on_cosine_rows() {
+    for loads in LOADS {
+        for rows in [3, 4, 6, 12, 24] {
+            let found = added_mass(loads, plate(&cosine(rows), &even(1), LONG), LONG);
+            println!("{loads:?} {rows}: {:.2e}", found - 1.0);
+            // The core, 7e-11 on the smallest panels.
+            assert!((found - 1.0).abs() < 5e-10);
+        }
+    }
+}
+
+/// Rectangular plates on rows and columns of cosine spacing [Meyerhoff 1970; Blevins 1979, table 14-1].
+#[test]
+fn published_added_mass_of_rectangular_plates_on_cosine_panels() {
+    for (aspect, k) in [(1.0, 0.579), (2.0, 0.757), (4.0, 0.872)] {
+        let found = [4, 8, 12].map(|n| {
+            let (surface, nodes) = plate(&cosine(n), &cosine(2 * n), aspect);
+            let surface = Surface {
+                cosine_columns: true,
+                ..surface
+            };
+            added_mass(LoadMethod::Pressure, (surface, nodes), aspect)
+        });
+        println!("aspect ratio {aspect}: {found:.4?} of {k}");
+        // 0.29 % on the coarsest mesh of the shortest plate; digits of the table.
+        assert!(found.iter().all(|m| (m / k - 1.0).abs() < 0.006));
+        assert!((found[2] - k).abs() < 5e-4);
+    }
+}

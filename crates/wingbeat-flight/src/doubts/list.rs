@@ -60,6 +60,10 @@ pub enum DoubtKind {
     WideBoundCore,
     /// Vortex lift of edges that are swept.
     SweptVortexLift,
+    /// Sharply swept leading edges that shed on a way of chords.
+    SweptShedding,
+    /// Cores of wakes of leading edges that widen too little.
+    ThinWakeCores,
 }
 
 /// A doubt about a setup.
@@ -103,6 +107,8 @@ impl FlightSetup {
         add(UnjoinedEdges, self.unjoined_tips());
         add(UnjoinedEdges, self.edges_off_planes());
         add(SweptVortexLift, one(self.vortex_lift_of_swept_edges()));
+        add(SweptShedding, one(self.shedding_of_swept_edges()));
+        add(ThinWakeCores, one(self.thin_cores_behind_leading_edges()));
         add(OneSidedEdges, one(self.one_sided_leading_edges()));
         add(LongSteps, one(self.long_steps_one_way()));
         add(AttachedTips, one(self.tips_of_attached_wings()));

@@ -12,8 +12,10 @@
 //! | trailing edges ahead, wings that stroke broadside | `edge_ahead` |
 //! | wings that revolve with their body, trailing edge ahead | `revolving` |
 //! | vorticity of one sign from leading edges, tips of attached wings | `shed_by_motion` |
+//! | leading edges of deltas, with vortex lift or that shed | `swept` |
 //! | attached flow beyond stall | `beyond_stall` |
 //! | cores of wings that are wide beside the panels | `bound_core` |
+//! | cores of wakes of leading edges that widen too little | `thin_wake` |
 //! | liquids and thin gases with the viscosity of air | `fluid` |
 //! | buoyancy that is not computed, bodies light beside the fluid | `displaced` |
 //! | gusts that a flight never meets | `late_gusts` |
@@ -48,6 +50,8 @@ mod scattered;
 mod shed_by_motion;
 mod short_gusts;
 mod starts_apart;
+mod swept;
+mod thin_wake;
 pub(crate) mod turned_over;
 mod unjoined;
 

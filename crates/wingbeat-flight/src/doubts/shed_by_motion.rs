@@ -26,15 +26,8 @@ use wingbeat_air::{AirSettings, LeadingEdge};
 use wingbeat_math::DVec3;
 use wingbeat_model::Wing;
 
-/// Part of a sweep angle that is rounding \[1\].
-const ROUNDING: f64 = 1e-9;
-
 /// Instants of a beat that are looked at.
 const INSTANTS: usize = 100;
-
-/// Sweep of a leading edge from root to tip \[rad\] from which on vortex lift is known to fail: a delta of an
-/// aspect ratio of 4 has it.
-const SWEPT: f64 = PI / 4.0;
 
 /// Suction parameter below which flow stays attached where leading edges shed nothing: what they hold by default.
 const ATTACHED: f64 = 0.15;
@@ -164,34 +157,6 @@ impl FlightSetup {
         })
     }
 
-    /// Says which wings with vortex lift have leading edges so swept that their vortex is carried along the
-    /// edge, which the law does not know (docs/separated-flow-method.md, "Vortex lift without free vorticity").
-    pub fn vortex_lift_of_swept_edges(&self) -> Option<String> {
-        let air = self.air.lattice()?;
-        if !air.lattice.shedding.leading
-            || !matches!(air.lattice.leading, LeadingEdge::VortexLift(_))
-        {
-            return None;
-        }
-        let sweep = |wing: &Wing| {
-            let mesh = &wing.mesh;
-            let along = mesh.nodes[mesh.node(0, mesh.cols)] - mesh.nodes[mesh.node(0, 0)];
-            along.x.abs().atan2(along.y.abs())
-        };
-        let wings = self.animal.wings.iter();
-        let swept: Vec<_> = wings
-            .filter(|w| sweep(w) >= SWEPT * (1.0 - ROUNDING))
-            .collect();
-        let most = swept.iter().map(|w| sweep(w)).reduce(f64::max)?;
-        Some(format!(
-            "leading edges are swept by up to {:.0} deg (wings {}), and vortex lift does not know that the vortex of a swept edge is carried \
-             along it (a delta of an aspect ratio of 1 has a third of its lift); take air.loads = \"polhamus\" without shedding from leading \
-             edges, or leading edges that shed",
-            most.to_degrees(),
-            names(swept.iter().map(|w| &w.name[..]), ", "),
-        ))
-    }
-
     /// Whether the wing meets air, and no strip of it ever with more suction than `held`.
     fn holds(&self, wing: &Wing, held: f64) -> bool {
         let motion = wing.motion.impulsive();
@@ -250,7 +215,7 @@ impl FlightSetup {
 }
 
 /// Suction parameter up to which flow stays attached \[1\]; none where edges shed at any.
-fn held(lattice: &AirSettings) -> Option<f64> {
+pub(super) fn held(lattice: &AirSettings) -> Option<f64> {
     match lattice.leading {
         _ if !lattice.shedding.leading => Some(ATTACHED),
         LeadingEdge::Always => None,
@@ -261,17 +226,20 @@ fn held(lattice: &AirSettings) -> Option<f64> {
 }
 
 /// How a chordwise strip meets the air.
-struct Section {
+pub(super) struct Section {
     /// |u| [m/s].
-    speed: f64,
+    pub speed: f64,
     /// A0 \[1\].
-    suction: f64,
+    pub suction: f64,
     /// Across the strip [m].
     width: f64,
 }
 
 /// The strips of a wing, `past` the air past its places [m/s].
-fn sections(wing: &Wing, past: impl Fn(DVec3) -> DVec3) -> impl Iterator<Item = Section> {
+pub(super) fn sections(
+    wing: &Wing,
+    past: impl Fn(DVec3) -> DVec3,
+) -> impl Iterator<Item = Section> {
     strips(wing).map(move |[front, rear, across]| {
         let aft = (rear - front).normalize_or_zero();
         let quarter = past(front.lerp(rear, 0.25));

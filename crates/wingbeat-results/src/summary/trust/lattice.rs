@@ -36,7 +36,13 @@ pub(super) fn warnings(
 ) {
     let lattice = &air.lattice;
     left_out(setup, lattice, list);
-    let of_shedding = |d: &Doubt| matches!(d.kind, DoubtKind::OneSidedEdges | DoubtKind::LongSteps);
+    use DoubtKind::{LongSteps, OneSidedEdges, SweptShedding, ThinWakeCores};
+    let of_shedding = |d: &Doubt| {
+        matches!(
+            d.kind,
+            OneSidedEdges | LongSteps | SweptShedding | ThinWakeCores
+        )
+    };
     let held = leading_edges_held(setup, summary);
     let kept = doubts.iter().filter(|d| !(held && of_shedding(d)));
     doubts::say(setup, &Vec::from_iter(kept.cloned()), Place::Air, list);
