@@ -8,11 +8,11 @@ use wingbeat::case::insect::{self, InsectAir, SPECIES, Size};
 use wingbeat::case::{self, presets, shell_path};
 use wingbeat::results::file::{Existing, write_file};
 
-use crate::command::failure::Failure;
 use crate::command::options::{self, CaseName};
-use crate::command::report::{ReportArgs, line};
-use crate::command::target::Target;
-use crate::command::terminal::say;
+use crate::command::output::failure::Failure;
+use crate::command::output::report::{ReportArgs, line};
+use crate::command::output::target::Target;
+use crate::command::output::terminal::say;
 
 /// Arguments of `wingbeat new`.
 #[derive(Args)]

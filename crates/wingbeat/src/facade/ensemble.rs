@@ -3,10 +3,10 @@
 use wingbeat_analysis::ensemble as analysis;
 use wingbeat_results::summary::{BeatMeans, Ensemble, left_out};
 
-use crate::batch::fly_all;
-use crate::flown::Run;
-use crate::refusal::Error;
-use crate::value::Flight;
+use super::batch::fly_all;
+use super::error::Error;
+use super::flight::Flight;
+use super::run::Run;
 
 /// Flies `flight` so many times as there are `members`, at least two, over `threads` (0: as many as the machine
 /// has): the first as it is, in the others the air moves by a millionth of the wings' speed (length over

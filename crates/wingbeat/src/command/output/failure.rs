@@ -5,7 +5,7 @@ use wingbeat::analysis::AnalysisError;
 use wingbeat::case::IoError;
 use wingbeat::flight::FlightError;
 
-use crate::command::terminal::tell;
+use crate::command::output::terminal::tell;
 
 /// Nothing was run.
 pub(crate) const REFUSED: u8 = 2;

@@ -10,8 +10,8 @@ use wingbeat::flight::{FlightSetup, Record, Simulation};
 use wingbeat::results::fixed::signed;
 
 use crate::command::options::RunOptions;
-use crate::command::pace::Pace;
-use crate::command::terminal::say;
+use crate::command::output::terminal::say;
+use crate::command::progress::pace::Pace;
 
 /// Time between two lines of JSON.
 const PAUSE: Duration = Duration::from_millis(500);

@@ -6,7 +6,7 @@ use clap::builder::{PathBufValueParser, TypedValueParser};
 use wingbeat::case::IoError;
 use wingbeat::results::file::{Existing, NewFile};
 
-use crate::command::terminal;
+use crate::command::output::terminal;
 
 /// The file that stands for the standard output.
 const STANDARD_OUTPUT: &str = "-";

@@ -9,8 +9,8 @@ use wingbeat::analysis::{Estimate, WingEstimate};
 use wingbeat::flight::{AirModel, FlightError, FlightSetup, Simulation};
 use wingbeat::results::fixed::fixed;
 
-use crate::command::pace::Pace;
-use crate::command::report::{Report, entry};
+use crate::command::output::report::{Report, entry};
+use crate::command::progress::pace::Pace;
 
 /// Unknown circulations beyond which the trial is left out: their matrix takes some seconds and
 /// 0.1 GB, and eight times the one and four times the other with every doubling.

@@ -7,9 +7,9 @@ use clap::Args;
 use wingbeat::draw::page;
 use wingbeat::results::{RESULTS, ResultDir, latest_run};
 
-use crate::command::failure::Failure;
 use crate::command::options;
-use crate::command::terminal::{say, tell};
+use crate::command::output::failure::Failure;
+use crate::command::output::terminal::{say, tell};
 
 /// Arguments of `wingbeat view`.
 #[derive(Args)]

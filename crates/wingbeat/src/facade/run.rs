@@ -9,7 +9,7 @@ use wingbeat_results::history::HistoryWriter;
 use wingbeat_results::summary::{BeatMeans, Beats};
 use wingbeat_results::{History, Outcome, Records, ResultDir, Summary};
 
-use crate::refusal::Error;
+use super::error::Error;
 
 /// A flight that was flown.
 ///

@@ -27,7 +27,7 @@ impl Watch {
 
     /// For a command of so many parts that [`Self::part`] counts.
     pub(crate) fn of(what: &str, parts: u64) -> Self {
-        let bar = crate::command::progress::bar(ProgressDrawTarget::stderr(), parts.max(1));
+        let bar = super::bar::bar(ProgressDrawTarget::stderr(), parts.max(1));
         if !bar.is_hidden() {
             bar.set_message(what.to_owned());
             bar.enable_steady_tick(TICK);
@@ -47,6 +47,12 @@ impl Watch {
         self.bar.suspend(say);
         self.bar.inc(1);
     }
+}
+
+/// Does something while its progress is shown.
+pub(crate) fn watched<T>(what: &str, work: impl FnOnce() -> T) -> T {
+    let _watch = Watch::new(what);
+    work()
 }
 
 impl Drop for Watch {

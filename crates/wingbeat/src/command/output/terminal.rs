@@ -49,14 +49,14 @@ impl Stream {
 /// A line on the standard output, as `println!` but without its panic.
 macro_rules! say {
     ($($text:tt)*) => {
-        $crate::command::terminal::output(format_args!("{}\n", format_args!($($text)*)))
+        $crate::command::output::terminal::output(format_args!("{}\n", format_args!($($text)*)))
     };
 }
 
 /// A line on the standard error, as `eprintln!` but without its panic.
 macro_rules! tell {
     ($($text:tt)*) => {
-        $crate::command::terminal::errors(format_args!("{}\n", format_args!($($text)*)))
+        $crate::command::output::terminal::errors(format_args!("{}\n", format_args!($($text)*)))
     };
 }
 

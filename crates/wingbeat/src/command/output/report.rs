@@ -10,9 +10,9 @@ use wingbeat::case::{IoError, shell_path};
 use wingbeat::results::Summary;
 use wingbeat::results::file::Existing;
 
-use crate::command::failure::Failure;
-use crate::command::target::{self, Target};
-use crate::command::terminal;
+use crate::command::output::failure::Failure;
+use crate::command::output::target::{self, Target};
+use crate::command::output::terminal;
 
 /// Heading of these options in the help.
 const HEADING: &str = "Report";
@@ -59,7 +59,7 @@ macro_rules! line {
 /// A line of a report that begins with what it is of, in a column of its own.
 macro_rules! entry {
     ($report:expr, $of:literal, $($text:tt)*) => {
-        $crate::command::report::line!($report, "{:<10}{}", $of, format_args!($($text)*))
+        $crate::command::output::report::line!($report, "{:<10}{}", $of, format_args!($($text)*))
     };
 }
 

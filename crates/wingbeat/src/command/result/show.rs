@@ -11,9 +11,9 @@ use wingbeat::results::fixed::fixed;
 use wingbeat::results::summary::{Estimate, ManyBeats};
 use wingbeat::results::{Manifest, ResultDir, Summary};
 
-use crate::command::failure::Failure;
-use crate::command::report::{Report, ReportArgs, line};
-use crate::command::view::chosen;
+use crate::command::output::failure::Failure;
+use crate::command::output::report::{Report, ReportArgs, line};
+use crate::command::result::view::chosen;
 
 /// Arguments of `wingbeat show`.
 #[derive(Args)]

@@ -7,12 +7,12 @@ use wingbeat::case::presets;
 use wingbeat::results::summary::{Ensemble, EnsembleBeat, Estimate};
 use wingbeat::{Flight, ensemble};
 
-use super::analyse::trimming::watched;
-use super::failure::Failure;
-use super::options::{self, CaseArgs};
-use super::report::{Report, ReportArgs, line};
-use super::run::name_program;
-use super::terminal::tell;
+use crate::command::case::programs::name_program;
+use crate::command::options::{self, CaseArgs};
+use crate::command::output::failure::Failure;
+use crate::command::output::report::{Report, ReportArgs, line};
+use crate::command::output::terminal::tell;
+use crate::command::progress::watch::watched;
 
 /// Members at most, and unless told otherwise.
 const MAX_MEMBERS: usize = 10_000;

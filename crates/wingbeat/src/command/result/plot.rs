@@ -7,10 +7,10 @@ use wingbeat::draw::figures::{self, Format, Kind, Order, Style, Window};
 use wingbeat::results::ResultDir;
 use wingbeat::results::file::Existing;
 
-use crate::command::failure::{FAILED, Failure};
 use crate::command::options::{self, Choice};
-use crate::command::target::folder;
-use crate::command::terminal::{say, tell};
+use crate::command::output::failure::{FAILED, Failure};
+use crate::command::output::target::folder;
+use crate::command::output::terminal::{say, tell};
 
 /// Arguments of `wingbeat plot`.
 #[derive(Args)]

@@ -12,10 +12,10 @@ use wingbeat::flight::{AirModel, Simulation};
 use wingbeat::math::DVec3;
 use wingbeat::results::{ResultDir, saver};
 
-use crate::command::failure::Failure;
 use crate::command::options;
-use crate::command::report::{Report, ReportArgs, line};
-use crate::command::terminal::tell;
+use crate::command::output::failure::Failure;
+use crate::command::output::report::{Report, ReportArgs, line};
+use crate::command::output::terminal::tell;
 
 /// Points at most.
 const MAX_POINTS: usize = 1_000_000;

@@ -3,9 +3,9 @@
 use rayon::ThreadPoolBuilder;
 use rayon::prelude::*;
 
-use crate::flown::Run;
-use crate::refusal::Error;
-use crate::value::Flight;
+use super::error::Error;
+use super::flight::Flight;
+use super::run::Run;
 
 /// Flies all `flights`, so many at a time as there are `threads` (0: as many as the machine has), and keeps of
 /// each run what `keep` makes of it, in the order of the flights. A flight that fails takes none of the others

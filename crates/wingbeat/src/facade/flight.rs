@@ -13,8 +13,8 @@ use wingbeat_math::DVec3;
 use wingbeat_model::{Animal, Start};
 use wingbeat_results::{Outcome, RecordedFlight};
 
-use crate::flown::{Run, new_dir};
-use crate::refusal::Error;
+use super::error::Error;
+use super::run::{Run, new_dir};
 
 /// A flight to be flown. What has no method of its own is set in [`Flight::setup`].
 ///

@@ -10,12 +10,13 @@ use wingbeat::draw::draw_run;
 use wingbeat::flight::{FlightError, Simulation};
 use wingbeat::results::{Outcome, RESULTS, RecordedFlight, ResultDir, Summary, saver};
 
-use crate::command::failure::{self, FAILED, Failure, INTERRUPTED};
+use crate::command::case::programs::name_program;
 use crate::command::options::{CaseArgs, RunOptions};
-use crate::command::progress::Progress;
+use crate::command::output::failure::{self, FAILED, Failure, INTERRUPTED};
+use crate::command::output::target::folder;
+use crate::command::output::terminal::{self, say, tell};
+use crate::command::progress::bar::Progress;
 use crate::command::signals::Interrupts;
-use crate::command::target::folder;
-use crate::command::terminal::{self, say, tell};
 
 /// Arguments of `wingbeat run`.
 #[derive(Args)]
@@ -80,23 +81,6 @@ fn set_threads(wanted: Option<usize>) -> Result<usize, Failure> {
     let built = pool.build_global();
     built.map_err(|e| Failure::Option(format!("cannot start threads: {e}")))?;
     Ok(rayon::current_num_threads())
-}
-
-/// Says which programs of the case are going to run, before they do: they run with the user's rights.
-pub(crate) fn name_program(case: &LoadedCase) {
-    if let Some(program) = case.program() {
-        tell!(
-            "{}: the air is computed by another program, which runs with your rights: {program}",
-            case.name
-        );
-    }
-    let program = case.control_program();
-    if let Some(program) = program.filter(|_| case.setup.feedback.is_some()) {
-        tell!(
-            "{}: the wings are commanded by another program, which runs with your rights: {program}",
-            case.name
-        );
-    }
 }
 
 /// Everything that can be refused before a step is made; the directory is made last.

@@ -8,12 +8,12 @@ use wingbeat::flight::{AirModel, FlightSetup, MotionMode, Simulation};
 use wingbeat::model::ElasticReport;
 use wingbeat::results::fixed::fixed;
 
-use crate::command::expectation::{self, Cost};
-use crate::command::failure::Failure;
+use crate::command::case::expectation::{self, Cost};
 use crate::command::options::CaseArgs;
-use crate::command::report::{Report, ReportArgs, entry, line};
-use crate::command::terminal::tell;
-use crate::command::watch::Watch;
+use crate::command::output::failure::Failure;
+use crate::command::output::report::{Report, ReportArgs, entry, line};
+use crate::command::output::terminal::tell;
+use crate::command::progress::watch::Watch;
 
 /// Arguments of `wingbeat check`.
 #[derive(Args)]

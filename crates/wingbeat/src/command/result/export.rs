@@ -7,10 +7,10 @@ use wingbeat::results::ResultDir;
 use wingbeat::results::export::{self, Format};
 use wingbeat::results::file::Existing;
 
-use crate::command::failure::Failure;
 use crate::command::options::Choice;
-use crate::command::target::folder;
-use crate::command::terminal::say;
+use crate::command::output::failure::Failure;
+use crate::command::output::target::folder;
+use crate::command::output::terminal::say;
 
 /// Arguments of `wingbeat export`.
 #[derive(Args)]
