@@ -2,7 +2,7 @@
 
 use wingbeat_math::DVec3;
 use wingbeat_model::build::{BodyMass, fit_body_length};
-use wingbeat_model::revolution::{Profile, Revolution};
+use wingbeat_model::mesh::revolution::{Profile, Revolution};
 use wingbeat_model::{Animal, BodyPart, MassInput, QuadMesh};
 
 use super::fault::{Built, beyond_numbers, fault_at};

@@ -8,9 +8,9 @@
 use wingbeat_math::six_by_six::from_quarters;
 use wingbeat_math::{DMat3, DVec3, MassProperties, SixBySix, tilde};
 
-use crate::block::pair;
-use crate::configuration::Configuration;
-use crate::frame::FrameMotion;
+use crate::nodes::block::pair;
+use crate::nodes::configuration::Configuration;
+use crate::nodes::frame::FrameMotion;
 
 /// Motion of a node relative to W.
 #[derive(Clone, Copy, Debug)]

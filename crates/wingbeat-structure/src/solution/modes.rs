@@ -7,12 +7,12 @@ use faer::linalg::triangular_solve::{
 use faer::{ColRef, Mat, MatRef, Par, Side};
 use wingbeat_math::{DMat3, DVec3, MassProperties};
 
-use crate::assembly::Assembly;
-use crate::configuration::{Configuration, NODE};
 use crate::error::StructureError;
-use crate::frame::FrameMotion;
-use crate::slowest::{below, slowest};
-use crate::statics::steady_tangent;
+use crate::nodes::configuration::{Configuration, NODE};
+use crate::nodes::frame::FrameMotion;
+use crate::solution::assembly::Assembly;
+use crate::solution::slowest::{below, slowest};
+use crate::solution::statics::steady_tangent;
 use crate::structure::{HELD, Structure};
 
 /// A mode of small vibration.

@@ -1,8 +1,8 @@
 //! Whether a mesh is the closed surface of a solid.
 
 use crate::error::{ModelError, require_count};
-use crate::integrate::volume;
 use crate::mesh::QuadMesh;
+use crate::mesh::integrate::volume;
 
 impl QuadMesh {
     /// Panels, finite nodes, each edge shared by exactly two panels in opposite directions, one

@@ -5,11 +5,11 @@ use wingbeat_math::{DMat3, DVec3, SixBySix, tilde};
 
 use super::generalized_alpha::Trial;
 use super::solver::{LoadTangent, Solver, combined};
-use crate::block::pair;
-use crate::configuration::NODE;
-use crate::frame::FrameMotion;
-use crate::inertia::{self, NodeMotion};
-use crate::screw::right_jacobian;
+use crate::nodes::block::pair;
+use crate::nodes::configuration::NODE;
+use crate::nodes::frame::FrameMotion;
+use crate::nodes::inertia::{self, NodeMotion};
+use crate::nodes::screw::right_jacobian;
 use crate::structure::Structure;
 
 impl Solver {

@@ -2,7 +2,7 @@
 
 use wingbeat_math::{DVec3, MassProperties};
 
-use crate::configuration::Configuration;
+use crate::nodes::configuration::Configuration;
 
 /// Internal force and tangent of one element, for its own nodes in their order.
 #[derive(Clone, Debug, Default, PartialEq)]

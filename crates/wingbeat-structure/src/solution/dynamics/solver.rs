@@ -5,13 +5,13 @@ use wingbeat_math::{DMat3, DVec3, SixBySix, larger};
 
 use super::carried::ResponseScratch;
 use super::generalized_alpha::{State, Trial, Weights};
-use crate::assembly::{Assembly, Viscous};
-use crate::block::{add_pair, pair};
-use crate::configuration::{Configuration, NODE};
 use crate::error::StructureError;
-use crate::frame::FrameMotion;
-use crate::inertia::{self, Motion};
-use crate::screw::right_jacobian;
+use crate::nodes::block::{add_pair, pair};
+use crate::nodes::configuration::{Configuration, NODE};
+use crate::nodes::frame::FrameMotion;
+use crate::nodes::inertia::{self, Motion};
+use crate::nodes::screw::right_jacobian;
+use crate::solution::assembly::{Assembly, Viscous};
 use crate::structure::{HELD, Structure};
 
 /// Derivatives of the loads on the nodes: matrices by rows of 6 N x 6 N numbers, N nodes; forces in W and

@@ -7,8 +7,8 @@
 
 use crate::ModelError;
 use crate::error::positive;
-use crate::integrate::volume;
 use crate::mesh::QuadMesh;
+use crate::mesh::integrate::volume;
 use std::collections::BTreeMap;
 use std::io::{BufRead, Cursor};
 use wingbeat_math::DVec3;

@@ -8,7 +8,7 @@
 use wingbeat_math::rotation_jacobian::{Curve, inverse_right_jacobian as a};
 use wingbeat_math::{DMat3, DQuat, DVec3, rotation_vector, six, tilde};
 
-use crate::block::pair;
+use crate::nodes::block::pair;
 
 /// A screw: translation u \[m\] and rotation theta \[rad\], both in the axes of its first frame.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

@@ -2,7 +2,7 @@
 
 use wingbeat_math::{DVec3, six};
 
-use crate::configuration::NODE;
+use crate::nodes::configuration::NODE;
 
 /// Two vectors of the six numbers of node `n`.
 pub(crate) fn pair(numbers: &[f64], n: usize) -> [DVec3; 2] {

@@ -7,9 +7,9 @@ use super::geometry::{Lumps, Quad, lumps};
 use super::stiffness::stiffness;
 use super::strain::{BENDING, CURVATURE, STRAINS, Stiffness, Term, Vectors, terms};
 use super::{ShellError, ShellSection};
-use crate::block::pair;
-use crate::configuration::{Configuration, NODE};
-use crate::element::{Element, ElementForces, MassBetween};
+use crate::elements::element::{Element, ElementForces, MassBetween};
+use crate::nodes::block::pair;
+use crate::nodes::configuration::{Configuration, NODE};
 
 /// Strains whose rates are damped: those that bend.
 const DAMPED: [[usize; 2]; 1] = [[CURVATURE, BENDING]];

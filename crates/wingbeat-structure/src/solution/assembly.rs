@@ -3,10 +3,10 @@
 use wingbeat_math::six_by_six::scaled;
 use wingbeat_math::{DMat3, DVec3, SixBySix};
 
-use crate::configuration::{Configuration, NODE};
-use crate::element::ElementForces;
+use crate::elements::element::ElementForces;
 use crate::error::StructureError;
-use crate::matrix::Matrix;
+use crate::nodes::configuration::{Configuration, NODE};
+use crate::solution::matrix::Matrix;
 use crate::structure::{HELD, Structure};
 
 /// Strain-rate damping in a step.

@@ -2,13 +2,13 @@
 
 use wingbeat_math::larger;
 
-use crate::assembly::Assembly;
-use crate::configuration::{Configuration, NODE};
-use crate::dynamics::{inertial, size};
 use crate::error::StructureError;
-use crate::frame::FrameMotion;
-use crate::inertia::{self, Motion};
-use crate::loads::Loading;
+use crate::nodes::configuration::{Configuration, NODE};
+use crate::nodes::frame::FrameMotion;
+use crate::nodes::inertia::{self, Motion};
+use crate::nodes::loads::Loading;
+use crate::solution::assembly::Assembly;
+use crate::solution::dynamics::{inertial, size};
 use crate::structure::{HELD, Structure};
 
 /// How an equilibrium is sought.

@@ -3,8 +3,8 @@
 use wingbeat_math::six_by_six::{ZERO, from_quarters};
 use wingbeat_math::{DMat3, DVec3, SixBySix, tilde};
 
-use crate::block::add_pair;
-use crate::configuration::{Configuration, NODE};
+use crate::nodes::block::add_pair;
+use crate::nodes::configuration::{Configuration, NODE};
 
 /// Loads that depend on the configuration alone.
 pub trait Loading {

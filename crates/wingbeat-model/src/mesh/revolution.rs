@@ -6,8 +6,8 @@
 
 use crate::ModelError;
 use crate::error::{finite, in_row, positive, require, require_count};
-use crate::integrate::{GAUSS, from_moments};
 use crate::mesh::QuadMesh;
+use crate::mesh::integrate::{GAUSS, from_moments};
 use statrs::function::beta::beta;
 use std::f64::consts::{PI, TAU};
 use wingbeat_math::{DMat3, DVec3, MassProperties, interpolate_pairs, outer};

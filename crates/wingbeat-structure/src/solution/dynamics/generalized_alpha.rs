@@ -8,9 +8,9 @@
 
 use wingbeat_math::{DQuat, DVec3};
 
-use crate::block::pair;
-use crate::configuration::{Configuration, NODE};
 use crate::error::StructureError;
+use crate::nodes::block::pair;
+use crate::nodes::configuration::{Configuration, NODE};
 use crate::structure::Structure;
 
 /// What is integrated in time. Enough, with the motion of the frame, to go on bit for bit.

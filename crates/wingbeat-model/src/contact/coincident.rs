@@ -1,8 +1,8 @@
 //! Wings that lie in each other: they pass through nothing, and are in one place.
 
 use crate::animal::{Animal, Wing};
-use crate::crossing::{Sheet, instants, pairs};
-use crate::touching::distance;
+use crate::contact::crossing::{Sheet, instants, pairs};
+use crate::contact::touching::distance;
 use wingbeat_math::{DMat3, DVec3};
 
 /// Distance over the smaller mean chord below which sheets are in one place \[1\]: wings of insects and robots are about

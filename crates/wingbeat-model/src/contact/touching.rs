@@ -2,8 +2,8 @@
 //! vortex lattice of both does not know.
 
 use crate::animal::{Animal, Wing};
+use crate::contact::inside::Solid;
 use crate::deformation::DeformingMesh;
-use crate::inside::Solid;
 use crate::mesh::{GridMesh, QuadMesh};
 use crate::motion::{Start, WingMotion};
 use wingbeat_math::{DVec3, RotationLaw};

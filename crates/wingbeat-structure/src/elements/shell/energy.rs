@@ -8,7 +8,7 @@
 use wingbeat_math::{DMat3, DVec3, tilde};
 
 use super::strain::{BLOCKS, STRAINS, Stiffness, Term, Vectors};
-use crate::configuration::NODE;
+use crate::nodes::configuration::NODE;
 
 /// Numbers of four corners.
 const SIZE: usize = 4 * NODE;

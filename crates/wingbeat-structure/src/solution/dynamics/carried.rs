@@ -3,8 +3,8 @@
 use wingbeat_math::six_by_six::{transpose, unit};
 use wingbeat_math::{DQuat, DVec3, Six, SixBySix, six};
 
-use crate::block::pair;
-use crate::configuration::{Configuration, NODE};
+use crate::nodes::block::pair;
+use crate::nodes::configuration::{Configuration, NODE};
 
 /// Force and moment about the origin of W, W components, of six numbers at every node: forces in W, moments in
 /// node components.

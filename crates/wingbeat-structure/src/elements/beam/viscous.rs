@@ -1,8 +1,8 @@
 //! How strain-rate damping of a beam changes as it turns.
 
 use super::{Beam, ENDS, Turning, add, ends, screw_between};
-use crate::configuration::{Configuration, NODE};
-use crate::screw::Screw;
+use crate::nodes::configuration::{Configuration, NODE};
+use crate::nodes::screw::Screw;
 use wingbeat_math::six_by_six::{ZERO, product, times, transpose};
 
 impl Beam {

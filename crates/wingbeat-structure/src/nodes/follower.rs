@@ -2,8 +2,8 @@
 
 use wingbeat_math::{DMat3, DVec3};
 
-use crate::block::{add_pair, pair};
-use crate::configuration::Configuration;
+use crate::nodes::block::{add_pair, pair};
+use crate::nodes::configuration::Configuration;
 
 /// Part of a point that one node carries.
 #[derive(Clone, Copy, Debug, PartialEq)]

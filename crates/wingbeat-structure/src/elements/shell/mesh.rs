@@ -3,7 +3,7 @@
 use wingbeat_math::{DQuat, DVec3};
 
 use super::{Shell, ShellError, ShellSection};
-use crate::configuration::Configuration;
+use crate::nodes::configuration::Configuration;
 
 /// Nodes of a structure on the points of a lattice, points that coincide being one node, and the quadrilaterals between
 /// them.

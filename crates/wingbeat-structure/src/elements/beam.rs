@@ -21,10 +21,10 @@ pub use section::{BeamSection, Stiffness};
 use wingbeat_math::six_by_six::{from_quarters, product, times, transpose};
 use wingbeat_math::{DMat3, DQuat, DVec3, MassProperties, SixBySix, tilde};
 
-use crate::configuration::{Configuration, NODE};
-use crate::element::{Element, ElementForces};
+use crate::elements::element::{Element, ElementForces};
 use crate::error::StructureError;
-use crate::screw::{Screw, inverse_jacobian, pulled, pulled_gradient};
+use crate::nodes::configuration::{Configuration, NODE};
+use crate::nodes::screw::{Screw, inverse_jacobian, pulled, pulled_gradient};
 
 /// Numbers of both ends.
 const ENDS: usize = 12;
@@ -296,7 +296,7 @@ impl Element for Beam {
         for (e, end) in ends.iter().enumerate() {
             let g = self.offsets[e].rotation;
             let moment = g * end.theta + self.offsets[e].place.cross(g * end.u);
-            crate::block::add_pair(&mut out.force, e, [rotations[e] * end.u, moment]);
+            crate::nodes::block::add_pair(&mut out.force, e, [rotations[e] * end.u, moment]);
         }
         if tangent {
             self.add_tangent((&rotations, &screw), &force, &mut out.tangent);
