@@ -1,16 +1,16 @@
 //! Vortex particles as dots.
 
-use super::drawing::{COLOURS, Colour, Drawing};
+use crate::figures::drawing::{COLOURS, Colour, Drawing};
 use wingbeat_results::particles::Cloud;
 
 /// Corners of a dot: there are many, and they are small.
 const CORNERS: usize = 8;
 
 /// Weaker filaments and particles, relative to the usual, are not drawn.
-pub(super) const FAINTEST: f64 = 0.06;
+pub(crate) const FAINTEST: f64 = 0.06;
 
 /// Vortex particles, weak ones first: places, and strengths over that which few particles exceed.
-pub(super) struct Dots {
+pub(crate) struct Dots {
     pub list: Vec<([f64; 3], f64)>,
     /// The strength the others are counted in \[m3/s\].
     pub usual: f64,
@@ -50,7 +50,7 @@ impl Dots {
 }
 
 /// From pale to vermilion, the stronger the darker.
-pub(super) fn dye(strength: f64) -> Colour {
+pub(crate) fn dye(strength: f64) -> Colour {
     Colour(244, 228, 216).toward(COLOURS[1], strength)
 }
 

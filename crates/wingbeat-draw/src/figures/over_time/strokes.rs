@@ -3,12 +3,12 @@
 use wingbeat_flight::FlightSetup;
 use wingbeat_model::Wing;
 
-use super::units::scaled;
+use crate::figures::axes::units::scaled;
 use wingbeat_results::History;
 use wingbeat_results::columns::column_stems;
 
 /// Number of the wing that stands for all: the last one that beats, so no fixed tail; the last one where none does.
-pub(super) fn reference_number(setup: &FlightSetup) -> Option<usize> {
+pub(crate) fn reference_number(setup: &FlightSetup) -> Option<usize> {
     let wings = &setup.animal.wings;
     let beats = |w: &Wing| {
         let phi = |k: usize| w.motion.angles.phi.at(k as f64 / 8.0)[0];
@@ -20,7 +20,7 @@ pub(super) fn reference_number(setup: &FlightSetup) -> Option<usize> {
 
 /// Name in column names of the wing that stands for all ([`reference_number`]), and the sign that makes its
 /// stroke angle rise in the downstroke; none for a motion without a period.
-pub(super) fn reference_wing(setup: &FlightSetup) -> Option<(String, f64)> {
+pub(crate) fn reference_wing(setup: &FlightSetup) -> Option<(String, f64)> {
     let number = reference_number(setup)?;
     stroking(setup).into_iter().nth(number)
 }
@@ -46,7 +46,7 @@ fn stroking(setup: &FlightSetup) -> Vec<(String, f64)> {
 
 /// Stroke angle of the reference wing, row by row, with the sign by which it rises in the downstroke;
 /// nothing without one \[rad\].
-pub(super) fn stroke(setup: &FlightSetup, history: &History) -> Vec<f64> {
+pub(crate) fn stroke(setup: &FlightSetup, history: &History) -> Vec<f64> {
     let number = reference_number(setup).unwrap_or(0);
     strokes(setup, history)
         .into_iter()
@@ -55,7 +55,7 @@ pub(super) fn stroke(setup: &FlightSetup, history: &History) -> Vec<f64> {
 }
 
 /// The same of every wing.
-pub(super) fn strokes(setup: &FlightSetup, history: &History) -> Vec<Vec<f64>> {
+pub(crate) fn strokes(setup: &FlightSetup, history: &History) -> Vec<Vec<f64>> {
     let angle = |(wing, sign): (String, f64)| {
         scaled(history.column(&format!("{wing}_prescribed_phi_rad")), sign)
     };
@@ -64,12 +64,12 @@ pub(super) fn strokes(setup: &FlightSetup, history: &History) -> Vec<Vec<f64>> {
 
 /// Whether the reference wing goes down (or forward: its stroke angle rises) from each row to the
 /// next.
-pub(super) fn goes_down(stroke: &[f64]) -> Vec<bool> {
+pub(crate) fn goes_down(stroke: &[f64]) -> Vec<bool> {
     stroke.windows(2).map(|p| p[1] > p[0]).collect()
 }
 
 /// Intervals of the downstroke.
-pub(super) fn downstrokes(stroke: &[f64], x: &[f64]) -> Vec<[f64; 2]> {
+pub(crate) fn downstrokes(stroke: &[f64], x: &[f64]) -> Vec<[f64; 2]> {
     let mut list: Vec<[f64; 2]> = vec![];
     for (ends, down) in x.windows(2).zip(goes_down(stroke)) {
         match list.last_mut() {

@@ -1,13 +1,13 @@
 //! One pair of axes with curves: ranges, frame, ticks, legend.
 
-use super::drawing::{Anchor, Colour, Drawing, FAINT, INK, SHADE, Stroke};
-use super::font;
-use super::style::Look;
-use super::ticks;
+use crate::figures::axes::ticks;
+use crate::figures::drawing::font;
+use crate::figures::drawing::style::Look;
+use crate::figures::drawing::{Anchor, Colour, Drawing, FAINT, INK, SHADE, Stroke};
 
 /// A rectangle \[points\].
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Area {
+pub(crate) struct Area {
     pub left: f64,
     pub top: f64,
     pub width: f64,
@@ -16,7 +16,7 @@ pub(super) struct Area {
 
 /// A line through points; a break where a number is not finite.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Curve {
+pub(crate) struct Curve {
     /// Legend; empty: none.
     pub label: String,
     pub points: Vec<[f64; 2]>,
@@ -27,7 +27,7 @@ pub(super) struct Curve {
 
 /// What stands on the axes.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(super) struct Plot {
+pub(crate) struct Plot {
     /// Quantity and unit along; empty: neither name nor numbers.
     pub x_label: String,
     /// Quantity and unit upward.
@@ -47,7 +47,7 @@ pub(super) struct Plot {
 
 /// What lies between two lines with the same abscissas.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Band {
+pub(crate) struct Band {
     /// Abscissa, lower and upper value.
     pub points: Vec<[f64; 3]>,
     pub colour: Colour,
@@ -55,7 +55,7 @@ pub(super) struct Band {
 
 /// From quantities to points.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Axes {
+pub(crate) struct Axes {
     pub area: Area,
     x: [f64; 2],
     y: [f64; 2],
@@ -266,7 +266,7 @@ fn finish(to: &mut Drawing, piece: &mut Vec<[f64; 2]>, stroke: Stroke) {
 }
 
 /// The range of numbers with a margin, never empty.
-pub(super) fn range(values: impl Iterator<Item = f64>) -> [f64; 2] {
+pub(crate) fn range(values: impl Iterator<Item = f64>) -> [f64; 2] {
     let [lo, hi] = values
         .filter(|y| y.is_finite())
         .fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], y| {
@@ -284,13 +284,13 @@ pub(super) fn range(values: impl Iterator<Item = f64>) -> [f64; 2] {
 }
 
 /// A range widened about its middle to this extent, if it is smaller.
-pub(super) fn at_least([lo, hi]: [f64; 2], extent: f64) -> [f64; 2] {
+pub(crate) fn at_least([lo, hi]: [f64; 2], extent: f64) -> [f64; 2] {
     let missing = 0.5 * (extent - (hi - lo)).max(0.0);
     [lo - missing, hi + missing]
 }
 
 /// Exponents of the decades that hold all magnitudes, at most eighteen of them.
-pub(super) fn decades(values: impl Iterator<Item = f64>) -> [f64; 2] {
+pub(crate) fn decades(values: impl Iterator<Item = f64>) -> [f64; 2] {
     let sizes = values.map(f64::abs).filter(|y| y.is_finite() && *y > 0.0);
     let [lo, hi] = sizes.fold([f64::INFINITY, 0.0_f64], |[a, b], y| [a.min(y), b.max(y)]);
     if hi == 0.0 {
@@ -301,7 +301,7 @@ pub(super) fn decades(values: impl Iterator<Item = f64>) -> [f64; 2] {
 }
 
 /// The title over a figure, for its caption where the style has none.
-pub(super) fn title(to: &mut Drawing, text: &str, look: &Look) {
+pub(crate) fn title(to: &mut Drawing, text: &str, look: &Look) {
     text.clone_into(&mut to.title);
     if look.titled {
         let at = [to.size[0] / 2.0, 1.7 * look.font];
@@ -315,7 +315,7 @@ const MIN_KEPT: usize = 12;
 
 /// `NAME: what it shows` in so much room \[points\] and in letters of this size: the middle of a long name is left out,
 /// and where that is not enough the letters are smaller.
-pub(super) fn fitted(text: &str, room: f64, size: f64) -> (String, f64) {
+pub(crate) fn fitted(text: &str, room: f64, size: f64) -> (String, f64) {
     let (name, what) = text.split_at(text.find(": ").unwrap_or(text.len()));
     let name: Vec<char> = name.chars().collect();
     let kept = |n: usize| -> String {
@@ -337,7 +337,7 @@ pub(super) fn fitted(text: &str, room: f64, size: f64) -> (String, f64) {
 }
 
 /// A curve in the colour and dash of number `k`.
-pub(super) fn curve(
+pub(crate) fn curve(
     label: &str,
     points: Vec<[f64; 2]>,
     colour: Colour,

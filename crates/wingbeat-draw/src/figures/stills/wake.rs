@@ -3,12 +3,12 @@
 
 use std::path::Path;
 
-use super::dots::{Dots, FAINTEST, dye};
-use super::drawing::{Anchor, COLOURS, Colour, Drawing, INK, Stroke};
-use super::grid::one_scale;
-use super::plot::{self, Area, Axes, Plot};
-use super::style::Look;
-use super::units::prefix;
+use crate::figures::axes::grid::one_scale;
+use crate::figures::axes::plot::{self, Area, Axes, Plot};
+use crate::figures::axes::units::prefix;
+use crate::figures::drawing::style::Look;
+use crate::figures::drawing::{Anchor, COLOURS, Colour, Drawing, INK, Stroke};
+use crate::figures::stills::dots::{Dots, FAINTEST, dye};
 use wingbeat_case::IoError;
 use wingbeat_case::LoadedCase;
 use wingbeat_results::frames::{self, Frame, JoinedEdges, Mesh, Sheet};
@@ -16,18 +16,18 @@ use wingbeat_results::poses::{Poses, picture};
 use wingbeat_results::rows::Rows;
 
 /// More rings than this are not drawn: the newest of every sheet are.
-pub(super) const MAX_RINGS: usize = 2500;
+pub(crate) const MAX_RINGS: usize = 2500;
 /// More particles than this are not drawn: the strongest are.
 const MAX_DOTS: usize = 2500;
 /// Body and wings.
-pub(super) const SKIN: Colour = Colour(222, 217, 203);
+pub(crate) const SKIN: Colour = Colour(222, 217, 203);
 
 /// The figure of the frame nearest to a step, the last one if none is given; none where no frames
 /// were written.
 ///
 /// # Errors
 /// A frame that is missing or damaged.
-pub(super) fn wake(
+pub(crate) fn wake(
     dir: &Path,
     case: &LoadedCase,
     step: Option<usize>,
@@ -104,7 +104,7 @@ struct Wakes {
 
 /// Vortex filaments between the rings of wakes, weak ones first: two ends, and the difference of the
 /// rings' circulations over that which few filaments exceed.
-pub(super) struct Filaments {
+pub(crate) struct Filaments {
     pub list: Vec<([[f64; 3]; 2], f64)>,
     /// The circulation the strengths are counted in \[m2/s\].
     pub usual: f64,
@@ -188,7 +188,7 @@ fn edges(
 }
 
 /// From nearly white to blue, the stronger the darker.
-pub(super) fn pen(strength: f64, width: f64) -> Stroke {
+pub(crate) fn pen(strength: f64, width: f64) -> Stroke {
     let colour = Colour(226, 233, 240).toward(COLOURS[0], strength);
     Stroke::solid(colour, width * (0.5 + strength))
 }
@@ -310,7 +310,7 @@ fn bar(to: &mut Drawing, axes: &Axes, view: &View, wakes: &Wakes, look: &Look) {
     let text = format!("{what}, 0 to {} {unit} and more", short(usual));
     to.text([right, y], &text, look.font, Anchor::End);
     let step = 0.4 * look.font;
-    let end = right - super::font::width(&text, look.font) - 0.6 * look.font;
+    let end = right - crate::figures::drawing::font::width(&text, look.font) - 0.6 * look.font;
     for k in 0..15 {
         let x = end - f64::from(15 - k) * step;
         let [low, high] = [y, y - 0.75 * look.font];
@@ -326,7 +326,7 @@ fn bar(to: &mut Drawing, axes: &Axes, view: &View, wakes: &Wakes, look: &Look) {
 
 /// Two digits.
 fn short(value: f64) -> String {
-    super::ticks::scientific(value)
+    crate::figures::axes::ticks::scientific(value)
 }
 
 #[cfg(test)]

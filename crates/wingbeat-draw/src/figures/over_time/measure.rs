@@ -3,13 +3,13 @@
 
 use wingbeat_flight::FlightSetup;
 
-use super::chart::{Chart, Panel, Series};
-use super::shades::Shades;
-use super::units::{force_unit, prefix, scaled};
+use crate::figures::axes::chart::{Chart, Panel, Series};
+use crate::figures::axes::units::{force_unit, prefix, scaled};
+use crate::figures::over_time::shades::Shades;
 
 /// A figure.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Measured {
+pub(crate) struct Measured {
     /// Name of its kind.
     pub name: &'static str,
     /// Title without the name of the flight.
@@ -21,7 +21,7 @@ pub(super) struct Measured {
 
 /// One pair of axes.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Measure {
+pub(crate) struct Measure {
     label: String,
     unit: Unit,
     pub lines: Vec<Line>,
@@ -39,7 +39,7 @@ const ANGLE_FLOOR: f64 = 1e-5;
 
 /// What the numbers are shown in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Unit {
+pub(crate) enum Unit {
     /// Newtons over the weight, where there is any.
     Weight,
     /// This unit with a decimal prefix that suits the numbers.
@@ -52,7 +52,7 @@ pub(super) enum Unit {
 
 /// When a line is shown.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Kept {
+pub(crate) enum Kept {
     Always,
     NotZero,
     /// With all lines of its panel, if one of them has more than this, SI.
@@ -65,7 +65,7 @@ pub(super) enum Kept {
 
 /// A quantity over time.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Line {
+pub(crate) struct Line {
     label: String,
     pub values: Vec<f64>,
     /// Its value in the first row of all.

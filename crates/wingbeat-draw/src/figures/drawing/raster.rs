@@ -4,11 +4,11 @@ use tiny_skia::{
     Color, FillRule, LineJoin, Paint, Path, PathBuilder, Pixmap, StrokeDash, Transform,
 };
 
-use super::drawing::{Colour, Drawing, Mark, Stroke};
-use super::font;
+use crate::figures::drawing::font;
+use crate::figures::drawing::{Colour, Drawing, Mark, Stroke};
 
 /// Pixels, three bytes each.
-pub(super) struct Picture {
+pub(crate) struct Picture {
     pub width: u32,
     pub height: u32,
     pub rgb: Vec<u8>,
@@ -16,7 +16,7 @@ pub(super) struct Picture {
 
 impl Drawing {
     /// The drawing with `scale` pixels per point.
-    pub(super) fn to_picture(&self, scale: f64) -> Result<Picture, String> {
+    pub(crate) fn to_picture(&self, scale: f64) -> Result<Picture, String> {
         let [width, height] = self.size.map(|x| (x * scale).ceil().max(1.0) as u32);
         let mut pixels = Pixmap::new(width, height)
             .ok_or_else(|| format!("a picture of {width} x {height} pixels is too large"))?;
@@ -105,7 +105,7 @@ fn pen(stroke: &Stroke) -> tiny_skia::Stroke {
 
 impl Picture {
     /// As PNG, with `scale` pixels per point noted as its resolution.
-    pub(super) fn to_png(&self, scale: f64) -> Result<Vec<u8>, String> {
+    pub(crate) fn to_png(&self, scale: f64) -> Result<Vec<u8>, String> {
         let mut bytes = vec![];
         let mut encoder = png::Encoder::new(&mut bytes, self.width, self.height);
         encoder.set_color(png::ColorType::Rgb);

@@ -2,7 +2,7 @@
 
 /// Positions of about `most` ticks between `lo` and `hi` and their labels: multiples of 1, 2 or 5
 /// times a power of ten.
-pub(super) fn linear(lo: f64, hi: f64, most: usize) -> Vec<(f64, String)> {
+pub(crate) fn linear(lo: f64, hi: f64, most: usize) -> Vec<(f64, String)> {
     if hi <= lo || !(hi - lo).is_finite() {
         return vec![];
     }
@@ -18,7 +18,7 @@ pub(super) fn linear(lo: f64, hi: f64, most: usize) -> Vec<(f64, String)> {
 }
 
 /// Whole decades between the exponents `lo` and `hi` (both powers of ten), about `most` of them.
-pub(super) fn decades(lo: f64, hi: f64, most: usize) -> Vec<(f64, String)> {
+pub(crate) fn decades(lo: f64, hi: f64, most: usize) -> Vec<(f64, String)> {
     let [first, last] = [(lo - 1e-9).ceil() as i64, (hi + 1e-9).floor() as i64];
     let count = (last - first + 1).max(1) as usize;
     let step = count.div_ceil(most.max(1)).max(1) as i64;
@@ -37,7 +37,7 @@ fn label(value: f64, step: f64) -> String {
 }
 
 /// A number as text, with a power of ten where it is very large or small.
-pub(super) fn short(value: f64) -> String {
+pub(crate) fn short(value: f64) -> String {
     match (1e-4..1e5).contains(&value.abs()) {
         true => minus(&value.to_string()),
         false => scientific(value),
@@ -45,7 +45,7 @@ pub(super) fn short(value: f64) -> String {
 }
 
 /// Digits times a power of ten.
-pub(super) fn scientific(value: f64) -> String {
+pub(crate) fn scientific(value: f64) -> String {
     let text = format!("{value:.1e}");
     let (digits, power) = text.split_once('e').unwrap_or((&text, "0"));
     let digits = digits.trim_end_matches('0').trim_end_matches('.');

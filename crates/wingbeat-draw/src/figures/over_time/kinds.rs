@@ -4,11 +4,11 @@ use wingbeat_flight::FlightSetup;
 use wingbeat_math::DVec3;
 use wingbeat_model::{Side, Wing};
 
-use super::bending::bending;
-use super::measure::{Kept, Line, Measure, Measured, Unit};
-use super::part::TimeWindow;
-use super::units::{POWER_FLOOR, force_times_speed, length_floor, scaled};
-use super::wing_angles::wing_angles;
+use crate::figures::axes::units::{POWER_FLOOR, force_times_speed, length_floor, scaled};
+use crate::figures::over_time::bending::bending;
+use crate::figures::over_time::measure::{Kept, Line, Measure, Measured, Unit};
+use crate::figures::over_time::part::TimeWindow;
+use crate::figures::over_time::wing_angles::wing_angles;
 use wingbeat_results::History;
 use wingbeat_results::columns::column_stems;
 use wingbeat_results::summary::{air_force, down, driving_power, driving_power_name};
@@ -17,7 +17,7 @@ use wingbeat_results::summary::{air_force, down, driving_power, driving_power_na
 const CHANGE_FLOOR: f64 = 1e-7;
 
 /// The figures over time that make sense for a run, row by row in SI units.
-pub(super) fn measured(setup: &FlightSetup, history: &History, part: &TimeWindow) -> Vec<Measured> {
+pub(crate) fn measured(setup: &FlightSetup, history: &History, part: &TimeWindow) -> Vec<Measured> {
     let mut list = vec![];
     if setup.air.is_some() {
         list.push(forces(setup, history));
@@ -112,7 +112,7 @@ fn trajectory(setup: &FlightSetup, history: &History, part: &TimeWindow) -> Meas
 }
 
 /// Differences to the first number.
-pub(super) fn from_start(values: &[f64]) -> Vec<f64> {
+pub(crate) fn from_start(values: &[f64]) -> Vec<f64> {
     let first = values.first().copied().unwrap_or(0.0);
     values.iter().map(|v| v - first).collect()
 }
@@ -350,7 +350,7 @@ mod tests {
                 angles[0] = beats * wing.side.sign() * phi;
             }
         });
-        let (wing, _) = crate::figures::strokes::reference_wing(&setup).unwrap();
+        let (wing, _) = crate::figures::over_time::strokes::reference_wing(&setup).unwrap();
         assert!(wing.contains("fore"), "{wing}");
         let forces = chart(&setup, &history, "forces");
         assert!(

@@ -6,7 +6,7 @@ use std::sync::OnceLock;
 
 use ttf_parser::{Face, GlyphId, OutlineBuilder};
 
-const FONT: &[u8] = include_bytes!("../../assets/DejaVuSans.subset.ttf");
+const FONT: &[u8] = include_bytes!("../../../assets/DejaVuSans.subset.ttf");
 
 fn face() -> &'static Face<'static> {
     static FACE: OnceLock<Face<'static>> = OnceLock::new();
@@ -30,12 +30,12 @@ fn advance(glyph: GlyphId) -> f64 {
 }
 
 /// Width of a text \[points\].
-pub(super) fn width(text: &str, size: f64) -> f64 {
+pub(crate) fn width(text: &str, size: f64) -> f64 {
     text.chars().map(|c| advance(glyph(c))).sum::<f64>() * scale(size)
 }
 
 /// Draws the outlines of a text that begins at `at` on its baseline.
-pub(super) fn outline(text: &str, size: f64, at: [f64; 2], pen: &mut tiny_skia::PathBuilder) {
+pub(crate) fn outline(text: &str, size: f64, at: [f64; 2], pen: &mut tiny_skia::PathBuilder) {
     let scale = scale(size);
     let mut x = at[0];
     for glyph in text.chars().map(glyph) {

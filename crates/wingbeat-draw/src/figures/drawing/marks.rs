@@ -4,7 +4,7 @@
 
 /// Colours: Okabe & Ito's, told apart by colour-blind readers
 /// [Okabe & Ito 2008, *Color Universal Design*, J*Fly, <https://jfly.uni-koeln.de/color/>].
-pub(super) const COLOURS: [Colour; 7] = [
+pub(crate) const COLOURS: [Colour; 7] = [
     Colour(0, 114, 178),
     Colour(213, 94, 0),
     Colour(0, 158, 115),
@@ -14,16 +14,16 @@ pub(super) const COLOURS: [Colour; 7] = [
     Colour(110, 110, 110),
 ];
 /// Frames, ticks and words.
-pub(super) const INK: Colour = Colour(40, 40, 40);
+pub(crate) const INK: Colour = Colour(40, 40, 40);
 /// Shaded intervals.
-pub(super) const SHADE: Colour = Colour(233, 233, 236);
+pub(crate) const SHADE: Colour = Colour(233, 233, 236);
 /// What drawings are on.
-pub(super) const GROUND: Colour = Colour(255, 255, 255);
+pub(crate) const GROUND: Colour = Colour(255, 255, 255);
 /// Grid lines.
-pub(super) const FAINT: Colour = Colour(214, 214, 218);
+pub(crate) const FAINT: Colour = Colour(214, 214, 218);
 /// Red, green, blue, 0 to 255.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Colour(pub u8, pub u8, pub u8);
+pub(crate) struct Colour(pub u8, pub u8, pub u8);
 
 impl Colour {
     /// A part `x` (0 to 1) of the way to another colour.
@@ -39,7 +39,7 @@ impl Colour {
 
 /// How a line is drawn.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Stroke {
+pub(crate) struct Stroke {
     pub colour: Colour,
     pub width: f64,
     /// Lengths of dash and gap in line widths; none: solid.
@@ -58,7 +58,7 @@ impl Stroke {
 
 /// Where a text stands to its point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Anchor {
+pub(crate) enum Anchor {
     Start,
     Middle,
     End,
@@ -77,7 +77,7 @@ impl Anchor {
 
 /// One mark.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) enum Mark {
+pub(crate) enum Mark {
     /// A line, open or closed.
     Line {
         points: Vec<[f64; 2]>,
@@ -102,7 +102,7 @@ pub(super) enum Mark {
 
 /// Marks in the order they are drawn.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Drawing {
+pub(crate) struct Drawing {
     /// What it shows, for its title or the caption.
     pub title: String,
     /// Width and height \[points\].

@@ -4,8 +4,8 @@ use wingbeat_flight::FlightSetup;
 use wingbeat_results::History;
 use wingbeat_results::columns::column_stems;
 
-use super::measure::{Kept, Line, Measure, Measured, Unit};
-use super::units::length_floor;
+use crate::figures::axes::units::length_floor;
+use crate::figures::over_time::measure::{Kept, Line, Measure, Measured, Unit};
 
 /// Names of the sections in columns, and what stands for them in a figure.
 const SECTIONS: [[&str; 2]; 4] = [
@@ -19,7 +19,7 @@ const SECTIONS: [[&str; 2]; 4] = [
 const ROUNDING: f64 = 1e-12;
 
 /// Of the last elastic wing, which stands for all; none where wings are rigid.
-pub(super) fn bending(setup: &FlightSetup, history: &History) -> Option<Measured> {
+pub(crate) fn bending(setup: &FlightSetup, history: &History) -> Option<Measured> {
     let wings = &setup.animal.wings;
     let last = wings.iter().rposition(|w| w.structure.is_some())?;
     let wing = &column_stems(&setup.animal)[last + 1];

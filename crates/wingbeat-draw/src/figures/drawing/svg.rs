@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use super::drawing::{Anchor, Colour, Drawing, Mark, Stroke};
+use crate::figures::drawing::{Anchor, Colour, Drawing, Mark, Stroke};
 use crate::markup::escaped;
 
 /// Fonts of about the same widths, the one widths are computed with first.
@@ -10,7 +10,7 @@ const FONTS: &str = "'DejaVu Sans', Verdana, sans-serif";
 
 impl Drawing {
     /// The file.
-    pub(super) fn to_svg(&self) -> String {
+    pub(crate) fn to_svg(&self) -> String {
         let [width, height] = self.size.map(number);
         let mut out = format!(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}pt\" height=\"{height}pt\" viewBox=\"0 0 {width} {height}\" font-family=\"{FONTS}\">\n<rect width=\"{width}\" height=\"{height}\" fill=\"{}\"/>\n",

@@ -2,13 +2,13 @@
 
 use wingbeat_flight::FlightSetup;
 
-use super::drawing::{COLOURS, Drawing};
-use super::grid::grid;
-use super::plot::{self, Band, Curve, Plot};
-use super::shades::Shades;
-use super::strokes::{downstrokes, stroke, strokes};
-use super::style::Look;
-use super::units::{POWER_FLOOR, force_times_speed, force_unit, prefix, scaled};
+use crate::figures::axes::grid::grid;
+use crate::figures::axes::plot::{self, Band, Curve, Plot};
+use crate::figures::axes::units::{POWER_FLOOR, force_times_speed, force_unit, prefix, scaled};
+use crate::figures::drawing::style::Look;
+use crate::figures::drawing::{COLOURS, Drawing};
+use crate::figures::over_time::shades::Shades;
+use crate::figures::over_time::strokes::{downstrokes, stroke, strokes};
 use wingbeat_results::History;
 use wingbeat_results::summary::{
     BeatMeans, air_force, down, driving_power, driving_power_name, left_out,
@@ -27,7 +27,7 @@ struct Quantity {
 }
 
 /// The figure of these whole wingbeats; none without any. `note` says which part of the flight it is.
-pub(super) fn beats(
+pub(crate) fn beats(
     setup: &FlightSetup,
     history: &History,
     (beats, note): (&[BeatMeans], &str),

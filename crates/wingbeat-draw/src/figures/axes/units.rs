@@ -9,14 +9,14 @@ use wingbeat_results::columns::column_stems;
 const LENGTH_FLOOR: f64 = 1e-9;
 
 /// Power over force times speed of the flight that is rounding \[1\].
-pub(super) const POWER_FLOOR: f64 = 1e-12;
+pub(crate) const POWER_FLOOR: f64 = 1e-12;
 
-pub(super) fn scaled(values: &[f64], factor: f64) -> Vec<f64> {
+pub(crate) fn scaled(values: &[f64], factor: f64) -> Vec<f64> {
     values.iter().map(|v| v * factor).collect()
 }
 
 /// A decimal prefix that suits the largest magnitude, and its factor.
-pub(super) fn prefix(values: &[f64]) -> (f64, &'static str) {
+pub(crate) fn prefix(values: &[f64]) -> (f64, &'static str) {
     let finite = values.iter().filter(|v| v.is_finite());
     let top = finite.fold(0.0_f64, |a, v| a.max(v.abs()));
     let all = [(1e3, "k"), (1.0, ""), (1e-3, "m"), (1e-6, "µ"), (1e-9, "n")];
@@ -26,7 +26,7 @@ pub(super) fn prefix(values: &[f64]) -> (f64, &'static str) {
 }
 
 /// What forces are given in: unit as a label, and the factor from newtons.
-pub(super) fn force_unit(setup: &FlightSetup, values: &[f64]) -> (String, f64) {
+pub(crate) fn force_unit(setup: &FlightSetup, values: &[f64]) -> (String, f64) {
     let weight = setup.animal.mass() * setup.gravity.length();
     if weight > 0.0 {
         return ("weight".to_owned(), 1.0 / weight);
@@ -36,13 +36,13 @@ pub(super) fn force_unit(setup: &FlightSetup, values: &[f64]) -> (String, f64) {
 }
 
 /// Differences of places below this are rounding \[m\].
-pub(super) fn length_floor(setup: &FlightSetup) -> f64 {
+pub(crate) fn length_floor(setup: &FlightSetup) -> f64 {
     LENGTH_FLOOR * natural_units(setup).length
 }
 
 /// What power is measured against, row by row \[W\]: weight and forces of the air on all bodies, times the speed of
 /// the body and a wing length in a wingbeat (without wingbeats, in ten steps).
-pub(super) fn force_times_speed(setup: &FlightSetup, history: &History) -> Vec<f64> {
+pub(crate) fn force_times_speed(setup: &FlightSetup, history: &History) -> Vec<f64> {
     let units = natural_units(setup);
     let weight = setup.animal.mass() * setup.gravity.length();
     let size = |columns: [String; 3]| {

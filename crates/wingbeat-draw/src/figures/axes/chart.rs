@@ -1,8 +1,8 @@
 //! Stacked line charts with a shared horizontal axis.
 
-use super::drawing::{COLOURS, Drawing, INK};
-use super::plot::{self, Area, Curve, Plot};
-use super::style::{Look, Style};
+use crate::figures::axes::plot::{self, Area, Curve, Plot};
+use crate::figures::drawing::style::{Look, Style};
+use crate::figures::drawing::{COLOURS, Drawing, INK};
 
 /// A line of a panel.
 #[derive(Clone, Debug, PartialEq)]
@@ -52,7 +52,7 @@ impl Chart {
     }
 
     /// The drawing.
-    pub(super) fn drawing(&self, look: &Look) -> Drawing {
+    pub(crate) fn drawing(&self, look: &Look) -> Drawing {
         let plots: Vec<Plot> = (0..self.panels.len()).map(|k| self.plot(k, look)).collect();
         let margins = plots.iter().map(|p| p.margin(look.panel, look));
         let left = margins.fold(0.0, f64::max) + 0.6 * look.font;
@@ -147,7 +147,7 @@ impl Panel {
         }
     }
 
-    pub(super) fn range(&self) -> [f64; 2] {
+    pub(crate) fn range(&self) -> [f64; 2] {
         let values = self.series.iter().flat_map(|s| s.values.iter().copied());
         match self.logarithmic {
             true => plot::decades(values),

@@ -10,7 +10,7 @@ use wingbeat_results::columns::column_stems;
 const ASKEW: f64 = 1e-9;
 
 /// Angles of a wing, row by row.
-pub(super) struct WingAngles {
+pub(crate) struct WingAngles {
     /// Stroke phi, deviation theta, feathering psi (Euler 1-3-2, wing against the stroke plane) \[rad\].
     pub angles: [Vec<f64>; 3],
     /// Whether the feathering is that of the wing: prescribed angle and that of its joint together.
@@ -20,7 +20,7 @@ pub(super) struct WingAngles {
 }
 
 /// The angles of wing number `wing`, from 0.
-pub(super) fn wing_angles(setup: &FlightSetup, history: &History, wing: usize) -> WingAngles {
+pub(crate) fn wing_angles(setup: &FlightSetup, history: &History, wing: usize) -> WingAngles {
     let name = &column_stems(&setup.animal)[wing + 1];
     let prescribed = |k: &str| {
         history

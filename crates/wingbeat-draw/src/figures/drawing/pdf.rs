@@ -6,12 +6,12 @@ use pdf_writer::types::LineJoinStyle;
 use pdf_writer::{Content, Finish, Name, Pdf, Rect, Ref};
 use tiny_skia::{PathBuilder, PathSegment};
 
-use super::drawing::{Colour, Drawing, GROUND, Mark, Stroke};
-use super::font;
+use crate::figures::drawing::font;
+use crate::figures::drawing::{Colour, Drawing, GROUND, Mark, Stroke};
 
 impl Drawing {
     /// The drawing as a document of one page as large as the drawing.
-    pub(super) fn to_pdf(&self) -> Vec<u8> {
+    pub(crate) fn to_pdf(&self) -> Vec<u8> {
         let [catalogue, pages, page, content] = [1, 2, 3, 4].map(Ref::new);
         let [width, height] = self.size.map(|x| x as f32);
         let mut marks = Content::new();

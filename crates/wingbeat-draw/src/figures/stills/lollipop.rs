@@ -5,15 +5,15 @@ use wingbeat_flight::FlightSetup;
 use wingbeat_math::{DMat3, DVec3};
 use wingbeat_model::Wing;
 
-use super::drawing::{Anchor, COLOURS, Drawing, INK, Stroke};
-use super::font;
-use super::grid::one_scale;
-use super::part::TimeWindow;
-use super::plot::{self, Area, Axes, Plot};
-use super::strokes::{goes_down, reference_number, reference_wing, stroke};
-use super::style::Look;
-use super::ticks;
-use super::units::prefix;
+use crate::figures::axes::grid::one_scale;
+use crate::figures::axes::plot::{self, Area, Axes, Plot};
+use crate::figures::axes::ticks;
+use crate::figures::axes::units::prefix;
+use crate::figures::drawing::font;
+use crate::figures::drawing::style::Look;
+use crate::figures::drawing::{Anchor, COLOURS, Drawing, INK, Stroke};
+use crate::figures::over_time::part::TimeWindow;
+use crate::figures::over_time::strokes::{goes_down, reference_number, reference_wing, stroke};
 use wingbeat_results::History;
 use wingbeat_results::columns::column_stems;
 use wingbeat_results::poses::Poses;
@@ -35,7 +35,7 @@ struct Chord {
 }
 
 /// The figure of the last whole beat of this part; none for wings that do not flap.
-pub(super) fn lollipop(
+pub(crate) fn lollipop(
     setup: &FlightSetup,
     history: &History,
     part: &TimeWindow,
@@ -382,7 +382,7 @@ mod tests {
     /// Level strokes stand below each other, as long as the page is wide, steep ones side by side.
     #[test]
     fn exact_half_strokes_stand_where_they_are_larger() {
-        let look = super::super::style::Style::Screen.look();
+        let look = crate::figures::drawing::style::Style::Screen.look();
         let drawn = |mut x: [f64; 2], mut y: [f64; 2]| {
             let ([a, b], _) = frames(&mut x, &mut y, &look);
             (a.top == b.top, a.width / (x[1] - x[0]))

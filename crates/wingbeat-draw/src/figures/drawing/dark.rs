@@ -1,6 +1,6 @@
 //! Drawings on a dark ground, for slides and dark screens.
 
-use super::drawing::{COLOURS, Colour, Drawing, Mark};
+use crate::figures::drawing::{COLOURS, Colour, Drawing, Mark};
 
 /// The ground.
 const NIGHT: Colour = Colour(17, 22, 31);
@@ -19,7 +19,7 @@ const BRIGHT: [Colour; COLOURS.len()] = [
 impl Drawing {
     /// The same on a dark ground: what is near white comes near the ground and what is near black near white;
     /// hues stay.
-    pub(super) fn on_dark(mut self) -> Self {
+    pub(crate) fn on_dark(mut self) -> Self {
         self.ground = self.ground.on_dark();
         for mark in &mut self.marks {
             let colour = match mark {
@@ -55,10 +55,10 @@ fn middle(mut parts: [i32; 3]) -> i32 {
 
 #[cfg(test)]
 mod tests {
-    use super::super::dots::dye;
-    use super::super::drawing::{FAINT, GROUND, INK, SHADE};
-    use super::super::wake::pen;
     use super::*;
+    use crate::figures::drawing::{FAINT, GROUND, INK, SHADE};
+    use crate::figures::stills::dots::dye;
+    use crate::figures::stills::wake::pen;
 
     /// Relative luminance and contrast [W3C, *Web Content Accessibility Guidelines 2.2*].
     fn contrast(a: Colour, b: Colour) -> f64 {

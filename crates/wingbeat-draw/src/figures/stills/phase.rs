@@ -2,14 +2,14 @@
 
 use wingbeat_flight::FlightSetup;
 
-use super::drawing::{COLOURS, Drawing};
-use super::grid::grid;
-use super::kinds::from_start;
-use super::plot::{self, Plot};
-use super::strokes::{reference_number, reference_wing};
-use super::style::Look;
-use super::units::{prefix, scaled};
-use super::wing_angles::wing_angles;
+use crate::figures::axes::grid::grid;
+use crate::figures::axes::plot::{self, Plot};
+use crate::figures::axes::units::{prefix, scaled};
+use crate::figures::drawing::style::Look;
+use crate::figures::drawing::{COLOURS, Drawing};
+use crate::figures::over_time::kinds::from_start;
+use crate::figures::over_time::strokes::{reference_number, reference_wing};
+use crate::figures::over_time::wing_angles::wing_angles;
 use wingbeat_results::History;
 
 /// Least extent of the axes of angles of wings \[deg\]: some are held, and differ by rounding.
@@ -24,7 +24,7 @@ struct Plane {
 }
 
 /// The figure; none where nothing moves. `note` says which part of the flight it is.
-pub(super) fn phase(
+pub(crate) fn phase(
     setup: &FlightSetup,
     history: &History,
     note: &str,

@@ -6,12 +6,12 @@ use std::path::Path;
 
 use wingbeat_flight::FlightSetup;
 
-use super::chart::Chart;
-use super::kinds::{measured, time_axis};
-use super::measure::Measured;
-use super::part::TimeWindow;
-use super::shades::Shades;
-use super::strokes::strokes;
+use crate::figures::axes::chart::Chart;
+use crate::figures::over_time::kinds::{measured, time_axis};
+use crate::figures::over_time::measure::Measured;
+use crate::figures::over_time::part::TimeWindow;
+use crate::figures::over_time::shades::Shades;
+use crate::figures::over_time::strokes::strokes;
 use wingbeat_case::IoError;
 use wingbeat_results::History;
 use wingbeat_results::rows::Rows;

@@ -1,6 +1,6 @@
 //! How figures look: for the screen, for a paper or for slides.
 
-use super::drawing::{Colour, Drawing, Stroke};
+use crate::figures::drawing::{Colour, Drawing, Stroke};
 
 /// What a figure is for.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -30,14 +30,14 @@ impl Style {
     }
 
     /// A drawing on its ground.
-    pub(super) fn grounded(self, drawing: Drawing) -> Drawing {
+    pub(crate) fn grounded(self, drawing: Drawing) -> Drawing {
         match self {
             Self::Screen | Self::Paper => drawing,
             Self::Dark => drawing.on_dark(),
         }
     }
 
-    pub(super) fn look(self) -> Look {
+    pub(crate) fn look(self) -> Look {
         match self {
             Self::Screen | Self::Dark => Look {
                 width: 675.0,
@@ -67,7 +67,7 @@ impl Style {
 
 /// Sizes \[points\] and choices of a style.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Look {
+pub(crate) struct Look {
     pub width: f64,
     pub font: f64,
     /// Width of curves.

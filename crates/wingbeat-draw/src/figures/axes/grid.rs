@@ -1,11 +1,11 @@
 //! Plots side by side, and plots with the same scale along and upward.
 
-use super::drawing::Drawing;
-use super::plot::{self, Area, Axes, Plot};
-use super::style::Look;
+use crate::figures::axes::plot::{self, Area, Axes, Plot};
+use crate::figures::drawing::Drawing;
+use crate::figures::drawing::style::Look;
 
 /// Draws plots in rows of `columns`, each `height` high.
-pub(super) fn grid(
+pub(crate) fn grid(
     plots: &[Plot],
     columns: usize,
     height: f64,
@@ -43,7 +43,7 @@ pub(super) fn grid(
 
 /// Widens one of two ranges so that a plot `width` wide has one scale; its height \[points\] is
 /// between `least` and `most`.
-pub(super) fn one_scale(
+pub(crate) fn one_scale(
     x: &mut [f64; 2],
     y: &mut [f64; 2],
     width: f64,

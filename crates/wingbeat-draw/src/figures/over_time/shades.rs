@@ -2,14 +2,14 @@
 
 use wingbeat_flight::FlightSetup;
 
-use super::strokes::{downstrokes, reference_wing};
+use crate::figures::over_time::strokes::{downstrokes, reference_wing};
 
 /// More downstrokes than this are not shaded: they could not be told apart.
 const MAX_SHADED: usize = 80;
 
 /// Intervals of the downstrokes, wing by wing; the wing of reference is the last one that has any.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(super) struct Shades {
+pub(crate) struct Shades {
     wings: Vec<Vec<[f64; 2]>>,
     /// How far ends may be apart that are the same: a step of the history.
     step: f64,

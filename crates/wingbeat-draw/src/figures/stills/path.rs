@@ -2,16 +2,16 @@
 
 use wingbeat_flight::FlightSetup;
 
-use super::drawing::{Anchor, COLOURS, Drawing, INK};
-use super::font;
-use super::part::TimeWindow;
-use super::plot::{self, Area, Plot};
-use super::style::Look;
-use super::units::prefix;
+use crate::figures::axes::plot::{self, Area, Plot};
+use crate::figures::axes::units::prefix;
+use crate::figures::drawing::font;
+use crate::figures::drawing::style::Look;
+use crate::figures::drawing::{Anchor, COLOURS, Drawing, INK};
+use crate::figures::over_time::part::TimeWindow;
 
 /// Places of the body, thinned: a way has no oscillation finer than its steps are long.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Path {
+pub(crate) struct Path {
     stride: usize,
     /// Times \[s\] and places, picture axes from the first one \[m\].
     points: Vec<(f64, [f64; 3])>,
@@ -99,7 +99,7 @@ impl View {
 const MAX_DOTS: usize = 60;
 
 /// The figure; none where the body stays.
-pub(super) fn path(
+pub(crate) fn path(
     setup: &FlightSetup,
     (path, part): (&Path, &TimeWindow),
     look: &Look,
