@@ -22,7 +22,7 @@ pub(crate) fn refused(case: &Case, setup: &FlightSetup, error: &FlightError) -> 
     if let FlightError::Dynamics(e) = error {
         return joint::fault_of(case, setup, e);
     }
-    let (key, remedy) = blamed(case, setup, error);
+    let (key, remedy) = key_and_remedy(case, setup, error);
     // Key and value stand before the message already.
     let problem = match error {
         FlightError::Setup { problem, .. } => problem.to_string(),
@@ -32,7 +32,7 @@ pub(crate) fn refused(case: &Case, setup: &FlightSetup, error: &FlightError) -> 
 }
 
 /// The key that an error is about, and what to do there.
-fn blamed(case: &Case, setup: &FlightSetup, error: &FlightError) -> (String, &'static str) {
+fn key_and_remedy(case: &Case, setup: &FlightSetup, error: &FlightError) -> (String, &'static str) {
     match error {
         FlightError::Air(AirError::Singular { .. }) if has_wide_cores(setup) => {
             ("air.bound_core".to_owned(), WIDE_CORES)
