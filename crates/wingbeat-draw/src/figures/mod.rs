@@ -1,9 +1,9 @@
 //! Figures of a run, drawn from its history and its frames: units on axes, colours that
 //! colour-blind readers can tell apart (Okabe & Ito 2008).
 //!
-//! The chapter in order: a drawing is a list of marks (`drawing`), which become SVG, PDF or pixels; `axes` are plots
-//! and [`Chart`]s; the kinds of figures stand in `over_time`, `stills` and `animation`; `order` is what is asked for,
-//! `source` what it is drawn from.
+//! The chapter in order: a drawing is a list of marks (`drawing`), which become SVG, PDF or pixels; `axes` are
+//! plots and [`Chart`]s; the kinds of figures stand in `over_time`, `stills` and `animation`; `order` is what is
+//! asked for, `source` what it is drawn from.
 
 mod animation;
 mod axes;

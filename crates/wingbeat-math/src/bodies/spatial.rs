@@ -26,7 +26,8 @@ impl BodyMotion {
         w: DVec3::ZERO,
     };
 
-    /// Position \[m\], rotation R_NB row by row, velocity [m/s], all of N, and angular velocity [rad/s] in body components.
+    /// Position \[m\], rotation R_NB row by row, velocity [m/s], angular velocity [rad/s], in components as the
+    /// fields.
     ///
     /// ```
     /// use wingbeat_math::{BodyMotion, DVec3, r3};

@@ -1,5 +1,5 @@
-//! Wings that pass through each other, lie in each other or in the body, or whose roots meet: what no animal's do, and
-//! what a vortex lattice has to know.
+//! Wings that pass through each other, lie in each other or in the body, or whose roots meet: what a vortex
+//! lattice has to know.
 
 pub(crate) mod coincident;
 pub(crate) mod crossing;

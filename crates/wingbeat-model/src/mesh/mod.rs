@@ -1,4 +1,5 @@
-//! Meshes of four-node quadrilaterals (seed sec. 2): flat wing grids, closed surfaces of the body, integrals over both.
+//! Meshes of four-node quadrilaterals (seed sec. 2): flat wing grids, closed surfaces of the body, and integrals
+//! over both.
 
 mod closed;
 pub mod import;
