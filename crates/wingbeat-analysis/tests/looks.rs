@@ -1,6 +1,6 @@
 //! Regulators that look several times in a wingbeat.
 
-use crate::common;
+use crate::common::{self, matrix, sizes};
 
 use wingbeat_analysis::control::{
     CONTROLS, Channels, Controls, Departure, Held, Law, Limits, Orbit, Reference, Regulator,
@@ -11,12 +11,6 @@ use wingbeat_analysis::{Beat, Level, Perturbation, Trim, eigen};
 use wingbeat_dynamics::BodyMotion;
 use wingbeat_flight::{Controller, Sensed};
 use wingbeat_math::DVec3;
-
-fn sizes(trim: &Trim) -> [f64; STATES] {
-    let (length, period) = (trim.beat.wing_length(), trim.beat.period());
-    let sizes = [length, length / period, 1.0 / period, 1.0];
-    std::array::from_fn(|k| sizes[k / 3])
-}
 
 /// The steering of a regulator that begins with these commands in force and under way.
 fn steering(trim: &Trim, regulator: &Regulator, timing: &Timing) -> Steering {
@@ -90,20 +84,6 @@ fn flown(trim: &Trim, regulator: &Regulator, timing: &Timing, z: &[f64]) -> Vec<
     });
     let pairs = ends[0].iter().zip(&ends[1]);
     pairs.map(|(a, b)| (a - b) / (2.0 * SMALL)).collect()
-}
-
-/// The matrix of a map of numbers of these sizes.
-fn matrix(sizes: &[f64], map: impl Fn(&[f64]) -> Vec<f64>) -> Vec<f64> {
-    let n = sizes.len();
-    let mut out = vec![0.0; n * n];
-    for j in 0..n {
-        let mut z = vec![0.0; n];
-        z[j] = sizes[j];
-        for (i, y) in map(&z).into_iter().enumerate() {
-            out[i * n + j] = y / sizes[i];
-        }
-    }
-    out
 }
 
 /// The closed loop over a wingbeat, flown from small departures of states and commands, is the one the

@@ -1,6 +1,6 @@
 //! The Kalman filter of the regulator, and the loop that is closed over both.
 
-use crate::common;
+use crate::common::{self, matrix, sizes};
 
 use wingbeat_analysis::Perturbation;
 use wingbeat_analysis::control::{
@@ -88,16 +88,10 @@ fn balances_covariance_of_the_fly() {
     let trim = common::hovering(40);
     let regulator = Regulator::new(&trim, &Weights::default(), LATENCY).expect("gains");
     let m = &regulator.plants()[0].m;
-    let beat = &trim.beat;
-    let sizes = [
-        beat.wing_length(),
-        beat.wing_length() / beat.period(),
-        1.0 / beat.period(),
-        1.0,
-    ];
+    let sizes = sizes(&trim);
     let square = |x: f64| x * x;
     let w: Vec<f64> = (0..STATES)
-        .map(|k| square([0.0, 0.01, 0.01, 0.0][k / 3] * sizes[k / 3]))
+        .map(|k| square([0.0, 0.01, 0.01, 0.0][k / 3] * sizes[k]))
         .collect();
     let n = noise();
     let r: Vec<f64> = (0..STATES)
@@ -151,19 +145,6 @@ fn closed(regulator: &Regulator, z: &[f64]) -> Vec<f64> {
     [&regulator.plants()[0].advance(x, &now, &next)[..], &memory].concat()
 }
 
-/// The matrix of a linear map of `n` numbers, each of its natural size.
-fn matrix(n: usize, sizes: &[f64], map: impl Fn(&[f64]) -> Vec<f64>) -> Vec<f64> {
-    let mut out = vec![0.0; n * n];
-    for j in 0..n {
-        let mut z = vec![0.0; n];
-        z[j] = sizes[j];
-        for (i, y) in map(&z).into_iter().enumerate() {
-            out[i * n + j] = y / sizes[i];
-        }
-    }
-    out
-}
-
 /// Separation: the eigenvalues of the loop closed over the filter are those of regulator and filter, so its
 /// characteristic polynomial is the product of theirs.
 #[test]
@@ -173,26 +154,20 @@ fn exact_eigenvalues_of_the_loop_are_those_of_regulator_and_filter() {
     let observed = plain.clone();
     let observed = observed.observed(&trim, &ProcessNoise::default(), &noise());
     let observed = observed.expect("a filter");
-    let beat = &trim.beat;
-    let sizes = [
-        beat.wing_length(),
-        beat.wing_length() / beat.period(),
-        1.0 / beat.period(),
-        1.0,
-    ];
-    let of_states = (0..STATES).map(|k| sizes[k / 3]);
-    let all: Vec<f64> = of_states
-        .clone()
-        .chain([1.0; COMMANDED])
-        .chain(of_states)
-        .collect();
+    let sizes = sizes(&trim);
+    let all = [&sizes[..], &[1.0; COMMANDED], &sizes].concat();
     let (n, m) = (STATES + COMMANDED, 2 * STATES + COMMANDED);
-    let whole = matrix(m, &all, |z| closed(&observed, z));
-    let regulated = matrix(n, &all, |z| closed(&plain, z));
+    let whole = matrix(&all, |z| closed(&observed, z));
+    let regulated = matrix(&all[..n], |z| closed(&plain, z));
     // Errors of what is expected: e' = M (1 - L) e.
-    let filter = Observer::new(plain.plants(), beat, &ProcessNoise::default(), &noise());
+    let filter = Observer::new(
+        plain.plants(),
+        &trim.beat,
+        &ProcessNoise::default(),
+        &noise(),
+    );
     let filter = filter.expect("a filter");
-    let errors = matrix(STATES, &all, |e| {
+    let errors = matrix(&sizes, |e| {
         let left: [f64; STATES] = std::array::from_fn(|i| {
             e[i] - (0..STATES)
                 .map(|j| filter.gains()[0][i * STATES + j] * e[j])

@@ -139,17 +139,8 @@ impl Conversation {
 }
 
 /// Position, rotation by rows, velocity, angular velocity (body axes).
-fn numbers(m: &BodyMotion) -> String {
-    let r = m.r.transpose().to_cols_array();
-    let all = [
-        m.p.to_array().as_slice(),
-        &r,
-        &m.v.to_array(),
-        &m.w.to_array(),
-    ]
-    .concat();
-    let words: Vec<String> = all.iter().map(|x| format!("{x:e}")).collect();
-    words.join(" ")
+fn in_words(m: &BodyMotion) -> String {
+    m.numbers().map(|x| format!("{x:e}")).join(" ")
 }
 
 impl ExternalSession for Conversation {
@@ -162,7 +153,7 @@ impl ExternalSession for Conversation {
     ) -> Result<(), String> {
         let mut question = format!("evaluate {step} {time:e}\n");
         for m in motions {
-            let _ = writeln!(question, "{}", numbers(m)); // a string takes everything
+            let _ = writeln!(question, "{}", in_words(m)); // a string takes everything
         }
         self.check_silence(motions.len())?;
         self.partner.say(question)?;

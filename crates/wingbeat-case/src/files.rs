@@ -12,7 +12,7 @@ use std::io::Read as _;
 use std::path::Path;
 use std::sync::{Mutex, PoisonError};
 
-use wingbeat_model::import;
+use wingbeat_model::mesh::import;
 
 use self::read::{MAX_BYTES, bytes_of, check_file, check_size, twice};
 use super::raw::{AngleCase, Case, PartCase, PlanformCase};

@@ -3,7 +3,7 @@
 
 use std::path::Path;
 
-use crate::common::refusal;
+use crate::common::{preset, refusal};
 use wingbeat_case::{LoadedCase, presets};
 use wingbeat_flight::Simulation;
 
@@ -151,8 +151,7 @@ fn refuses_speeds_and_frequencies_that_no_flyer_has_at_their_keys() {
 
 /// What ends the first steps of a case is said of its key.
 fn ended(case: &str, set: &[&str], steps: usize) -> String {
-    let set: Vec<String> = set.iter().map(|s| (*s).to_owned()).collect();
-    let case = LoadedCase::find(case, &set).unwrap();
+    let case = preset(case, set);
     let flown = Simulation::new(case.setup.clone()).and_then(|mut flight| {
         (0..steps).try_for_each(|_| flight.step().map(drop))?;
         Ok(flight)

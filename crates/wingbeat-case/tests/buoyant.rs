@@ -150,12 +150,7 @@ fn moth(more: &[&str]) -> LoadedCase {
         "body.part.balloon.centre_m=[0,0,-0.06]",
         "air.buoyancy=true",
     ];
-    let set: Vec<String> = balloon
-        .iter()
-        .chain(more)
-        .map(|s| (*s).to_owned())
-        .collect();
-    LoadedCase::find("hawkmoth-blade", &set).unwrap()
+    common::preset("hawkmoth-blade", &[&balloon[..], more].concat())
 }
 
 /// Hover of the moth, and its averaged model.

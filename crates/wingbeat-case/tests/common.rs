@@ -26,10 +26,18 @@ pub fn load(text: &str, set: &[&str]) -> Result<LoadedCase, String> {
     LoadedCase::from_text("case.toml", text, Path::new(""), &set).map_err(|e| e.to_string())
 }
 
+/// A preset with overrides, and why there is none.
+pub fn found(preset: &str, set: &[&str]) -> Result<LoadedCase, String> {
+    let set: Vec<String> = set.iter().map(|s| (*s).to_owned()).collect();
+    LoadedCase::find(preset, &set).map_err(|e| e.to_string())
+}
+
+/// A preset with overrides.
+pub fn preset(name: &str, set: &[&str]) -> LoadedCase {
+    found(name, set).unwrap_or_else(|e| panic!("{name}: {e}"))
+}
+
 /// What is said about a preset with overrides.
 pub fn refusal(preset: &str, set: &[&str]) -> String {
-    let set: Vec<String> = set.iter().map(|s| (*s).to_owned()).collect();
-    LoadedCase::find(preset, &set)
-        .expect_err(preset)
-        .to_string()
+    found(preset, set).expect_err(preset)
 }

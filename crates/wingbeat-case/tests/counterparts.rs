@@ -5,7 +5,7 @@ use std::path::Path;
 use wingbeat_case::{LoadedCase, case_of};
 use wingbeat_model::Side;
 
-use crate::common::refusal;
+use crate::common::{found, refusal};
 use crate::idle::ANIMAL;
 
 /// Doubts about an animal of two pairs of wings on one hinge on either side; strokes of the right ones \[deg\].
@@ -105,12 +105,8 @@ fn refuses_a_hinge_far_off_with_what_may_carry_it() {
 /// nothing.
 #[test]
 fn behaves_one_wing_of_a_pair_may_be_rigid() {
-    let load = |preset: &str, set: &[&str]| {
-        let set: Vec<String> = set.iter().map(|s| (*s).to_owned()).collect();
-        LoadedCase::find(preset, &set)
-    };
     let rigid = ["wing.left.structure.rigid=true", "air.mirror=false"];
-    let case = load("hawkmoth-elastic", &rigid).unwrap();
+    let case = found("hawkmoth-elastic", &rigid).unwrap();
     let bends = |setup: &wingbeat_flight::FlightSetup| -> Vec<(String, bool)> {
         let wings = setup.animal.wings.iter();
         wings
@@ -132,7 +128,7 @@ fn behaves_one_wing_of_a_pair_may_be_rigid() {
             "made of nothing that bends",
         ),
     ] {
-        let said = load(preset, &[key]).unwrap_err().to_string();
+        let said = found(preset, &[key]).unwrap_err();
         assert!(said.contains(says), "{said}");
     }
 }

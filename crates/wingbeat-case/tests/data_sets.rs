@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use crate::common::found;
 use wingbeat_case::LoadedCase;
 
 const FREQUENCY: &str = "motion.frequency_hz=26";
@@ -16,9 +17,7 @@ const ANGLES: [&str; 3] = [
 /// A fruit fly whose motion is that of a set, beside what else is said.
 fn load(set: &str, own: &[&str]) -> Result<LoadedCase, String> {
     let data = format!("motion.data={set}");
-    let bare = ["motion=", &data];
-    let set = bare.iter().chain(own).map(|s| (*s).to_owned());
-    LoadedCase::find("fruit-fly-blade", &set.collect::<Vec<_>>()).map_err(|e| e.to_string())
+    found("fruit-fly-blade", &[&["motion=", &data], own].concat())
 }
 
 /// Every case that is accepted is read back from what is written of it, as the same flight; a set that gives nothing

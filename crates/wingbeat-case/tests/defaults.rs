@@ -1,14 +1,10 @@
 //! What a case that says nothing about the air flies in, lengths in chords, presets that say what
 //! differs, and keys without effect.
 
-use crate::common::load;
+use crate::common::{found, load};
 use wingbeat_air::{AirSettings, CoreModel};
 use wingbeat_case::{LoadedCase, presets};
 use wingbeat_flight::{AirModel, Simulation};
-
-fn preset(name: &str, set: &[&str]) -> Result<LoadedCase, String> {
-    load(presets::find(name).unwrap().text, set)
-}
 
 fn lattice(case: LoadedCase) -> AirSettings {
     match case.setup.air {
@@ -39,7 +35,7 @@ fn size(core: CoreModel) -> f64 {
 #[test]
 fn agrees_a_case_without_air_table_with_the_insect_presets() {
     for name in ["fruit-fly-hover", "fruit-fly-tethered", "fruit-fly-abdomen"] {
-        let own = lattice(preset(name, &[]).unwrap());
+        let own = lattice(found(name, &[]).unwrap());
         let default = lattice(load(&without_air(name), &[]).unwrap());
         // The presets have round numbers: 0.7 mm for the chord, which is 0.69 mm on the mesh, and
         // 0.05 mm for 0.07 chords.
@@ -113,7 +109,7 @@ const PINNED: [(&str, bool, f64, f64, f64, f64, f64); 13] = [
 #[test]
 fn regress_presets_fly_in_the_air_they_flew_in() {
     for (name, accurate, inset, bound, wake, overlap, clearance) in PINNED {
-        let s = lattice(preset(name, &[]).unwrap());
+        let s = lattice(found(name, &[]).unwrap());
         let scheme = match accurate {
             true => AirSettings::accurate(s.density, s.free_stream),
             false => AirSettings::benchmark(s.density, s.free_stream),
@@ -289,7 +285,7 @@ fn refuses_keys_without_effect() {
         ),
     ];
     for (name, set, key, why) in cases {
-        let report = preset(name, set).map(|_| ()).expect_err(key);
+        let report = found(name, set).map(|_| ()).expect_err(key);
         assert!(
             report.contains(key) && report.contains(why),
             "{key}: {report}"
@@ -374,7 +370,7 @@ fn refuses_settings_of_the_lattice_that_do_not_fit_each_other_at_their_keys() {
 
 #[test]
 fn behaves_a_model_chosen_on_the_command_line_leaves_the_settings_of_the_other_unused() {
-    let case = preset("fruit-fly-hover", &["air.model=none"]).unwrap();
+    let case = found("fruit-fly-hover", &["air.model=none"]).unwrap();
     assert!(!case.setup.air.is_some());
     let resolved = case.resolved();
     assert!(
@@ -430,16 +426,16 @@ fn refuses_at_its_key_what_only_the_flight_finds() {
 
 #[test]
 fn behaves_air_without_wakes_has_no_frames() {
-    let flown = |set: &[&str]| preset("fruit-fly-hover", set).unwrap().output.frames_every;
+    let flown = |set: &[&str]| found("fruit-fly-hover", set).unwrap().output.frames_every;
     let [vacuum, blade] = ["air.model=none", "air.model=blade_element"];
     // What a file wants for the lattice stands by where the command line chooses another model.
     assert_eq!([flown(&[]), flown(&[vacuum]), flown(&[blade])], [2, 0, 0]);
     assert_eq!(flown(&[blade, "output.frames_every=0"]), 0);
-    let said = preset("fruit-fly-hover", &[blade, "output.frames_every=4"]);
+    let said = found("fruit-fly-hover", &[blade, "output.frames_every=4"]);
     let said = said.map(|_| ()).unwrap_err().to_string();
     assert!(said.contains("no frames are written"), "{said}");
     // The resolved case is one of the same flight.
-    let case = preset("fruit-fly-hover", &[blade]).unwrap();
+    let case = found("fruit-fly-hover", &[blade]).unwrap();
     let again = load(&case.resolved(), &[]).unwrap();
     assert_eq!(again.output, case.output);
 }
@@ -449,11 +445,11 @@ fn behaves_air_without_wakes_has_no_frames() {
 fn behaves_of_a_key_that_is_set_twice_the_last_value_counts() {
     let beats = |set: &[&str]| {
         let set = [&["time.steps_per_beat=40"], set].concat();
-        preset("fruit-fly-hover", &set).unwrap().setup.time.steps
+        found("fruit-fly-hover", &set).unwrap().setup.time.steps
     };
     assert_eq!(beats(&["time.beats=1", "time.beats=3"]), 120);
     assert_eq!(beats(&["time.beats=3", "time.beats=1"]), 40);
-    let said = preset("fruit-fly-hover", &["time.beats=1", "time.beats=-2"]);
+    let said = found("fruit-fly-hover", &["time.beats=1", "time.beats=-2"]);
     let said = said.map(|_| ()).unwrap_err();
     assert!(said.contains("time.beats=-2 (set on top of"), "{said}");
 }

@@ -1,13 +1,11 @@
 //! In which keys two cases differ.
 
-use wingbeat_case::{LoadedCase, differences};
+use crate::common::preset;
+use wingbeat_case::differences;
 
 #[test]
 fn exact_keys_that_differ() {
-    let case = |set: &[&str]| {
-        let set: Vec<String> = set.iter().map(|s| (*s).to_owned()).collect();
-        LoadedCase::find("rectangular-wing", &set).unwrap()
-    };
+    let case = |set: &[&str]| preset("rectangular-wing", set);
     let plain = case(&[]);
     assert_eq!(differences(&plain, &plain), []);
     let other = case(&["air.density_kg_m3=2.5", "air.max_wake_rows=7"]);
@@ -23,10 +21,7 @@ fn exact_keys_that_differ() {
 /// A published set and coefficients of one's own exclude each other; a case has the one or the other.
 #[test]
 fn exact_what_another_choice_excludes_is_not_there() {
-    let case = |set: &[&str]| {
-        let set: Vec<String> = set.iter().map(|s| (*s).to_owned()).collect();
-        LoadedCase::find("fruit-fly-blade", &set).unwrap()
-    };
+    let case = |set: &[&str]| preset("fruit-fly-blade", set);
     let own = case(&[
         "air.blade.coefficients=",
         "air.blade.own={lift=1.8,drag_0=0.06,drag_90=2.0}",
@@ -59,7 +54,7 @@ fn exact_what_another_choice_excludes_is_not_there() {
 #[test]
 fn agrees_with_the_resolved_cases() {
     let presets = ["fruit-fly-blade", "fruit-fly-vacuum", "rectangular-wing"];
-    let [blade, vacuum, lattice] = presets.map(|name| LoadedCase::find(name, &[]).unwrap());
+    let [blade, vacuum, lattice] = presets.map(|name| preset(name, &[]));
     for (a, b) in [(&blade, &vacuum), (&vacuum, &lattice), (&lattice, &blade)] {
         let texts = [a, b].map(|case| case.resolved().parse::<toml::Table>().unwrap());
         for d in differences(a, b) {

@@ -1,24 +1,20 @@
 //! The viscosity of the fluid: by its density, as given, and where it acts.
 
+use crate::common::found;
 use wingbeat_air::{Friction, viscosity_of_density};
 use wingbeat_analysis::estimate;
 use wingbeat_case::LoadedCase;
 use wingbeat_flight::{AirModel, DoubtKind};
 
-fn case(name: &str, set: &[&str]) -> Result<LoadedCase, String> {
-    let set: Vec<String> = set.iter().map(|s| (*s).to_owned()).collect();
-    LoadedCase::find(name, &set).map_err(|e| e.to_string())
-}
-
 fn reynolds(name: &str, set: &[&str]) -> f64 {
-    let estimate = estimate(&case(name, set).unwrap().setup);
+    let estimate = estimate(&found(name, set).unwrap().setup);
     estimate.wings[0].reynolds.unwrap()
 }
 
 /// Viscosities of friction and of the cores of the wake [m2/s].
 fn of_lattice(set: &[&str]) -> [Option<f64>; 2] {
     let set = [&["air.model=vortex_lattice"], set].concat();
-    let case = case("fruit-fly-blade", &set).unwrap();
+    let case = found("fruit-fly-blade", &set).unwrap();
     let AirModel::VortexLattice(air) = &case.setup.air else {
         panic!("a lattice");
     };
@@ -62,7 +58,7 @@ fn behaves_one_viscosity_serves_friction_and_wakes() {
         [None, Some(2e-5)]
     );
     // A resolved case flies the same again.
-    let first = case(
+    let first = found(
         "fruit-fly-hover",
         &[
             "air.wake_core={algebraic={radius_chords=0.07}}",
@@ -78,7 +74,7 @@ fn behaves_one_viscosity_serves_friction_and_wakes() {
 
 #[test]
 fn refuses_a_viscosity_that_is_given_twice_or_acts_on_nothing() {
-    let refused = |name: &str, set: &[&str]| case(name, set).unwrap_err();
+    let refused = |name: &str, set: &[&str]| found(name, set).unwrap_err();
     let given = "air.viscosity_m2_s=2e-5";
     for other in [
         "air.wake_core.algebraic.viscosity_m2_s=2e-5",
@@ -110,7 +106,7 @@ fn refuses_a_viscosity_that_is_given_twice_or_acts_on_nothing() {
 #[test]
 fn behaves_thin_gases_with_the_viscosity_of_air_are_told() {
     let said = |set: &[&str]| {
-        let doubts = case("fruit-fly-hover", set).unwrap().setup.doubts();
+        let doubts = found("fruit-fly-hover", set).unwrap().setup.doubts();
         let mut all = doubts
             .into_iter()
             .filter(|d| d.kind == DoubtKind::ViscosityOfAir);

@@ -1,8 +1,7 @@
 //! Wings on passive hinges in the lattice, and flyers that are light as a whole: the air that wings carry along
 //! weighs more than what carries them.
 
-use crate::common::{self, fly};
-use wingbeat_case::LoadedCase;
+use crate::common::{self, fly, preset};
 use wingbeat_flight::{FlightError, FlightSetup, Record, Simulation};
 
 /// Few panels: what is looked at here does not hang on them.
@@ -14,8 +13,7 @@ const COARSE: [&str; 3] = [
 
 /// The robot with passive hinges.
 fn setup(set: &[&str]) -> FlightSetup {
-    let all: Vec<String> = COARSE.iter().chain(set).map(|s| (*s).to_owned()).collect();
-    LoadedCase::find("robobee", &all).expect("a case").setup
+    preset("robobee", &[&COARSE[..], set].concat()).setup
 }
 
 /// A pair of driven wings on a body of so much inertia in pitch \[kg m2\], with half a beat held: in pitch the
@@ -30,10 +28,7 @@ fn light_flyer(pitch: &str, set: &[&str]) -> FlightSetup {
         "air.scheme=accurate",
         &format!("body.inertia_about_centre_kg_m2=[1e-3, {pitch}, 1e-3, 0, 0, 0]"),
     ];
-    let all: Vec<String> = own.iter().chain(set).map(|s| (*s).to_owned()).collect();
-    LoadedCase::find("flapping-rectangles", &all)
-        .expect("a case")
-        .setup
+    preset("flapping-rectangles", &[&own[..], set].concat()).setup
 }
 
 /// The robot's records.

@@ -1,6 +1,6 @@
 //! Bodies and joints from case files: the presets fly alone and with the vortex lattice.
 
-use crate::common;
+use crate::common::{self, preset};
 use wingbeat_analysis::{TrimProblem, trim};
 use wingbeat_case::{LoadedCase, presets};
 use wingbeat_dynamics::ElementLaw;
@@ -9,16 +9,13 @@ use wingbeat_math::DVec3;
 
 /// Records of a case with overrides.
 fn fly(name: &str, set: &[&str]) -> Vec<Record> {
-    let set: Vec<String> = set.iter().map(|s| (*s).to_owned()).collect();
-    let case = LoadedCase::find(name, &set).unwrap_or_else(|e| panic!("{e}"));
-    common::fly(case.setup)
+    common::fly(preset(name, set).setup)
 }
 
 /// Whether loads bend its wings.
 fn is_elastic(name: &str) -> bool {
-    let case = LoadedCase::find(name, &[]).unwrap_or_else(|e| panic!("{e}"));
-    let mut wings = case.setup.animal.wings.iter();
-    wings.any(|w| w.structure.is_some())
+    let wings = preset(name, &[]).setup.animal.wings;
+    wings.iter().any(|w| w.structure.is_some())
 }
 
 /// Largest energy residual over the largest kinetic energy.

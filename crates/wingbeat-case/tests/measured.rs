@@ -3,6 +3,7 @@
 use std::f64::consts::TAU;
 use std::path::Path;
 
+use crate::common::preset;
 use wingbeat_case::{LoadedCase, presets};
 
 fn stroke(x: f64) -> f64 {
@@ -233,8 +234,7 @@ fn refuses_a_column_whose_name_two_have() {
 #[test]
 fn behaves_air_from_behind_and_drag_of_small_insects_are_named() {
     let said = |name: &str, set: &[&str]| {
-        let set: Vec<String> = set.iter().map(|s| (*s).to_owned()).collect();
-        let case = LoadedCase::find(name, &set).unwrap();
+        let case = preset(name, set);
         wingbeat_analysis::estimate(&case.setup).doubts.join("\n")
     };
     let behind = said("bird-cruise", &["air.stream_m_s=[12,0,0]"]);

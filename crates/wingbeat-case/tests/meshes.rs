@@ -1,14 +1,13 @@
 //! Flights whose wakes are summed on meshes.
 
-use crate::common::fly;
+use crate::common::{fly, preset};
 use wingbeat_case::LoadedCase;
 use wingbeat_flight::{Record, Simulation};
 
 /// A fly on its tether for more than a beat, at the end 2,700 nodes of wake; `more` besides.
 fn case(more: &[&str]) -> LoadedCase {
     let set = ["time.beats=1.2", "air.body=false"];
-    let set = set.iter().chain(more).map(|s| (*s).to_owned());
-    LoadedCase::find("fruit-fly-tethered", &set.collect::<Vec<_>>()).unwrap()
+    preset("fruit-fly-tethered", &[&set[..], more].concat())
 }
 
 const MESH: [&str; 2] = ["air.summation=mesh", "air.summation_tolerance=1e-3"];

@@ -2,7 +2,7 @@
 
 use wingbeat_case::LoadedCase;
 
-use crate::common::refusal;
+use crate::common::{preset, refusal};
 
 /// A joint of a left wing does not begin with what that of the right wing has.
 #[test]
@@ -38,10 +38,7 @@ fn refuses_an_angle_of_one_side_alone() {
 #[test]
 fn exact_adjustments_of_tables_are_listed() {
     let law = "wing.right.motion.phi={ table = { rows_deg = [[0,10],[0.25,3],[0.5,-10],[0.75,3],[1,10]] } }";
-    let found = |preset: &str, set: &[&str]| {
-        let set: Vec<String> = set.iter().map(|s| (*s).to_owned()).collect();
-        LoadedCase::find(preset, &set).unwrap().adjusted_tables()
-    };
+    let found = |name: &str, set: &[&str]| preset(name, set).adjusted_tables();
     assert_eq!(
         found("fruit-fly-hover", &[law]),
         ["motion.adjust.stroke_offset_deg = -5.2"]
@@ -77,10 +74,7 @@ fn behaves_biases_that_the_flight_that_is_held_has_too_are_named() {
 /// Angles that do not vary have no phase and no start, whatever joints do; blade elements leave camber out.
 #[test]
 fn behaves_keys_that_change_nothing_in_this_flight_are_named() {
-    let said = |preset: &str, set: &[&str]| {
-        let set: Vec<String> = set.iter().map(|s| (*s).to_owned()).collect();
-        LoadedCase::find(preset, &set).unwrap().idle_keys()
-    };
+    let said = |name: &str, set: &[&str]| preset(name, set).idle_keys();
     let still =
         "wing.right.motion={ phi.constant_deg = 0, theta.constant_deg = 0, psi.constant_deg = 0 }";
     let hinge = "joint.hinge={ child = \"right\", kind = \"revolute\", axis = [0, 1, 0], element = [{ moment_newton_m = { sine = [1e-6] } }] }";

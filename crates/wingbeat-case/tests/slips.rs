@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use crate::common::{self, refusal};
+use crate::common::{self, found, preset, refusal};
 use wingbeat_case::{LoadedCase, presets};
 
 #[test]
@@ -111,10 +111,7 @@ fn refuses_fibres_without_direction() {
         format!("{shell}={{ young_pa = 3e9, thickness_m = [1e-4, 1e-4], fibre_angle_deg = 20 }}");
     let load = |more: &[&str]| {
         let set = [&[&film[..]], more].concat();
-        let set: Vec<String> = set.iter().map(|s| (*s).to_owned()).collect();
-        LoadedCase::find("hawkmoth-veins", &set)
-            .map(|_| ())
-            .map_err(|e| e.to_string())
+        found("hawkmoth-veins", &set).map(drop)
     };
     let said = load(&[]).unwrap_err();
     let says = "wing.right.structure.shell.fibre_angle_deg = 20: must be 0 in a sheet alike";
@@ -137,8 +134,7 @@ fn refuses_fibres_without_direction() {
 #[test]
 fn behaves_implausible_motions_are_doubted() {
     let doubts = |case: &str, set: &[&str]| {
-        let set: Vec<String> = set.iter().map(|s| (*s).to_owned()).collect();
-        let case = LoadedCase::find(case, &set).unwrap();
+        let case = preset(case, set);
         wingbeat_analysis::estimate(&case.setup).doubts.join("\n")
     };
     let both = |left: f64| {
@@ -203,9 +199,7 @@ fn refuses_to_estimate_lift_in_a_million_steps() {
 fn agrees_lift_beside_stiff_hinges_with_that_of_short_steps() {
     let text = include_str!("data/stiff-hinge.toml");
     let estimate = |set: &[&str]| {
-        let set: Vec<String> = set.iter().map(|s| (*s).to_owned()).collect();
-        let here = std::path::Path::new("");
-        let case = LoadedCase::from_text("hinge.toml", text, here, &set).unwrap();
+        let case = common::load(text, set).unwrap();
         wingbeat_analysis::estimate(&case.setup)
     };
     let lift = |set: &[&str]| {
@@ -458,9 +452,8 @@ fn refuses_veins_and_regions_where_the_sheet_is_held() {
 #[test]
 fn behaves_masses_of_parts_in_another_unit_are_doubted() {
     let doubts = |set: &[&str]| {
-        let set: Vec<String> = set.iter().map(|s| (*s).to_owned()).collect();
-        let case = LoadedCase::find("fruit-fly-blade", &set).expect("a case");
-        case.doubtful_measurements().join("\n")
+        let found = preset("fruit-fly-blade", set).doubtful_measurements();
+        found.join("\n")
     };
     let grams = doubts(&["body.part.thorax.mass_kg=0.4372e-3"]);
     assert!(grams.contains("weigh 4.377e-4 kg together"), "{grams}");

@@ -1,14 +1,11 @@
 //! Panels of cosine spacing and cores beside short panels, in cases.
 
+use crate::common::found;
 use wingbeat_case::{LoadedCase, presets::PRESETS};
 use wingbeat_flight::FlightSetup;
 
 fn bird(set: &[&str]) -> Result<FlightSetup, String> {
-    let set: Vec<String> = set.iter().map(|s| (*s).to_owned()).collect();
-    match LoadedCase::find("bird-cruise", &set) {
-        Ok(case) => Ok(case.setup),
-        Err(e) => Err(e.to_string()),
-    }
+    Ok(found("bird-cruise", set)?.setup)
 }
 
 /// Control points in the middles of unequal rings make an error that more panels do not remove: refused by name.

@@ -1,5 +1,6 @@
 //! Strips that leave wakes: flying either way, in winds that blow from the start.
 
+use crate::common::preset;
 use std::path::Path;
 use wingbeat_case::LoadedCase;
 use wingbeat_flight::Simulation;
@@ -68,8 +69,7 @@ fn invariant_wings_that_beat_in_a_shear_wherever_the_origin_is() {
             "air.shear_1_s=[[0,0,20],[0,0,0],[0,0,0]]",
             "time.beats=2",
         ];
-        let all: Vec<String> = own.iter().chain(set).map(|s| (*s).to_owned()).collect();
-        let case = LoadedCase::find("fruit-fly-blade", &all).unwrap();
+        let case = preset("fruit-fly-blade", &[&own[..], set].concat());
         let mut flight = Simulation::new(case.setup).unwrap();
         let mut force = vec![];
         while !flight.finished() {

@@ -1,5 +1,6 @@
 //! Tables of derivatives with the added mass of the air, against closed forms.
 
+use crate::common::{found, preset};
 use wingbeat_analysis::{Plane, table_model};
 use wingbeat_case::LoadedCase;
 use wingbeat_flight::Simulation;
@@ -13,7 +14,7 @@ const L: f64 = -2e-5;
 const A: f64 = 4e-8;
 
 /// A body that rolls in air which hinders that and goes with it, `more` set besides.
-fn rolling(more: &[&str]) -> Result<LoadedCase, wingbeat_case::IoError> {
+fn rolling(more: &[&str]) -> Result<LoadedCase, String> {
     let damping = format!(
         "air.derivatives={{moment_by_rate_newton_m_s=[[{L},0,0],[0,0,0],[0,0,0]],added_inertia_kg_m2=[[{A},0,0],[0,0,0],[0,0,0]]}}"
     );
@@ -26,8 +27,7 @@ fn rolling(more: &[&str]) -> Result<LoadedCase, wingbeat_case::IoError> {
         &format!("body.inertia_about_centre_kg_m2=[{J},{J},{J},0,0,0]"),
         &damping,
     ];
-    let all: Vec<String> = own.iter().chain(more).map(|s| (*s).to_owned()).collect();
-    LoadedCase::find("table1-taylor-thomas-2003", &all)
+    found("table1-taylor-thomas-2003", &[&own[..], more].concat())
 }
 
 /// `(J + A) p' = L p`: flown by every formulation, and as a mode.
@@ -82,8 +82,7 @@ fn exact_turn_of_a_body_that_carries_air_along() {
             &format!("air.stream_m_s=[{ahead},0,{down}]"),
             &added,
         ];
-        let own: Vec<String> = own.iter().map(|s| (*s).to_owned()).collect();
-        let case = LoadedCase::find("table1-taylor-thomas-2003", &own).unwrap();
+        let case = preset("table1-taylor-thomas-2003", &own);
         let mut flight = Simulation::new(case.setup).unwrap();
         while !flight.finished() {
             flight.step().unwrap();
@@ -102,7 +101,7 @@ fn exact_turn_of_a_body_that_carries_air_along() {
 #[test]
 fn refuses_added_mass_that_is_not_symmetric() {
     let skew = "air.derivatives.added_mass_kg=[[1,2,0],[0,1,0],[0,0,1]]";
-    let said = rolling(&[skew]).unwrap_err().to_string();
+    let said = rolling(&[skew]).unwrap_err();
     for part in ["air.derivatives.added_mass_kg", "not symmetric: 2 and 0"] {
         assert!(said.contains(part), "{said}");
     }

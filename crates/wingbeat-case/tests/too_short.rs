@@ -1,5 +1,6 @@
 //! Flights that end before what they are to do.
 
+use crate::common::preset;
 use wingbeat_case::LoadedCase;
 
 /// Waypoints later than the end of the flight, counted from the release; starts longer than flight or hold.
@@ -25,9 +26,7 @@ fn behaves_what_the_flight_is_too_short_for_is_doubted() {
     );
     assert_eq!(late("time.beats=1200"), None);
     let starts = |set: &[&str]| {
-        let set: Vec<String> = set.iter().map(|s| (*s).to_owned()).collect();
-        LoadedCase::find("fruit-fly-blade", &set)
-            .unwrap()
+        preset("fruit-fly-blade", set)
             .setup
             .starts_that_do_not_end()
     };

@@ -1,5 +1,6 @@
 //! Setups written as cases: read back they are what they were, to rounding; what no key says is refused.
 
+use crate::common::preset;
 use wingbeat_case::{LoadedCase, case_of, presets};
 use wingbeat_flight::{AirModel, FlightSetup, MotionMode};
 use wingbeat_math::{DVec3, MassProperties};
@@ -130,8 +131,7 @@ fn exact_resolved_cases_can_be_read() {
             "flight.tether.pitch={rate_deg_s=1,frequency_hz=20,cosine_deg=[3]}",
         ],
     ] {
-        let sets: Vec<String> = sets.iter().map(|s| (*s).to_owned()).collect();
-        let case = LoadedCase::find("fruit-fly-blade", &sets).unwrap_or_else(|e| panic!("{e}"));
+        let case = preset("fruit-fly-blade", &sets);
         let again = LoadedCase::from_text("again", &case.resolved(), ".".as_ref(), &[]);
         let again = again.unwrap_or_else(|e| panic!("{sets:?}: {e}"));
         assert!(format!("{:?}", case.setup) == format!("{:?}", again.setup));

@@ -24,6 +24,17 @@ fn blade() -> FlightSetup {
     setup
 }
 
+/// Nothing is allocated in so many `steps` that follow on the first, of the flight `what`; its last record.
+fn allocates_nothing(setup: FlightSetup, [first, steps]: [usize; 2], what: &str) -> Record {
+    let mut flight = Simulation::new(setup).expect("the little fly");
+    let mut copy = Record::default();
+    let mut step = || copy.clone_from(flight.step().expect("a step"));
+    (0..first).for_each(|_| step());
+    let measured = measure(|| (0..steps).for_each(|_| step()));
+    assert_eq!(measured.count_total, 0, "{what}");
+    copy
+}
+
 #[test]
 fn exact_no_allocation_in_steps_in_blade_elements() {
     let wakes = Some(Unsteady::Peters { states: 8 });
@@ -44,15 +55,7 @@ fn exact_no_allocation_in_steps_in_blade_elements() {
         if let AirModel::BladeElement(air) = &mut setup.air {
             air.blade.unsteady = unsteady;
         }
-        let mut flight = Simulation::new(setup).expect("the little fly");
-        let mut copy = Record::default();
-        let mut step = || {
-            let record = flight.step().expect("a step");
-            copy.clone_from(record);
-        };
-        (0..5).for_each(|_| step());
-        let beat = measure(|| (0..40).for_each(|_| step()));
-        assert_eq!(beat.count_total, 0, "{integrator:?} {unsteady:?}");
+        allocates_nothing(setup, [5, 40], &format!("{integrator:?} {unsteady:?}"));
     }
 }
 
@@ -85,13 +88,8 @@ fn exact_no_allocation_in_steps_of_wings_on_passive_hinges() {
                     .at(wing.hinge_b, DVec3::ZERO)
             });
         }
-        let mut flight = Simulation::new(setup).expect("the little fly");
-        let mut copy = Record::default();
-        let mut step = || copy.clone_from(flight.step().expect("a step"));
-        (0..5).for_each(|_| step());
-        let beat = measure(|| (0..40).for_each(|_| step()));
-        assert_eq!(beat.count_total, 0, "{formulation:?}");
-        assert!(copy.joints.iter().all(|[q, _]| q.abs() > 1e-3));
+        let last = allocates_nothing(setup, [5, 40], &format!("{formulation:?}"));
+        assert!(last.joints.iter().all(|[q, _]| q.abs() > 1e-3));
     }
 }
 
@@ -118,11 +116,7 @@ fn exact_no_allocation_between_looks() {
         }),
         ..blade()
     };
-    let mut flight = Simulation::new(setup).expect("the little fly");
-    let mut step = || _ = flight.step().expect("a step");
-    (0..45).for_each(|_| step());
-    let between = measure(|| (0..30).for_each(|_| step()));
-    assert_eq!(between.count_total, 0);
+    allocates_nothing(setup, [45, 30], "between looks");
 }
 
 /// Wings of 1 kHz that are beams, and such of sheets.
@@ -173,20 +167,9 @@ fn exact_no_allocation_in_steps_of_wings_that_bend() {
         if let AirModel::BladeElement(air) = &mut setup.air {
             air.blade.unsteady = unsteady;
         }
-        let mut flight = Simulation::new(setup).expect("the little fly");
-        let mut copy = Record::default();
-        let mut step = || {
-            let record = flight.step().expect("a step");
-            copy.clone_from(record);
-        };
         // Room grows with the most passes that a step has needed: a beat with its start.
-        (0..50).for_each(|_| step());
-        let half = measure(|| (0..20).for_each(|_| step()));
-        assert_eq!(half.count_total, 0, "{members:?} {unsteady:?}");
-        assert!(
-            copy.elastic
-                .iter()
-                .all(|e| e.tip.length() > 1e-3 * common::SPAN)
-        );
+        let last = allocates_nothing(setup, [50, 20], &format!("{members:?} {unsteady:?}"));
+        let mut tips = last.elastic.iter().map(|e| e.tip.length());
+        assert!(tips.all(|tip| tip > 1e-3 * common::SPAN));
     }
 }

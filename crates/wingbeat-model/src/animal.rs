@@ -2,7 +2,7 @@
 
 use crate::deformation::{Deformation, span};
 use crate::error::ModelError;
-use crate::integrate::scaled_properties;
+use crate::mesh::integrate::scaled_properties;
 use crate::mesh::{GridMesh, QuadMesh, Side};
 use crate::motion::WingMotion;
 use crate::structure::{Blank, WingStructure};

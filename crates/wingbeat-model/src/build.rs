@@ -2,11 +2,11 @@
 
 use crate::animal::{Animal, BodyPart, Wing};
 use crate::error::{ModelError, positive};
-use crate::integrate::{self, MassInput};
+use crate::mesh::integrate::{self, MassInput};
+use crate::mesh::revolution::Revolution;
 use crate::mesh::{GridMesh, QuadMesh, Side};
 use crate::motion::WingMotion;
 use crate::planform::WingShape;
-use crate::revolution::Revolution;
 use wingbeat_math::{DMat3, DVec3, MassProperties};
 
 impl BodyPart {

@@ -7,7 +7,7 @@ use wingbeat_structure::NODE;
 
 use crate::animal::{Animal, BodyPart, Wing};
 use crate::error::{ModelError, require};
-use crate::integrate;
+use crate::mesh::integrate;
 use crate::mesh::{QuadMesh, Side};
 use crate::structure::Members;
 

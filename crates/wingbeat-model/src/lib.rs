@@ -26,44 +26,37 @@
 pub mod animal;
 pub mod build;
 pub mod check;
-mod closed;
-mod coincident;
-mod crossing;
+mod contact;
 pub mod deformation;
 pub mod error;
-pub mod import;
-mod inside;
-pub mod integrate;
 pub mod kinematics;
 pub mod mesh;
 pub mod motion;
 pub mod planform;
-pub mod revolution;
 pub mod species;
 pub mod structure;
-mod touching;
 
 pub use animal::{Animal, BodyPart, Segment, Wing};
 pub use build::{BodyMass, fit_body_length};
 pub use check::{ElasticReport, WingReport};
-pub use coincident::coincident;
-pub use crossing::depth::crossing_depth;
-pub use crossing::{
+pub use contact::coincident::coincident;
+pub use contact::crossing::depth::crossing_depth;
+pub use contact::crossing::{
     Crossing, FlownCrossings, are_joined, crossings, nearest_nodes, pairs, root_gap,
+};
+pub use contact::inside::{Inside, Solid, inside};
+pub use contact::touching::{
+    PairOnPart, RootOnPart, pairs_on_parts, roots_beside_parts, roots_meet, roots_on_parts,
 };
 pub use deformation::{Deformation, DeformingMesh};
 pub use error::ModelError;
-pub use import::Imported;
-pub use inside::{Inside, Solid, inside};
-pub use integrate::MassInput;
+pub use mesh::import::Imported;
+pub use mesh::integrate::MassInput;
+pub use mesh::revolution::{Profile, Revolution};
 pub use mesh::{GridMesh, QuadMesh, Side, Spacing, mirror_name, side_in_name};
 pub use motion::{AngleLaw, AngleLaws, Start, WingMotion};
 pub use planform::{Planform, WingShape};
-pub use revolution::{Profile, Revolution};
 pub use structure::{
     BeamMass, Coupling, ElasticBody, Members, Region, Vein, VeinStiffness, WingBeam, WingShell,
     WingStructure,
-};
-pub use touching::{
-    PairOnPart, RootOnPart, pairs_on_parts, roots_beside_parts, roots_meet, roots_on_parts,
 };

@@ -26,12 +26,12 @@
 use crate::animal::{Animal, BodyPart, Wing};
 use crate::build::{BodyMass, fit_body_length};
 use crate::error::{ModelError, require_count};
-use crate::integrate::MassInput;
 use crate::kinematics::fry_hover;
 use crate::mesh::Side;
+use crate::mesh::integrate::MassInput;
+use crate::mesh::revolution::Revolution;
 use crate::motion::Start;
 use crate::planform::{Beta, ChordSize, Planform, WingShape};
-use crate::revolution::Revolution;
 use std::f64::consts::FRAC_PI_2;
 use wingbeat_math::DVec3;
 

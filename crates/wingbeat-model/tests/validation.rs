@@ -33,7 +33,7 @@ fn published_fruit_fly_sizes_masses_and_body_inertia() {
         ..Default::default()
     };
     for part in &drosophila_melanogaster(&fine).unwrap().parts {
-        let density = part.mass.mass / wingbeat_model::integrate::volume(&part.mesh);
+        let density = part.mass.mass / wingbeat_model::mesh::integrate::volume(&part.mesh);
         assert!(
             (800.0..1500.0).contains(&density),
             "{}: {density}",

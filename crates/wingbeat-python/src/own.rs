@@ -324,7 +324,7 @@ impl PythonAir {
         out: &mut [Wrench],
     ) -> Result<(), String> {
         let answer = Python::attach(|py| {
-            let numbers = motions.iter().flat_map(numbers).collect();
+            let numbers = motions.iter().flat_map(BodyMotion::numbers).collect();
             let motions = array(py, numbers, &[motions.len(), 18])?;
             let answer = self.function.get(py)?.call1((step, time, motions))?;
             let loads = answer.cast::<PyArray2<f64>>()?.readonly();
@@ -336,12 +336,6 @@ impl PythonAir {
         });
         self.function.pending.keep(answer)
     }
-}
-
-fn numbers(motion: &BodyMotion) -> Vec<f64> {
-    let rows = motion.r.transpose().to_cols_array();
-    let [p, v, w] = [motion.p, motion.v, motion.w].map(|x| x.to_array());
-    [&p[..], &rows, &v, &w].concat()
 }
 
 impl Air for PythonAir {

@@ -2,12 +2,12 @@
 
 use wingbeat_math::{DVec3, MassProperties, largest};
 
-use crate::configuration::{Configuration, NODE};
-use crate::element::{Element, ElementForces};
+use crate::elements::element::{Element, ElementForces};
 use crate::error::StructureError;
-use crate::frame::FrameMotion;
-use crate::matrix::order;
-use crate::statics::{StaticSettings, equilibrium};
+use crate::nodes::configuration::{Configuration, NODE};
+use crate::nodes::frame::FrameMotion;
+use crate::solution::matrix::order;
+use crate::solution::statics::{StaticSettings, equilibrium};
 use crate::structure::{Damping, HELD, Structure};
 
 /// Collects the parts of a [`Structure`].

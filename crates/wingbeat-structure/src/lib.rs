@@ -15,38 +15,25 @@
 //! This crate does not know air, joints, animals or files.
 #![warn(missing_docs)]
 
-mod assembly;
-mod beam;
-mod block;
 mod builder;
-mod configuration;
-mod dynamics;
-mod element;
+mod elements;
 mod error;
-mod follower;
-mod frame;
-mod inertia;
-mod loads;
-mod matrix;
-mod modes;
-mod screw;
-pub mod shell;
-mod slowest;
-mod statics;
+mod nodes;
+mod solution;
 mod structure;
 
-pub use beam::{Beam, BeamEnd, BeamSection, Stiffness};
 pub use builder::StructureBuilder;
-pub use configuration::{Configuration, NODE};
-pub use dynamics::{
+pub use elements::beam::{Beam, BeamEnd, BeamSection, Stiffness};
+pub use elements::element::{Element, ElementForces, MassBetween};
+pub use elements::shell::{self, Lamina, Shell, ShellError, ShellMesh};
+pub use error::StructureError;
+pub use nodes::configuration::{Configuration, NODE};
+pub use nodes::follower::{Follower, NodeWeight};
+pub use nodes::frame::FrameMotion;
+pub use nodes::loads::{Loading, NodeLoad};
+pub use solution::dynamics::{
     GeneralizedAlpha, LoadTangent, Solver, State, Trial, Weights, carried_by_frame, resultant,
 };
-pub use element::{Element, ElementForces, MassBetween};
-pub use error::StructureError;
-pub use follower::{Follower, NodeWeight};
-pub use frame::FrameMotion;
-pub use loads::{Loading, NodeLoad};
-pub use modes::{Mode, Slowest, first_frequency, modes, slowest_modes};
-pub use shell::{Lamina, Shell, ShellError, ShellMesh};
-pub use statics::{StaticSettings, equilibrium};
+pub use solution::modes::{Mode, Slowest, first_frequency, modes, slowest_modes};
+pub use solution::statics::{StaticSettings, equilibrium};
 pub use structure::{Damping, Structure};

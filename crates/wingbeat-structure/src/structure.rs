@@ -2,8 +2,8 @@
 
 use wingbeat_math::{DMat3, DVec3, MassProperties};
 
-use crate::configuration::{Configuration, NODE};
-use crate::element::{Element, MassBetween};
+use crate::elements::element::{Element, MassBetween};
+use crate::nodes::configuration::{Configuration, NODE};
 
 /// Number of a held unknown in the order of the free ones.
 pub(crate) const HELD: usize = usize::MAX;

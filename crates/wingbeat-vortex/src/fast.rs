@@ -393,7 +393,7 @@ impl FastSum {
 
 fn add_to(out: &mut Points, more: &Points) {
     for (i, v) in more.iter().enumerate() {
-        out.set(i, out.get(i) + v);
+        out.add(i, v);
     }
 }
 

@@ -172,7 +172,7 @@ impl GaussianSum {
         }
         if report.is_some() {
             for (i, v) in velocity.iter().enumerate() {
-                out.set(i, out.get(i) + v);
+                out.add(i, v);
             }
         }
         self.velocity = velocity;

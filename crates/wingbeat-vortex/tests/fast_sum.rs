@@ -1,13 +1,16 @@
 //! Evidence for the fast sum: the direct one.
 
+mod common;
 mod mesh;
 mod soft;
 mod wakes;
 
 use wingbeat_vortex::DVec3;
 use wingbeat_vortex::{
-    CoreModel, DirectSum, FastSettings, FastSum, InstructionSet, Method, Network, Points, Segments,
+    CoreModel, FastSettings, FastSum, InstructionSet, Method, Network, Points, Segments,
 };
+
+use common::{bits, direct, error};
 
 const MODELS: [CoreModel; 5] = [
     CoreModel::CutOff { delta: 4e-4 },
@@ -28,36 +31,6 @@ fn tree(model: CoreModel) -> FastSettings {
         method: Method::Tree,
         ..FastSettings::new(model)
     }
-}
-
-/// Error at all targets, relative to the root mean square velocity: root mean square and largest.
-fn error(v: &Points, exact: &Points) -> (f64, f64) {
-    let n = exact.len() as f64;
-    let scale = exact.iter().map(|v| v.length_squared()).sum::<f64>() / n;
-    let square = || {
-        v.iter()
-            .zip(exact.iter())
-            .map(|(a, b)| a.distance_squared(b))
-    };
-    (
-        (square().sum::<f64>() / n / scale).sqrt(),
-        (square().fold(0.0, f64::max) / scale).sqrt(),
-    )
-}
-
-fn direct(model: CoreModel, net: &Network, at: &Points) -> Points {
-    let (mut sum, mut v) = (DirectSum::new(model), Points::zeros(at.len()));
-    sum.load_network(net);
-    sum.add_velocity(at, &mut v);
-    v
-}
-
-fn bits(p: &Points) -> Vec<u64> {
-    [&p.x, &p.y, &p.z]
-        .into_iter()
-        .flatten()
-        .map(|v| v.to_bits())
-        .collect()
 }
 
 #[test]

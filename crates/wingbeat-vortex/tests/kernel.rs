@@ -1,11 +1,15 @@
 //! Evidence for the Biot-Savart kernel.
 
+mod common;
+
 use std::f64::consts::{LN_2, PI};
 use wingbeat_vortex::DVec3;
 use wingbeat_vortex::{
     CoreModel, DirectSum, FastSettings, FastSum, InstructionSet, Network, Points, Segments,
     reference,
 };
+
+use common::{bits, direct, error};
 
 const BARE: CoreModel = CoreModel::Scully { radius: 0.0 };
 
@@ -79,14 +83,6 @@ fn targets(net: &Network, n: usize) -> Points {
         points.push(0.5 * (net.nodes.get(a as usize) + net.nodes.get(b as usize)));
     }
     points
-}
-
-fn bits(p: &Points) -> Vec<u64> {
-    [&p.x, &p.y, &p.z]
-        .into_iter()
-        .flatten()
-        .map(|v| v.to_bits())
-        .collect()
 }
 
 /// Textbook: Gamma/(4 pi h) (cos 1 - cos 2) about the axis, times the factor of the core; for the algebraic one
@@ -254,13 +250,7 @@ fn invariant_bits_under_threads() {
             .num_threads(threads)
             .build()
             .unwrap();
-        pool.install(|| {
-            let mut sum = DirectSum::new(model);
-            sum.load_network(&net);
-            let mut v = Points::zeros(at.len());
-            sum.add_velocity(&at, &mut v);
-            bits(&v)
-        })
+        pool.install(|| bits(&direct(model, &net, &at)))
     };
     let one = run(1);
     assert_eq!(one, run(2));
@@ -463,10 +453,7 @@ fn agrees_vorticity_that_cancels_with_double_precision() {
         w
     };
     let [allowed, double] = [1e-4, 0.0].map(vorticity);
-    let errors = allowed.iter().zip(double.iter());
-    let error: f64 = errors.map(|(a, b)| a.distance_squared(b)).sum();
-    let size: f64 = double.iter().map(|a| a.length_squared()).sum();
-    let relative = (error / size).sqrt();
+    let relative = error(&allowed, &double).0;
     println!("{relative:e}");
     // The tolerance; in double precision all digits agree.
     assert!(relative < 1e-4, "{relative}");
@@ -496,10 +483,7 @@ fn agrees_single_precision_of_velocity_and_vorticity() {
     };
     let [single, double] = [1e-4, 0.0].map(with);
     for (single, double) in single.iter().zip(&double) {
-        let errors = single.iter().zip(double.iter());
-        let error: f64 = errors.map(|(a, b)| a.distance_squared(b)).sum();
-        let size: f64 = double.iter().map(|a| a.length_squared()).sum();
-        let relative = (error / size).sqrt();
+        let relative = error(single, double).0;
         println!("{relative:e}");
         assert!(0.0 < relative && relative < 1e-5, "{relative}");
     }

@@ -23,7 +23,7 @@ struct Disc {
 
 impl Disc {
     fn of(wing: &Wing) -> Self {
-        let area = wingbeat::model::integrate::area(&wing.mesh.to_quads(wing.side));
+        let area = wingbeat::model::mesh::integrate::area(&wing.mesh.to_quads(wing.side));
         Self {
             radius: (area / std::f64::consts::PI).sqrt(),
             centre: wing.mass.centre(), // the mass is spread evenly

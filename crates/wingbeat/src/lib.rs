@@ -42,19 +42,11 @@
 
 extern crate self as wingbeat; // the command line is written as any other user of the library
 
-mod batch;
 #[cfg(feature = "cli")]
 pub mod command;
-mod ensemble;
-mod flown;
-mod refusal;
-mod value;
+mod facade;
 
-pub use batch::fly_all;
-pub use ensemble::ensemble;
-pub use flown::{Beat, Run};
-pub use refusal::Error;
-pub use value::Flight;
+pub use facade::{Beat, Error, Flight, Run, ensemble, fly_all};
 
 /// What a program that flies needs: `use wingbeat::prelude::*;`.
 ///

@@ -10,7 +10,7 @@ mod joints;
 mod refusals;
 mod written;
 
-use crate::support::{Scratch, wingbeat as program};
+use crate::support::{Scratch, preset, wingbeat as program};
 use wingbeat::Flight;
 use wingbeat::analysis::control::{Held, Law, Limits, Reference, Regulator, Steering, Weights};
 use wingbeat::case::LoadedCase;
@@ -19,8 +19,7 @@ use wingbeat::flight::{AirModel, ControlModel, FlightSetup, FlightState, Simulat
 const PRESET: &str = "fruit-fly-controlled";
 
 fn case(set: &[&str]) -> LoadedCase {
-    let set: Vec<String> = set.iter().map(|s| (*s).to_owned()).collect();
-    LoadedCase::find(PRESET, &set).unwrap_or_else(|e| panic!("{e}"))
+    preset(PRESET, set)
 }
 
 /// The preset's fly in blade elements, where flights are smooth and cheap, from its measured strokes.

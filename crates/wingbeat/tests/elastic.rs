@@ -30,7 +30,7 @@ mod veins;
 #[path = "elastic/wakes.rs"]
 mod wakes;
 
-use support::{Scratch, flown, wingbeat};
+use support::{Scratch, flown, strings, wingbeat};
 
 /// Two heavy wings on a light body.
 const CASE: &str = r#"
@@ -73,10 +73,6 @@ fn case(set: &[String]) -> LoadedCase {
 fn beam(stiffness: f64) -> [String; 2] {
     ["flap", "torsion"]
         .map(|k| format!("wing.right.structure.beam.{k}_newton_m2=[{stiffness},{stiffness}]"))
-}
-
-fn strings(set: &[&str]) -> Vec<String> {
-    set.iter().map(|s| (*s).to_owned()).collect()
 }
 
 /// The records of all steps.

@@ -20,6 +20,8 @@ mod support;
 #[path = "flutter/theodorsen.rs"]
 mod theodorsen;
 
+use support::case_of;
+
 const GOLAND: &str = include_str!("../../wingbeat-verify/data/goland.toml");
 
 /// Goland's wing, coarse, with keys set.
@@ -30,8 +32,7 @@ fn goland(set: &[&str]) -> LoadedCase {
         "time.step_s=0.0028575",
         "air.max_wake_rows=40",
     ];
-    let set: Vec<String> = coarse.iter().chain(set).map(|s| (*s).to_owned()).collect();
-    LoadedCase::from_text("goland", GOLAND, std::path::Path::new("."), &set).unwrap()
+    case_of("goland", GOLAND, &[&coarse[..], set].concat())
 }
 
 fn settings() -> FlutterSettings {
@@ -162,8 +163,7 @@ const STRIPS: &str = include_str!("../../wingbeat-verify/data/goland-strips.toml
 
 /// Goland's wing in strips.
 fn strips(set: &[&str]) -> LoadedCase {
-    let set: Vec<String> = set.iter().map(|s| (*s).to_owned()).collect();
-    LoadedCase::from_text("strips", STRIPS, std::path::Path::new("."), &set).unwrap()
+    case_of("strips", STRIPS, set)
 }
 
 #[test]
@@ -193,7 +193,7 @@ fn published_goland_in_strips_flutters_at_137_m_s_as_by_theodorsens_function() {
 #[test]
 fn refuses_flutter_in_strips_without_wakes() {
     let text = STRIPS.replace("unsteady = \"peters\"\n", "");
-    let steady = LoadedCase::from_text("strips", &text, std::path::Path::new("."), &[]).unwrap();
+    let steady = case_of("strips", &text, &[]);
     let told = condition(&steady.setup, 130.0, &settings())
         .map(|_| ())
         .unwrap_err()
@@ -356,8 +356,7 @@ axis = [0, 1, 0]
 [[joint.hinge-right.element]]
 stiffness_newton_m_per_rad = "#
         + stiffness;
-    let set: Vec<String> = set.iter().map(|s| (*s).to_owned()).collect();
-    LoadedCase::from_text("hinged", &text, std::path::Path::new("."), &set).unwrap()
+    case_of("hinged", &text, set)
 }
 
 /// What moves on a hinge with a period `2 pi sqrt(J / k)` longer than the response is not found, and named.
@@ -450,7 +449,7 @@ torsion_newton_m2 = [0.5, 0.5]
 mass_kg_per_m = [0.5, 0.5]
 inertia_kg_m = [0.0005, 0.0005]",
     );
-    let case = LoadedCase::from_text("divergence", &text, std::path::Path::new(""), &[]).unwrap();
+    let case = case_of("divergence", &text, &[]);
     let at = |speed: f64| alone(&case.setup, speed, &FlutterSettings::default());
     let growth = |c: &Condition| c.divergence.map(|(motion, _)| motion.growth);
     let exact = 0.5 * PI * (2.0 * 0.5 / (1.2 * 0.1 * 0.015 * 2.0 * PI)).sqrt();

@@ -1,13 +1,11 @@
 //! Modes of elastic wings: in vacuum, in air, about a deformed state; the command.
 
 use std::f64::consts::PI;
-use std::path::Path;
 
 use wingbeat::analysis::flutter::{FlutterSettings, condition};
 use wingbeat::analysis::{About, WingModes, wing_modes};
-use wingbeat::case::LoadedCase;
 
-use crate::support::{Scratch, said, wingbeat};
+use crate::support::{Scratch, case_of, said, wingbeat};
 
 /// A wing of 20 chords of a metre, a beam along the middle of its chord.
 const SLENDER: &str = r#"
@@ -126,9 +124,9 @@ fn behaves_films_that_buckle_have_modes_and_those_that_fold_are_named() {
 }
 
 fn modes(text: &str, set: &[&str], about: About) -> WingModes {
-    let set: Vec<String> = set.iter().map(|s| (*s).to_owned()).collect();
-    let case = LoadedCase::from_text("case", text, Path::new("."), &set).unwrap();
-    wing_modes(&case.setup, about, 4).unwrap().swap_remove(1)
+    wing_modes(&case_of("case", text, set).setup, about, 4)
+        .unwrap()
+        .swap_remove(1)
 }
 
 #[test]
@@ -233,8 +231,7 @@ fn agrees_modes_about_a_steady_state_with_those_flutter_begins_from() {
         "wing.right.motion.psi.constant_deg=1",
     ];
     let found = modes(goland, &coarse, About::Steady);
-    let set = coarse.map(String::from);
-    let case = LoadedCase::from_text("goland", goland, Path::new("."), &set).unwrap();
+    let case = case_of("goland", goland, &coarse);
     let settings = FlutterSettings {
         modes: 2,
         ..FlutterSettings::default()
@@ -428,7 +425,7 @@ fn elastica(q: f64) -> f64 {
 /// Steps four times as long do not carry its fall; those of the case do.
 #[test]
 fn agrees_steady_state_of_a_wing_that_weight_bends_far_with_the_elastica() {
-    let case = LoadedCase::from_text("sagging", SAGGING, Path::new("."), &[]).unwrap();
+    let case = case_of("sagging", SAGGING, &[]);
     let found = wing_modes(&case.setup, About::Steady, 1).unwrap();
     let deflection = found[0].deflection.iter().map(|d| d.length());
     let bent = deflection.fold(0.0, f64::max);

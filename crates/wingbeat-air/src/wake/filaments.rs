@@ -214,7 +214,7 @@ impl Filaments {
         position.iter().for_each(|&x| self.bound.nodes.push(x));
         let nodes = &mut self.bound.nodes;
         for (n, d) in lattice.rings().offsets(position, position) {
-            nodes.set(n, nodes.get(n) + d);
+            nodes.add(n, d);
         }
         let suction = lattice.suction();
         let root = |(n, ring): (usize, DVec3)| match suction.is_front(n) {

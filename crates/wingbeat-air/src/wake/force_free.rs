@@ -413,7 +413,7 @@ impl ForceFree {
                 if *size < self.whole {
                     more *= smoothstep(*size / self.whole);
                 }
-                velocity.set(i, velocity.get(i) + more);
+                velocity.add(i, more);
                 *left -= more.cross(*vorticity);
             }
         }

@@ -96,8 +96,8 @@ impl ParticleFlow {
             sum.add_to_blobs(&self.image, scheme, v, s);
             for i in 0..self.particles.len() {
                 let (dv, ds) = (mirror.vector(v.get(i)), mirror.vector(s.get(i)));
-                self.velocity.set(i, self.velocity.get(i) + dv);
-                self.rate.set(i, self.rate.get(i) + ds);
+                self.velocity.add(i, dv);
+                self.rate.add(i, ds);
             }
         }
     }

@@ -98,7 +98,7 @@ impl Images {
             self.velocity.reset(targets.len());
             add(&self.reflected, &mut self.velocity);
             for (i, v) in self.velocity.iter().enumerate() {
-                out.set(i, out.get(i) + mirror.vector(v));
+                out.add(i, mirror.vector(v));
             }
         }
     }
@@ -120,8 +120,8 @@ impl Images {
             sum.add_with_vorticity(&self.reflected, at_images);
             let sums = self.velocity.iter().zip(self.vorticity.iter());
             for (i, (v, w)) in sums.enumerate() {
-                velocity.set(i, velocity.get(i) + mirror.vector(v));
-                vorticity.set(i, vorticity.get(i) + mirror.axial(w));
+                velocity.add(i, mirror.vector(v));
+                vorticity.add(i, mirror.axial(w));
             }
         }
     }

@@ -48,20 +48,12 @@ const REYNOLDS: Limit = Limit {
     ],
 };
 
-const REDUCED_FREQUENCY: Limit = Limit {
-    low: 0.0,
-    high: 3.0,
-    hints: [
-        "",
-        "the wing hardly moves by its own chord in a beat; is the stroke in degrees?",
-    ],
-};
+const REDUCED_FREQUENCY: Limit = Limit::at_most(
+    3.0,
+    "the wing hardly moves by its own chord in a beat; is the stroke in degrees?",
+);
 
-const STROKE: Limit = Limit {
-    low: 0.0,
-    high: 190.0,
-    hints: ["", "left and right wing pass through each other"],
-};
+const STROKE: Limit = Limit::at_most(190.0, "left and right wing pass through each other");
 
 const GYRATION: Limit = Limit {
     low: 0.03,
@@ -72,14 +64,10 @@ const GYRATION: Limit = Limit {
     ],
 };
 
-const WING_MASS: Limit = Limit {
-    low: 0.0,
-    high: 0.4,
-    hints: [
-        "",
-        "wings of animals are at most a fifth of the mass; is wing.mass_kg that of one wing?",
-    ],
-};
+const WING_MASS: Limit = Limit::at_most(
+    0.4,
+    "wings of animals are at most a fifth of the mass; is wing.mass_kg that of one wing?",
+);
 
 const LIFT: Limit = Limit {
     low: 0.5,
@@ -132,52 +120,28 @@ const WAKE_CORE: Limit = Limit {
 };
 
 /// Lift of a rectangle of aspect ratio 0.5 is 3, 6 and 9 % high with 0.24, 0.48 and 0.8 of the column.
-const BOUND_CORE_ACROSS: Limit = Limit {
-    low: 0.0,
-    high: 0.2,
-    hints: [
-        "",
-        "lift and drag come out high, the more so the more columns there are: give air.bound_core a tenth of the columns' width or less",
-    ],
-};
+const BOUND_CORE_ACROSS: Limit = Limit::at_most(
+    0.2,
+    "lift and drag come out high, the more so the more columns there are: give air.bound_core a tenth of the columns' width or less",
+);
 
 /// Added mass of a sphere and of a spheroid ten times as long as wide is 4 and 29 % high with 0.28 and 0.65 of
 /// the width.
-const BOUND_CORE_OF_BODY: Limit = Limit {
-    low: 0.0,
-    high: 0.2,
-    hints: [
-        "",
-        "its added mass and moments come out high, the more so the more panels there are: give air.bound_core a tenth of the width or less, or the part fewer panels",
-    ],
-};
+const BOUND_CORE_OF_BODY: Limit = Limit::at_most(
+    0.2,
+    "its added mass and moments come out high, the more so the more panels there are: give air.bound_core a tenth of the width or less, or the part fewer panels",
+);
 
-const CLEARANCE: Limit = Limit {
-    low: 0.0,
-    high: 0.5,
-    hints: [
-        "",
-        "wakes are pushed far off the wings; 0.1 chords are usual: air.clearance_m",
-    ],
-};
+const CLEARANCE: Limit = Limit::at_most(
+    0.5,
+    "wakes are pushed far off the wings; 0.1 chords are usual: air.clearance_m",
+);
 
-const TIP_STEP: Limit = Limit {
-    low: 0.0,
-    high: 1.5,
-    hints: ["", "take more steps: time.steps_per_beat"],
-};
+const TIP_STEP: Limit = Limit::at_most(1.5, "take more steps: time.steps_per_beat");
 
-const DISPLACEMENT: Limit = Limit {
-    low: 0.0,
-    high: 0.6,
-    hints: ["", "bending is in metres: deformation.bending"],
-};
+const DISPLACEMENT: Limit = Limit::at_most(0.6, "bending is in metres: deformation.bending");
 
-const TURN: Limit = Limit {
-    low: 0.0,
-    high: 90.0,
-    hints: ["", "twist is in degrees: deformation.twist"],
-};
+const TURN: Limit = Limit::at_most(90.0, "twist is in degrees: deformation.twist");
 
 pub(super) fn doubts(setup: &FlightSetup, e: &Estimate) -> Vec<String> {
     let mut list = Doubts::default();

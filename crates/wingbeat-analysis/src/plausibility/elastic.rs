@@ -28,39 +28,23 @@ const IN_STREAM: Limit = Limit {
 };
 
 /// Beyond a tenth of the length the wing turns by some ten degrees, and modes about rest are those of another wing.
-const WEIGHT: Limit = Limit {
-    low: 0.0,
-    high: 0.1,
-    hints: [
-        "",
-        "it hangs down before the air bends it, or falls where a flight begins; `wingbeat modes` leaves weight out but for --steady; are moduli in Pa, EI in N m2, masses in kg?",
-    ],
-};
+const WEIGHT: Limit = Limit::at_most(
+    0.1,
+    "it hangs down before the air bends it, or falls where a flight begins; `wingbeat modes` leaves weight out but for --steady; are moduli in Pa, EI in N m2, masses in kg?",
+);
 
 /// Displacement of the tip of an even cantilever by its weight times `omega^2 / g`, omega its first angular frequency:
 /// `1.8751^4 / 8` [Blevins, Formulas for natural frequency and mode shape, 1979, table 8-1].
 const CANTILEVER: f64 = 1.5453;
 
-const THICKNESS: Limit = Limit {
-    low: 0.0,
-    high: 0.25,
-    hints: ["", "no sheet; is it in m?"],
-};
+const THICKNESS: Limit = Limit::at_most(0.25, "no sheet; is it in m?");
 
-const OFFSET: Limit = Limit {
-    low: 0.0,
-    high: 2.0,
-    hints: ["", "it lies far outside the wing; is offset_m in m?"],
-};
+const OFFSET: Limit = Limit::at_most(2.0, "it lies far outside the wing; is offset_m in m?");
 
-const DAMPING: Limit = Limit {
-    low: 0.0,
-    high: 1.0,
-    hints: [
-        "",
-        "the wing creeps back and does not vibrate; damping_s is twice the damping ratio over the angular frequency",
-    ],
-};
+const DAMPING: Limit = Limit::at_most(
+    1.0,
+    "the wing creeps back and does not vibrate; damping_s is twice the damping ratio over the angular frequency",
+);
 
 /// Panels of a sheet up to which its first frequency takes less than half a second, the elastic body built again.
 const PANELS: usize = 300;

@@ -8,11 +8,7 @@ use wingbeat_flight::{FlightSetup, growing_joint, inertia_about};
 use super::limit::{Doubts, Limit, rounded};
 
 /// Hinges of insects and robots vibrate at one to ten times their wingbeat.
-const RATIO: Limit = Limit {
-    low: 0.0,
-    high: 100.0,
-    hints: ["", "it will not turn; is the stiffness in N m/rad?"],
-};
+const RATIO: Limit = Limit::at_most(100.0, "it will not turn; is the stiffness in N m/rad?");
 
 /// How far beyond a stop a joint may start: rounding of degrees [rad or m].
 const ROUNDING: f64 = 1e-9;

@@ -9,6 +9,15 @@ pub(super) struct Limit {
 }
 
 impl Limit {
+    /// Without a lower limit, of a quantity that is not negative; `hint` says what may be wrong above it.
+    pub const fn at_most(high: f64, hint: &'static str) -> Self {
+        Self {
+            low: 0.0,
+            high,
+            hints: ["", hint],
+        }
+    }
+
     fn doubt(&self, what: &str, x: f64, unit: &str) -> Option<String> {
         let [low, high] = self.hints;
         let (side, hint) = match x {

@@ -33,28 +33,7 @@ pub fn table_model(setup: &FlightSetup) -> Result<LinearModel, AnalysisError> {
         ));
     }
     check_weights(setup)?;
-    let inertia = setup.animal.body.inertia_about_centre();
-    let (along, centre) = (
-        setup.gravity.normalize_or_zero(),
-        setup.animal.body.centre(),
-    );
-    let weight = |load: &AppliedLoad| {
-        let force = load.wrench(0.0, &BodyMotion::REST).force.dot(along);
-        [
-            table.to_body.transpose() * (load.point - centre),
-            force * DVec3::Z,
-        ]
-    };
-    let body = RigidBody {
-        mass: setup.animal.body.mass,
-        inertia: table.to_body.transpose() * inertia * table.to_body,
-        gravity: DVec3::Z * setup.gravity.length(),
-        weights: setup.loads.iter().map(weight).collect(),
-        stream: DVec3::ZERO, // velocities are those through the air
-        momentum: DVec3::ZERO,
-        added_mass: table.added_mass,
-        length: (inertia.col(0).length() / setup.animal.body.mass).sqrt(),
-    };
+    let body = rigid_body(setup, &table);
     let mut reference = [0.0; 9];
     table.velocity.write_to_slice(&mut reference);
     let rates = |x: &[f64]| -> Result<Vec<f64>, AnalysisError> {
@@ -82,6 +61,30 @@ pub fn table_model(setup: &FlightSetup) -> Result<LinearModel, AnalysisError> {
         imbalance: [0.0; 2],
         modes,
     })
+}
+
+/// The body and the weights on it in the axes of the table.
+fn rigid_body(setup: &FlightSetup, table: &DerivativeTable) -> RigidBody {
+    let body = &setup.animal.body;
+    let inertia = body.inertia_about_centre();
+    let (along, centre) = (setup.gravity.normalize_or_zero(), body.centre());
+    let weight = |load: &AppliedLoad| {
+        let force = load.wrench(0.0, &BodyMotion::REST).force.dot(along);
+        [
+            table.to_body.transpose() * (load.point - centre),
+            force * DVec3::Z,
+        ]
+    };
+    RigidBody {
+        mass: body.mass,
+        inertia: table.to_body.transpose() * inertia * table.to_body,
+        gravity: DVec3::Z * setup.gravity.length(),
+        weights: setup.loads.iter().map(weight).collect(),
+        stream: DVec3::ZERO, // velocities are those through the air
+        momentum: DVec3::ZERO,
+        added_mass: table.added_mass,
+        length: (inertia.col(0).length() / body.mass).sqrt(),
+    }
 }
 
 /// Loads about the mass centre, axes of the table, when the body stands in its reference

@@ -5,6 +5,7 @@ pub mod flight_laws;
 pub mod quasi_steady;
 
 use wingbeat_air::Wind;
+use wingbeat_analysis::control::STATES;
 use wingbeat_analysis::*;
 use wingbeat_blade::BladeSettings;
 use wingbeat_flight::*;
@@ -16,6 +17,27 @@ use wingbeat_model::{Animal, MassInput, Side, Wing};
 
 /// Air density [kg/m3].
 pub const RHO: f64 = 1.225;
+
+/// Natural sizes of the states of a regulator: wing length, wingbeat, radian.
+pub fn sizes(trim: &Trim) -> [f64; STATES] {
+    let (length, period) = (trim.beat.wing_length(), trim.beat.period());
+    let sizes = [length, length / period, 1.0 / period, 1.0];
+    std::array::from_fn(|k| sizes[k / 3])
+}
+
+/// The matrix of a linear map of numbers of these natural sizes.
+pub fn matrix(sizes: &[f64], map: impl Fn(&[f64]) -> Vec<f64>) -> Vec<f64> {
+    let n = sizes.len();
+    let mut out = vec![0.0; n * n];
+    for j in 0..n {
+        let mut z = vec![0.0; n];
+        z[j] = sizes[j];
+        for (i, y) in map(&z).into_iter().enumerate() {
+            out[i * n + j] = y / sizes[i];
+        }
+    }
+    out
+}
 
 /// The fruit fly with measured strokes in blade-element air, free, ten strips a wing.
 pub fn fly() -> FlightSetup {

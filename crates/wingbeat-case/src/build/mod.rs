@@ -3,55 +3,35 @@
 //! Every step answers with a [`Fault`] that names the key it is about.
 
 mod air;
-mod blade;
-mod body;
-mod buoyancy;
-mod control;
-mod deformation;
-mod derivatives;
-mod effects;
-mod element;
+mod animal;
+mod checks;
 mod fault;
 mod flight;
-mod hinge;
-mod joint;
-mod lattice;
-mod lengths;
-mod mirrored;
-mod model_keys;
-mod motion;
+mod joints;
 mod names;
 mod numbers;
-mod output;
-mod own_control;
 mod program;
-mod refused;
 pub(crate) mod resolve;
-mod route;
-mod segment;
-mod size;
-mod spacing;
-mod structure;
-mod time;
-mod viscosity;
-mod wind;
-mod wing;
-mod wingless;
 
-pub(crate) use effects::check as check_effects;
-pub(crate) use motion::radians;
+pub(crate) use animal::motion::radians;
+pub(crate) use checks::effects::check as check_effects;
+pub(crate) use checks::refused::refused;
+pub(crate) use flight::output::output;
+pub use flight::output::{OutputSettings, SaveSettings};
+pub use flight::own_control::OwnControl;
+pub(crate) use flight::own_control::own_control;
 pub(crate) use names::check_characters as check_names;
 pub use names::column_name;
-pub(crate) use output::output;
-pub use output::{OutputSettings, SaveSettings};
-pub use own_control::OwnControl;
-pub(crate) use own_control::own_control;
-pub(crate) use refused::refused;
 
 use wingbeat_flight::{CorrectorSettings, FlightSetup};
 use wingbeat_model::{Animal, ModelError, Wing};
 
+use air::buoyancy;
+use animal::{body, segment, wing};
+use checks::size;
 use fault::Built;
+use flight::{control, mechanics, time};
+use joints::joint;
 
 use super::raw::{Case, CorrectorCase, WingInertia};
 use crate::error::Fault;
@@ -64,26 +44,26 @@ pub(crate) fn setup(case: &Case, name: &str) -> Built<FlightSetup> {
     let time = time::grid(case)?;
     names::check(&animal)?;
     let joints = joint::build_all(case, &animal)?;
-    let air = air::model(case, &animal)?;
-    let mut loads = flight::loads(case, &animal)?;
+    let air = air::model::model(case, &animal)?;
+    let mut loads = mechanics::loads(case, &animal)?;
     let buoyancy = buoyancy::loads(case, &air, &animal)?;
     loads.extend(buoyancy.iter().cloned());
     let setup = FlightSetup {
         name: name.to_owned(),
         gravity: case.gravity_m_s2.into(),
         air,
-        mode: flight::mode(case, &time),
+        mode: mechanics::mode(case, &time),
         joints,
-        formulation: flight::formulation(&case.dynamics),
-        integrator: flight::integrator(case)?,
+        formulation: mechanics::formulation(&case.dynamics),
+        integrator: mechanics::integrator(case)?,
         corrector: corrector(&case.corrector),
         loads,
-        springs: flight::springs(case, &animal)?,
+        springs: mechanics::springs(case, &animal)?,
         feedback: control::feedback(case, &buoyancy)?,
         animal,
         time,
     };
-    flight::check_attitudes(case, &setup)?;
+    mechanics::check_attitudes(case, &setup)?;
     if !setup.joints.is_empty() {
         let assembled = wingbeat_flight::check_assembly(&setup);
         assembled.map_err(|e| joint::fault_of(case, &setup, &e))?;

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use wingbeat_dynamics::Joint;
 use wingbeat_model::{Animal, mirror_name};
 
-use super::fault::Built;
+use crate::build::fault::Built;
 use crate::error::Fault;
 use crate::raw::{Case, WingCase};
 use crate::text::nearest::nearest;

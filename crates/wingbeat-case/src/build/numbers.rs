@@ -2,7 +2,7 @@
 
 use wingbeat_math::{DMat3, DVec3, MassProperties};
 
-use super::fault::Built;
+use crate::build::fault::Built;
 use crate::error::Fault;
 
 /// Vector from a list.

@@ -2,7 +2,7 @@
 
 use std::time::Duration;
 
-use super::fault::Built;
+use crate::build::fault::Built;
 use crate::error::Fault;
 use crate::external::Program;
 use crate::raw::ExternalCase;

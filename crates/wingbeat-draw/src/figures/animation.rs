@@ -1,18 +1,20 @@
 //! The flight as a moving picture (GIF or MP4), drawn without a browser: the animal and its wakes from
 //! the right, in front and above, the camera moving with the body.
 
+mod reel;
+
 use std::path::Path;
 
 use wingbeat_math::DVec3;
 
-use super::dots::Dots;
-use super::drawing::{Anchor, COLOURS, Drawing, INK, Stroke};
-use super::font;
-use super::plot;
-use super::reel::{Film, Gif, Reel, SIZE};
-use super::source::Source;
-use super::style::Style;
-use super::wake::{Filaments, SKIN, pen};
+use crate::figures::axes::plot;
+use crate::figures::drawing::font;
+use crate::figures::drawing::style::Style;
+use crate::figures::drawing::{Anchor, COLOURS, Drawing, INK, Stroke};
+use crate::figures::source::Source;
+use crate::figures::stills::dots::Dots;
+use crate::figures::stills::wake::{Filaments, SKIN, pen};
+use reel::{Film, Gif, Reel, SIZE};
 use wingbeat_case::IoError;
 use wingbeat_case::LoadedCase;
 use wingbeat_results::frames::{self, Frame};
@@ -192,7 +194,7 @@ fn words(to: &mut Drawing, case: &LoadedCase, time: f64) {
     let end = 12.0 + SIZE[0] / WING_LENGTHS;
     let y = SIZE[1] - 26.0;
     to.line(vec![[12.0, y], [end, y]], Stroke::solid(INK, 1.5));
-    let (scale, prefix) = super::units::prefix(&[length]);
+    let (scale, prefix) = crate::figures::axes::units::prefix(&[length]);
     let text = format!("{:.1} {prefix}m", length / scale);
     to.text([12.0, y + 16.0], &text, 12.0, Anchor::Start);
 }

@@ -1,54 +1,30 @@
 //! Figures of a run, drawn from its history and its frames: units on axes, colours that
 //! colour-blind readers can tell apart (Okabe & Ito 2008).
 //!
-//! The chapter in order: a drawing is a list of marks (`drawing`), which become SVG (`svg`) or
-//! pixels (`raster`, `font`); `style` says how large and thick; `ticks`, `plot`, `grid` and
-//! [`Chart`] make axes; the kinds of figures stand in `kinds`, `beats`, `lollipop`, `phase`,
-//! `wake` and `animation`; `order` is what is asked for, `source` what it is drawn from.
+//! The chapter in order: a drawing is a list of marks (`drawing`), which become SVG, PDF or pixels; `axes` are
+//! plots and [`Chart`]s; the kinds of figures stand in `over_time`, `stills` and `animation`; `order` is what is
+//! asked for, `source` what it is drawn from.
 
 mod animation;
-mod beats;
-mod bending;
-mod chart;
-mod dark;
-mod dots;
+mod axes;
 mod drawing;
-mod font;
-mod grid;
-mod kinds;
-mod lollipop;
-mod measure;
 mod order;
-mod part;
-mod path;
-mod pdf;
-mod phase;
-mod plot;
-mod raster;
-mod reel;
-mod shades;
+mod over_time;
 mod source;
 pub mod stabilised;
-mod strokes;
-mod style;
-mod svg;
+mod stills;
 pub mod swept;
-mod ticks;
-mod units;
-mod wake;
-mod window;
-mod wing_angles;
 
 use std::path::{Path, PathBuf};
 
-pub use chart::{Chart, Panel, Series};
+pub use axes::chart::{Chart, Panel, Series};
 use drawing::Drawing;
+pub use drawing::style::Style;
 pub use order::{Format, Kind, Order};
-pub(crate) use part::TimeWindow;
-pub(crate) use strokes::stroke_columns;
-pub use style::Style;
-pub(crate) use window::charts;
-pub use window::{NamedCharts, Window, charts_of};
+pub(crate) use over_time::part::TimeWindow;
+pub(crate) use over_time::strokes::stroke_columns;
+pub(crate) use over_time::window::charts;
+pub use over_time::window::{NamedCharts, Window, charts_of};
 use wingbeat_case::IoError;
 use wingbeat_case::LoadedCase;
 use wingbeat_results::file::{NewFile, make_folder, write_file};

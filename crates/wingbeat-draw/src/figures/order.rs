@@ -4,8 +4,8 @@ use std::path::PathBuf;
 
 use wingbeat_results::file::Existing;
 
-use super::style::Style;
-use super::window::Window;
+use crate::figures::drawing::style::Style;
+use crate::figures::over_time::window::Window;
 
 /// What a figure shows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

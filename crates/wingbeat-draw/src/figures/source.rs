@@ -3,13 +3,13 @@
 use std::ops::Range;
 use std::path::Path;
 
-use super::chart::Chart;
-use super::drawing::Drawing;
-use super::order::Kind;
-use super::part::TimeWindow;
-use super::style::Style;
-use super::window::{Window, charts};
-use super::{beats, lollipop, path, phase, wake};
+use crate::figures::axes::chart::Chart;
+use crate::figures::drawing::Drawing;
+use crate::figures::drawing::style::Style;
+use crate::figures::order::Kind;
+use crate::figures::over_time::part::TimeWindow;
+use crate::figures::over_time::window::{Window, charts};
+use crate::figures::stills::{beats, lollipop, path, phase, wake};
 use wingbeat_case::{IoError, LoadedCase};
 use wingbeat_results::rows::Rows;
 use wingbeat_results::summary::BeatMeans;

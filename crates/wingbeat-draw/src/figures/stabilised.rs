@@ -2,7 +2,7 @@
 
 use wingbeat_math::DVec3;
 
-use super::{Chart, Panel, Series};
+use super::{Chart, Panel};
 
 /// What is seen at the start of a wingbeat.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -32,39 +32,30 @@ pub fn stabilised(name: &str, length: f64, rows: &[BeatRow]) -> String {
 }
 
 fn panels(length: f64, rows: &[BeatRow]) -> Vec<Panel> {
-    let series = |label: &str, value: &dyn Fn(&BeatRow) -> f64| Series {
-        label: label.into(),
-        values: rows.iter().map(value).collect(),
-        measured: false,
-    };
-    let panel = |label: &str, series: Vec<Series>| Panel {
-        label: label.into(),
-        series,
-        ..Panel::default()
-    };
+    let each = |value: &dyn Fn(&BeatRow) -> f64| rows.iter().map(value).collect();
     vec![
-        panel(
+        Panel::new(
             "tilt [deg]",
             vec![
-                series("roll", &|r| r.tilt.x.to_degrees()),
-                series("pitch", &|r| r.tilt.y.to_degrees()),
-                series("heading", &|r| r.tilt.z.to_degrees()),
+                ("roll", each(&|r| r.tilt.x.to_degrees())),
+                ("pitch", each(&|r| r.tilt.y.to_degrees())),
+                ("heading", each(&|r| r.tilt.z.to_degrees())),
             ],
         ),
-        panel(
+        Panel::new(
             "place [wing lengths]",
             vec![
-                series("forward", &|r| r.position.x / length),
-                series("right", &|r| r.position.y / length),
-                series("up", &|r| -r.position.z / length),
+                ("forward", each(&|r| r.position.x / length)),
+                ("right", each(&|r| r.position.y / length)),
+                ("up", each(&|r| -r.position.z / length)),
             ],
         ),
-        panel(
+        Panel::new(
             "commands",
             vec![
-                series("amplitude left [%]", &|r| 100.0 * r.amplitude[0]),
-                series("amplitude right [%]", &|r| 100.0 * r.amplitude[1]),
-                series("mean stroke [deg]", &|r| r.offset.to_degrees()),
+                ("amplitude left [%]", each(&|r| 100.0 * r.amplitude[0])),
+                ("amplitude right [%]", each(&|r| 100.0 * r.amplitude[1])),
+                ("mean stroke [deg]", each(&|r| r.offset.to_degrees())),
             ],
         ),
     ]

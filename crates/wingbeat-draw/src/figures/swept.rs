@@ -1,6 +1,6 @@
 //! The figure of a sweep of trims: power, stroke and attitude against speed.
 
-use super::{Chart, Panel, Series};
+use super::{Chart, Panel};
 
 /// A trimmed flight of the sweep.
 #[derive(Clone, Debug, PartialEq)]
@@ -22,16 +22,7 @@ pub struct SpeedRow {
 /// The figure as SVG: speeds at which wings pass through each other are shaded, and the title has the one at which no
 /// trim was found (`lost` [m/s]), beyond which there is none.
 pub fn swept(name: &str, rows: &[SpeedRow], lost: Option<f64>) -> String {
-    let series = |label: &str, value: &dyn Fn(&SpeedRow) -> f64| Series {
-        label: label.into(),
-        values: rows.iter().map(value).collect(),
-        measured: false,
-    };
-    let panel = |label: &str, series: Vec<Series>| Panel {
-        label: label.into(),
-        series,
-        ..Panel::default()
-    };
+    let each = |value: &dyn Fn(&SpeedRow) -> f64| rows.iter().map(value).collect();
     let shaded = crossing(rows);
     let grey = match shaded.is_empty() {
         true => "",
@@ -47,25 +38,25 @@ pub fn swept(name: &str, rows: &[SpeedRow], lost: Option<f64>) -> String {
         x: rows.iter().map(|r| r.forward).collect(),
         shaded,
         panels: vec![
-            panel(
+            Panel::new(
                 "power [W/kg]",
                 vec![
-                    series("against the air", &|r| r.power[0]),
-                    series("muscles, perfect elastic storage", &|r| r.power[1]),
-                    series("muscles, no elastic storage", &|r| r.power[2]),
+                    ("against the air", each(&|r| r.power[0])),
+                    ("muscles, perfect elastic storage", each(&|r| r.power[1])),
+                    ("muscles, no elastic storage", each(&|r| r.power[2])),
                 ],
             ),
-            panel(
+            Panel::new(
                 "stroke [deg]",
-                vec![series("end to end", &|r| r.stroke_amplitude.to_degrees())],
+                vec![("end to end", each(&|r| r.stroke_amplitude.to_degrees()))],
             ),
-            panel(
+            Panel::new(
                 "frequency [Hz]",
-                vec![series("wingbeats", &|r| r.frequency)],
+                vec![("wingbeats", each(&|r| r.frequency))],
             ),
-            panel(
+            Panel::new(
                 "pitch [deg]",
-                vec![series("body", &|r| r.body_pitch.to_degrees())],
+                vec![("body", each(&|r| r.body_pitch.to_degrees()))],
             ),
         ],
     };

@@ -26,6 +26,24 @@ impl BodyMotion {
         w: DVec3::ZERO,
     };
 
+    /// Position \[m\], rotation R_NB row by row, velocity [m/s], angular velocity [rad/s], in components as the
+    /// fields.
+    ///
+    /// ```
+    /// use wingbeat_math::{BodyMotion, DVec3, r3};
+    /// let m = BodyMotion { p: DVec3::X, r: r3(std::f64::consts::FRAC_PI_2), w: DVec3::Z, ..BodyMotion::REST };
+    /// let numbers = m.numbers();
+    /// assert_eq!((numbers[0], numbers[4], numbers[17]), (1.0, -1.0, 1.0)); // b2 points against n1
+    /// ```
+    pub fn numbers(&self) -> [f64; 18] {
+        let mut all = [0.0; 18];
+        self.p.write_to_slice(&mut all);
+        self.r.transpose().write_cols_to_slice(&mut all[3..]);
+        self.v.write_to_slice(&mut all[12..]);
+        self.w.write_to_slice(&mut all[15..]);
+        all
+    }
+
     /// Position in N \[m\] of the point `r` \[m\] of the body frame (seed eq. 3).
     ///
     /// ```

@@ -7,7 +7,7 @@
 //! or more. Edges that are straight lines between the lines of the mesh stay as they are.
 
 use crate::error::ModelError;
-use crate::integrate::GAUSS;
+use crate::mesh::integrate::GAUSS;
 use crate::planform::edges::{Curve, Edges, widened};
 use wingbeat_math::DenseLu;
 

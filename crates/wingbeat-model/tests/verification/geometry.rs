@@ -1,8 +1,9 @@
 //! Surfaces of revolution are closed, outward, symmetric and converge to their solids.
 
 use wingbeat_math::DVec3;
+use wingbeat_model::mesh::integrate;
 use wingbeat_model::species::{FlyOptions, drosophila_melanogaster};
-use wingbeat_model::{Profile, QuadMesh, Revolution, integrate};
+use wingbeat_model::{Profile, QuadMesh, Revolution};
 
 fn shapes() -> Vec<Revolution> {
     let base = Revolution::ellipsoid(DVec3::new(0.3, 0.0, -0.2), 2.0, 0.5, [6, 8]);

@@ -2,7 +2,8 @@
 
 use crate::gap;
 use wingbeat_math::DVec3;
-use wingbeat_model::{ModelError, import, integrate};
+use wingbeat_model::ModelError;
+use wingbeat_model::mesh::{import, integrate};
 
 /// A box 1 x 2 x 3 whose faces are quadrilaterals; `faces` may replace them.
 fn obj_box(faces: &str) -> String {

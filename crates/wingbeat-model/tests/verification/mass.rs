@@ -2,10 +2,11 @@
 
 use crate::gap;
 use wingbeat_math::{DMat3, DVec3, MassProperties, r1, r3};
+use wingbeat_model::mesh::integrate;
 use wingbeat_model::species::{FlyOptions, drosophila_melanogaster};
 use wingbeat_model::{
     Animal, BodyMass, BodyPart, MassInput, Planform, Profile, QuadMesh, Revolution, Side,
-    WingShape, fit_body_length, integrate,
+    WingShape, fit_body_length,
 };
 
 /// A box of edges `e` with its lowest corner at `p`.

@@ -80,7 +80,7 @@ pub fn add_velocity(model: CoreModel, segments: &Segments, targets: &Points, out
             let (a, b) = (segments.a(i), segments.b(i));
             v += segment_velocity(model, p, a, b, segments.gamma[i], segments.core[i]);
         }
-        out.set(t, out.get(t) + v);
+        out.add(t, v);
     }
 }
 

@@ -211,6 +211,6 @@ fn cost([far, near]: [u64; 2], points: usize, targets: usize) -> u64 {
 /// Adds three of the six numbers at each target.
 fn add_part(sums: &[[f64; 6]], first: usize, out: &mut Points) {
     for (i, sum) in sums.iter().enumerate() {
-        out.set(i, out.get(i) + DVec3::from_slice(&sum[first..]));
+        out.add(i, DVec3::from_slice(&sum[first..]));
     }
 }

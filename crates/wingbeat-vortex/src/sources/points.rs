@@ -48,6 +48,11 @@ impl Points {
         (self.x[i], self.y[i], self.z[i]) = (p.x, p.y, p.z);
     }
 
+    /// Adds `p` to point `i`.
+    pub fn add(&mut self, i: usize, p: DVec3) {
+        self.set(i, self.get(i) + p);
+    }
+
     /// Appends a point.
     pub fn push(&mut self, p: DVec3) {
         self.x.push(p.x);

@@ -129,7 +129,7 @@ impl Groups {
     pub fn add_to(&self, out: &mut Points) {
         for (item, v) in self.items.iter().zip(self.sums.iter()) {
             let i = item.index as usize;
-            out.set(i, out.get(i) + v);
+            out.add(i, v);
         }
     }
 }

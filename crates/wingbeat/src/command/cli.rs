@@ -6,11 +6,12 @@ use clap::builder::styling::{AnsiColor, Styles};
 use clap::{Args, Parser, Subcommand};
 use clap_complete::Shell;
 
-use super::report::ReportArgs;
-use super::target::folder;
-use super::{
-    analyse, campaign, check, ensemble, export, new, plot, run, show, velocity, verify, view,
-};
+use super::case::{check, new};
+use super::flight::{ensemble, run};
+use super::output::report::ReportArgs;
+use super::output::target::folder;
+use super::result::{export, plot, show, velocity, view};
+use super::{analyse, campaign, verify};
 
 /// Columns of the help at most.
 pub(crate) const MAX_WIDTH: usize = 100;

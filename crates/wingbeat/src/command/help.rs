@@ -13,8 +13,8 @@ use wingbeat::results::file::{Existing, NewFile, make_folder};
 use wingbeat::results::summary::broken;
 
 use crate::command::cli::{Cli, MAX_WIDTH, ManArgs, STYLES};
-use crate::command::failure::Failure;
-use crate::command::terminal::{self, say};
+use crate::command::output::failure::Failure;
+use crate::command::output::terminal::{self, say};
 
 /// Name of the program.
 const PROGRAM: &str = "wingbeat";

@@ -4,37 +4,27 @@
 
 mod analyse;
 mod campaign;
-mod check;
+mod case;
 mod cli;
-mod ensemble;
-mod expectation;
-mod export;
-mod failure;
+mod flight;
 mod help;
-mod new;
 mod options;
-mod pace;
-mod plot;
+mod output;
 mod progress;
-mod report;
-mod run;
-mod show;
+mod result;
 mod signals;
-mod target;
-mod terminal;
-mod velocity;
 mod verify;
-mod view;
-mod watch;
 
 use std::ffi::OsString;
 
 use clap::FromArgMatches;
-use wingbeat::case;
 
+use case::{check, new};
 use cli::{Cli, Command};
-use failure::Failure;
-use terminal::say;
+use flight::{ensemble, run as fly};
+use output::failure::Failure;
+use output::terminal::{self, say};
+use result::{export, plot, show, velocity, view};
 
 /// Does what the command line `args` says, the name of the program first; the exit code. It is made
 /// to be called once, at the start of a process: threads and signals are set up for all of it.
@@ -54,8 +44,8 @@ pub fn main(args: impl IntoIterator<Item = OsString>) -> u8 {
 
 fn run(command: Command) -> Result<(), Failure> {
     match command {
-        Command::Run(args) => run::run(&args),
-        Command::Resume(args) => run::resume(&args),
+        Command::Run(args) => fly::run(&args),
+        Command::Resume(args) => fly::resume(&args),
         Command::View(args) => view::view(&args),
         Command::Plot(args) => plot::plot(&args),
         Command::Export(args) => export::export(&args),
@@ -76,7 +66,7 @@ fn run(command: Command) -> Result<(), Failure> {
         Command::Presets(args) => new::list(&args),
         Command::New(args) => new::new(&args),
         Command::Schema => {
-            say!("{}", case::schema());
+            say!("{}", wingbeat::case::schema());
             Ok(())
         }
         Command::Completions { shell } => {

@@ -6,8 +6,8 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use signal_hook::consts::{SIGINT, SIGTERM};
 
-use crate::command::failure::INTERRUPTED;
-use crate::command::terminal::tell;
+use crate::command::output::failure::INTERRUPTED;
+use crate::command::output::terminal::tell;
 
 /// What the first signal sets. Signals that are ignored when the program starts stay ignored:
 /// `nohup wingbeat run` outlives its terminal, `wingbeat run &` in a script the Ctrl-C meant for

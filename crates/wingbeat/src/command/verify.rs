@@ -11,10 +11,10 @@ use wingbeat::draw::figures::{Chart, Panel, Series};
 use wingbeat::results::file::{Existing, NewFile, write_file};
 use wingbeat::verify::{Case, Comparison, Entry, Report};
 
-use crate::command::failure::{FAILED, Failure};
-use crate::command::target::folder;
-use crate::command::terminal::{say, tell};
-use crate::command::watch::Watch;
+use crate::command::output::failure::{FAILED, Failure};
+use crate::command::output::target::folder;
+use crate::command::output::terminal::{say, tell};
+use crate::command::progress::watch::Watch;
 
 /// Arguments of `wingbeat verify`.
 #[derive(Args)]

@@ -3,10 +3,10 @@
 use wingbeat::Flight;
 use wingbeat::analysis::control::{Regulator, Weights};
 use wingbeat::analysis::{trim, trim_from};
-use wingbeat::case::LoadedCase;
 use wingbeat::flight::{FlightSetup, Simulation};
 
 use super::beats;
+use crate::support::preset;
 
 /// Kick of the body's pitch at the release \[deg\].
 const KICK: f64 = 1.0;
@@ -22,9 +22,7 @@ fn nodding(beats: usize, set: &[&str]) -> FlightSetup {
         "control.controller=regulator",
         &time,
     ];
-    let set: Vec<String> = all.iter().chain(set).map(|s| (*s).to_owned()).collect();
-    let case = LoadedCase::find("fruit-fly-abdomen-spring", &set);
-    case.unwrap_or_else(|e| panic!("{e}")).setup
+    preset("fruit-fly-abdomen-spring", &[&all[..], set].concat()).setup
 }
 
 /// Pitch at the release of the trimmed flight, with a kick \[deg\].

@@ -4,6 +4,7 @@ use wingbeat::case::LoadedCase;
 use wingbeat::flight::{FlightSetup, FlightState, Simulation};
 
 use super::{BLADES, PRESET, case, in_blades};
+use crate::support::strings;
 
 #[test]
 fn refuses_what_control_cannot_do_by_name() {
@@ -97,8 +98,9 @@ fn refuses_what_control_cannot_do_by_name() {
         ),
     ];
     for (set, key) in wrong {
-        let set: Vec<String> = set.iter().map(|s| (*s).to_owned()).collect();
-        let error = LoadedCase::find(PRESET, &set).unwrap_err().to_string();
+        let error = LoadedCase::find(PRESET, &strings(set))
+            .unwrap_err()
+            .to_string();
         assert!(error.contains(key), "{set:?}: {error}");
         assert!(
             error.contains("try") || error.contains("did you mean"),

@@ -11,12 +11,11 @@ use wingbeat::flight::Simulation;
 use wingbeat::math::DVec3;
 use wingbeat::{Flight, ensemble};
 
-use crate::support::Scratch;
+use crate::support::{Scratch, preset};
 
 fn fly(set: &[&str]) -> LoadedCase {
     let all = ["time.steps_per_beat=40", "control.controller=regulator"];
-    let set: Vec<String> = all.iter().chain(set).map(|s| (*s).to_owned()).collect();
-    LoadedCase::find("fruit-fly-blade", &set).unwrap_or_else(|e| panic!("{e}"))
+    preset("fruit-fly-blade", &[&all[..], set].concat())
 }
 
 /// A case that was trimmed in forward flight goes on with the speed that it was trimmed at; it braked to hover.

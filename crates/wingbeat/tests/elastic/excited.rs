@@ -1,10 +1,11 @@
 //! Torsion of a wing in a stream, in quasi-steady blade elements: what the moments of the air make of it.
 
 use std::f64::consts::PI;
-use std::path::Path;
 
 use wingbeat::case::LoadedCase;
 use wingbeat::flight::{DoubtKind, Simulation};
+
+use crate::support::case_of;
 
 /// A clamped even wing that bends little and twists about 0.4 of its chord, in thin-airfoil strips.
 const CASE: &str = r#"
@@ -45,8 +46,7 @@ mass_kg_per_m = [0.0133, 0.0133]
 "#;
 
 fn case(set: &[&str]) -> LoadedCase {
-    let set: Vec<String> = set.iter().map(|s| (*s).to_owned()).collect();
-    LoadedCase::from_text("torsion", CASE, Path::new("."), &set).unwrap()
+    case_of("torsion", CASE, set)
 }
 
 /// Growth [1/s] and angular frequency [rad/s] of the twist of the tip about its mean, from the first and last third.

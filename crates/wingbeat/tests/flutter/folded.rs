@@ -3,11 +3,10 @@
 use std::f64::consts::{PI, TAU};
 
 use wingbeat::analysis::flutter::{Condition, FlutterSettings, Vibration};
-use wingbeat::case::LoadedCase;
 
 use super::alone;
 use super::theodorsen::{scaled, sum, theodorsen, times};
-use crate::support::strips;
+use crate::support::{case_of, strips};
 
 /// A slender wing (Tang & Dowell 2001, AIAA J. 39:1430, without the body at its tip), mass and elastic axes at mid chord, in strips.
 fn slender() -> String {
@@ -59,8 +58,7 @@ fn torsion(speed: f64) -> [f64; 2] {
 
 #[test]
 fn agrees_torsion_sampled_less_than_twice_a_period_with_p_k_and_with_finer_samples() {
-    let case =
-        LoadedCase::from_text("slender", &slender(), std::path::Path::new("."), &[]).unwrap();
+    let case = case_of("slender", &slender(), &[]);
     let speed = 40.0;
     let of = |modes: usize| {
         let settings = FlutterSettings {

@@ -1,9 +1,8 @@
 //! The slender wing of Patil, Hodges & Cesnik (2001) in strips: flutter at 32.2 m/s, divergence at 37.15 m/s.
 
 use wingbeat::analysis::flutter::{Condition, FlutterSettings, crossings};
-use wingbeat::case::LoadedCase;
 
-use crate::support::strips;
+use crate::support::{case_of, strips};
 
 fn hale() -> String {
     strips(
@@ -31,9 +30,7 @@ inertia_kg_m = [0.1, 0.1]",
 }
 
 fn at(set: &[&str], speed: f64, settings: &FlutterSettings) -> Condition {
-    let set: Vec<String> = set.iter().map(|s| (*s).to_owned()).collect();
-    let case = LoadedCase::from_text("hale", &hale(), std::path::Path::new("."), &set).unwrap();
-    super::alone(&case.setup, speed, settings)
+    super::alone(&case_of("hale", &hale(), set).setup, speed, settings)
 }
 
 /// Without incidence.

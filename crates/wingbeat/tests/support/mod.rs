@@ -8,6 +8,8 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
+use wingbeat::case::LoadedCase;
+
 pub mod readers;
 
 /// A folder of its own, removed at the end.
@@ -57,6 +59,22 @@ pub fn flown(dir: &Path, args: &[&str]) {
     let out = wingbeat(dir, args);
     let said = String::from_utf8_lossy(&out.stderr);
     assert!(out.status.success(), "{args:?}: {said}");
+}
+
+/// `KEY=VALUE` of a case as the library takes them.
+pub fn strings(set: &[&str]) -> Vec<String> {
+    set.iter().map(|s| (*s).to_owned()).collect()
+}
+
+/// The case of a text with these keys set.
+pub fn case_of(name: &str, text: &str, set: &[&str]) -> LoadedCase {
+    let case = LoadedCase::from_text(name, text, Path::new("."), &strings(set));
+    case.unwrap_or_else(|e| panic!("{name}: {e}"))
+}
+
+/// The preset with these keys set.
+pub fn preset(name: &str, set: &[&str]) -> LoadedCase {
+    LoadedCase::find(name, &strings(set)).unwrap_or_else(|e| panic!("{name}: {e}"))
 }
 
 /// A case without air, 8 steps long, as `case.toml`; its name is `good`.

@@ -8,6 +8,7 @@ use wingbeat::case::LoadedCase;
 use wingbeat::flight::Simulation;
 
 use super::{CASE, strings};
+use crate::support::case_of;
 
 /// A sheet 2 cm x 6 cm without lateral contraction, of the mass of the wing.
 const SHEET: [&str; 3] = [
@@ -195,7 +196,7 @@ fn limit_frequencies_of_a_film_under_tension_without_loads() {
              structure.shell = {{ young_pa = 70e9, density_kg_m3 = 2700, thickness_m = [1e-3, 1e-3], \
              clamped_perimeter = true, prestress_newton_per_m = [500, 500], bending_factor = 1e-4 }}\n"
         );
-        LoadedCase::from_text("film", &text, Path::new("."), &[]).unwrap()
+        case_of("film", &text, &[])
     };
     let speed = (500.0_f64 / 2.7).sqrt();
     let errors = [[6, 12], [12, 24]].map(|[chordwise, spanwise]| {

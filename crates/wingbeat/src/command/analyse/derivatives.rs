@@ -3,9 +3,10 @@
 use serde_json::{Value, json};
 use wingbeat::analysis::trimmed_controls;
 
-use super::trimming::{Trimming, trimmed, watched};
-use crate::command::failure::Failure;
-use crate::command::report::{Report, line};
+use super::trimming::{Trimming, trimmed};
+use crate::command::output::failure::Failure;
+use crate::command::output::report::{Report, line};
+use crate::command::progress::watch::watched;
 
 /// The whole command.
 pub(crate) fn run(args: &Trimming) -> Result<(), Failure> {

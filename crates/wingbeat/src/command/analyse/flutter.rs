@@ -13,11 +13,11 @@ use wingbeat::analysis::flutter::{
 use wingbeat::case::LoadedCase;
 
 use self::table::{head, notes, tell};
-use super::trimming::watched;
-use crate::command::failure::Failure;
 use crate::command::options::{self, CaseArgs};
-use crate::command::report::{Report, ReportArgs, line};
-use crate::command::terminal::tell as announce;
+use crate::command::output::failure::Failure;
+use crate::command::output::report::{Report, ReportArgs, line};
+use crate::command::output::terminal::tell as announce;
+use crate::command::progress::watch::watched;
 
 /// Arguments of `wingbeat flutter`.
 #[derive(Args)]

@@ -10,8 +10,8 @@ use wingbeat::flight::{FlightSetup, MotionMode};
 use wingbeat::math::{DVec3, larger};
 use wingbeat::results::fixed::signed;
 
-use crate::command::report::{Report, line};
-use crate::command::terminal::tell;
+use crate::command::output::report::{Report, line};
+use crate::command::output::terminal::tell;
 
 /// The trim: what was found, and the setup with it.
 pub(super) fn tell(

@@ -10,11 +10,11 @@ use wingbeat::analysis::flutter::ElasticRig;
 use wingbeat::analysis::{About, Alike, WingMode, WingModes, wing_modes};
 use wingbeat::model::Wing;
 
-use super::trimming::watched;
-use crate::command::failure::Failure;
 use crate::command::options::{self, CaseArgs};
-use crate::command::report::{Report, ReportArgs, line};
-use crate::command::terminal::tell as announce;
+use crate::command::output::failure::Failure;
+use crate::command::output::report::{Report, ReportArgs, line};
+use crate::command::output::terminal::tell as announce;
+use crate::command::progress::watch::watched;
 
 /// Relative difference of frequencies up to which two wings count as one \[1\]: rounding of mirror images.
 const SAME: f64 = 1e-6;

@@ -5,10 +5,11 @@ use serde_json::{Map, json};
 use wingbeat::analysis::{Power, PowerQuantity, power_of_trim, power_with_wake};
 use wingbeat::results::summary::prefix;
 
-use super::trimming::{Trimming, trimmed, trimmed_with_wake, watched};
-use crate::command::failure::Failure;
+use super::trimming::{Trimming, trimmed, trimmed_with_wake};
 use crate::command::options;
-use crate::command::report::{Report, line};
+use crate::command::output::failure::Failure;
+use crate::command::output::report::{Report, line};
+use crate::command::progress::watch::watched;
 
 /// Part of the aerodynamic power from which on the inertial one is said to be as good as the mass of the wings.
 const INERTIAL: f64 = 0.25;

@@ -16,13 +16,13 @@ use wingbeat::flight::Controller;
 use wingbeat::math::DVec3;
 use wingbeat::results::fixed::fixed;
 
-use super::trimming::{Trimming, trimmed, unused, watched};
+use super::trimming::{Trimming, trimmed, unused};
 use super::tumbling;
-use crate::command::failure::Failure;
 use crate::command::options;
-use crate::command::report::{Report, line};
-use crate::command::target::Target;
-use crate::command::watch::Watch;
+use crate::command::output::failure::Failure;
+use crate::command::output::report::{Report, line};
+use crate::command::output::target::Target;
+use crate::command::progress::watch::{Watch, watched};
 
 /// Wingbeats of a flight at most.
 const MAX_BEATS: usize = 100_000;

@@ -15,11 +15,12 @@ use wingbeat::case::derivative_case;
 use wingbeat::flight::AirModel;
 use wingbeat::results::fixed::{fixed, signed};
 
-use super::trimming::{Trimming, trimmed, trimmed_with_wake, unused, watched};
-use crate::command::failure::Failure;
+use super::trimming::{Trimming, trimmed, trimmed_with_wake, unused};
 use crate::command::options;
-use crate::command::report::{Report, line};
-use crate::command::target::Target;
+use crate::command::output::failure::Failure;
+use crate::command::output::report::{Report, line};
+use crate::command::output::target::Target;
+use crate::command::progress::watch::watched;
 
 /// Arguments of `wingbeat stability`.
 #[derive(Args)]

@@ -6,10 +6,11 @@ use wingbeat::draw::figures::swept::{SpeedRow, swept};
 use wingbeat::math::DVec3;
 
 use super::found::{sideslip_and_turn, values, why};
-use super::trimming::{Trimming, watched};
-use crate::command::failure::{FAILED, Failure};
-use crate::command::report::{Report, line};
-use crate::command::target::Target;
+use super::trimming::Trimming;
+use crate::command::output::failure::{FAILED, Failure};
+use crate::command::output::report::{Report, line};
+use crate::command::output::target::Target;
+use crate::command::progress::watch::watched;
 
 /// Trims from speed to speed, reports, and draws.
 pub(super) fn run(

@@ -7,9 +7,9 @@ use wingbeat::case::{lacks_feedback, trimmed_case, wake_trimmed_case};
 
 use super::sweeping;
 use super::trimming::{Trimming, trimmed, trimmed_with_wake};
-use crate::command::failure::Failure;
 use crate::command::options;
-use crate::command::report::line;
+use crate::command::output::failure::Failure;
+use crate::command::output::report::line;
 
 /// Speeds of a sweep at most, and unless told otherwise.
 const MAX_POINTS: usize = 1000;

@@ -10,12 +10,12 @@ use wingbeat::case::{IoError, LoadedCase};
 use wingbeat::math::DVec3;
 
 use super::found;
-use crate::command::failure::{FAILED, Failure};
+use crate::command::case::programs::name_program;
 use crate::command::options::{self, CaseArgs};
-use crate::command::report::{Report, ReportArgs, line};
-use crate::command::run::name_program;
-use crate::command::terminal::tell;
-use crate::command::watch::Watch;
+use crate::command::output::failure::{FAILED, Failure};
+use crate::command::output::report::{Report, ReportArgs, line};
+use crate::command::output::terminal::tell;
+use crate::command::progress::watch::watched;
 
 /// Wingbeats of the hold at most.
 const MAX_HELD: usize = 100;
@@ -206,12 +206,6 @@ impl Trimming {
             _ => Ok(()),
         }
     }
-}
-
-/// Does something while its progress is shown.
-pub(crate) fn watched<T>(what: &str, work: impl FnOnce() -> T) -> T {
-    let _watch = Watch::new(what);
-    work()
 }
 
 /// Loads the case and trims it; reports the trim.

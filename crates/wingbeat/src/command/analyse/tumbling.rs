@@ -4,7 +4,7 @@ use serde_json::{Value, json};
 use wingbeat::analysis::Trim;
 use wingbeat::analysis::episode::{CALM_BEATS, CALM_SPEED, CALM_TILT, Recoveries, Recovery};
 
-use crate::command::report::{Report, line};
+use crate::command::output::report::{Report, line};
 
 /// Upper ends of the classes of tilt at the start, degrees: beyond 1.2 rad about each of three axes there are none.
 const CLASSES: [f64; 4] = [30.0, 60.0, 90.0, 120.0];

@@ -8,8 +8,8 @@ use wingbeat::campaign::{Campaign, Store};
 use wingbeat::case::{IoError, operand, shell_path};
 use wingbeat::results::RESULTS;
 
-use crate::command::failure::Failure;
-use crate::command::target::folder;
+use crate::command::output::failure::Failure;
+use crate::command::output::target::folder;
 
 /// A campaign and its directory.
 #[derive(Args, Clone)]

@@ -8,11 +8,11 @@ use wingbeat::campaign::{Campaign, Cost};
 
 use super::args::duration;
 use super::master::processors;
-use crate::command::analyse::trimming::watched;
-use crate::command::failure::Failure;
 use crate::command::options;
-use crate::command::report::{Report, ReportArgs, entry, line};
-use crate::command::terminal::tell;
+use crate::command::output::failure::Failure;
+use crate::command::output::report::{Report, ReportArgs, entry, line};
+use crate::command::output::terminal::tell;
+use crate::command::progress::watch::watched;
 
 /// Arguments of `wingbeat campaign check`.
 #[derive(Args)]

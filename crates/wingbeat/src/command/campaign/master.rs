@@ -15,9 +15,9 @@ use indicatif::{ProgressBar, ProgressDrawTarget};
 use wingbeat::case::operand;
 
 use super::args::duration;
-use crate::command::failure::{FAILED, Failure, INTERRUPTED};
-use crate::command::progress::bar;
-use crate::command::terminal::tell;
+use crate::command::output::failure::{FAILED, Failure, INTERRUPTED};
+use crate::command::output::terminal::tell;
+use crate::command::progress::bar::bar;
 
 /// Time between two looks at the processes.
 const LOOK: Duration = Duration::from_millis(20);

@@ -13,8 +13,8 @@ mod work;
 use clap::{Args, Subcommand};
 use wingbeat::campaign::schema;
 
-use crate::command::failure::Failure;
-use crate::command::terminal::say;
+use crate::command::output::failure::Failure;
+use crate::command::output::terminal::say;
 
 /// Arguments of `wingbeat campaign`.
 #[derive(Args)]

@@ -10,8 +10,8 @@ use wingbeat::case::IoError;
 use wingbeat::results::file::{Existing, NewFile};
 
 use super::args::{Place, PointSelection};
-use crate::command::failure::{FAILED, Failure};
-use crate::command::terminal::{output, say, tell};
+use crate::command::output::failure::{FAILED, Failure};
+use crate::command::output::terminal::{output, say, tell};
 
 /// Arguments of `wingbeat campaign plan`.
 #[derive(Args)]

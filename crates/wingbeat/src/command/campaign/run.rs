@@ -5,11 +5,11 @@ use wingbeat::campaign::{Campaign, Status, Store, inspect, left, plan_name};
 
 use super::args::{Place, PointSelection};
 use super::master::{Master, processors};
-use crate::command::failure::{Failure, INTERRUPTED};
+use crate::command::case::programs::name_program;
 use crate::command::options;
-use crate::command::run::name_program;
+use crate::command::output::failure::{Failure, INTERRUPTED};
+use crate::command::output::terminal::{say, tell};
 use crate::command::signals::stop_flag;
-use crate::command::terminal::{say, tell};
 
 /// Arguments of `wingbeat campaign run`.
 #[derive(Args)]

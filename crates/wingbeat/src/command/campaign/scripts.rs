@@ -6,9 +6,9 @@ use wingbeat::campaign::Engine;
 use wingbeat::case::operand;
 
 use super::args::Place;
-use crate::command::failure::Failure;
 use crate::command::options::{self, MAX_THREADS};
-use crate::command::terminal::output;
+use crate::command::output::failure::Failure;
+use crate::command::output::terminal::output;
 
 /// Parts at most.
 const MAX_SHARDS: usize = 100_000;

@@ -6,8 +6,8 @@ use clap::Args;
 use wingbeat::campaign::{Status, plan_name, retry as forget};
 
 use super::args::{Place, duration};
-use crate::command::failure::Failure;
-use crate::command::terminal::{output_is_given_up, say};
+use crate::command::output::failure::Failure;
+use crate::command::output::terminal::{output_is_given_up, say};
 
 /// Time between two lines of `--watch`.
 const WATCH: Duration = Duration::from_secs(2);

@@ -4,9 +4,9 @@ use clap::Args;
 use wingbeat::campaign::page;
 
 use super::args::Place;
-use crate::command::failure::Failure;
-use crate::command::terminal::say;
-use crate::command::view::open;
+use crate::command::output::failure::Failure;
+use crate::command::output::terminal::say;
+use crate::command::result::view::open;
 
 /// Arguments of `wingbeat campaign view`.
 #[derive(Args)]

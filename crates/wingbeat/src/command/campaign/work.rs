@@ -9,9 +9,9 @@ use clap::Args;
 use wingbeat::campaign::{Ended, Store, Worker, plan_name};
 
 use super::args::{Place, PointSelection};
-use crate::command::failure::{FAILED, Failure, INTERRUPTED, in_words};
+use crate::command::output::failure::{FAILED, Failure, INTERRUPTED, in_words};
+use crate::command::output::terminal::tell;
 use crate::command::signals::stop_flag;
-use crate::command::terminal::tell;
 
 /// Time between two counts on the standard output.
 const SAY: Duration = Duration::from_millis(200);

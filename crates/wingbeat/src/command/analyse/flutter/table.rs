@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use wingbeat::analysis::flutter::{Condition, Vibration};
 
-use crate::command::report::{Report, line};
+use crate::command::output::report::{Report, line};
 
 pub(super) fn head(report: &mut Report, name: &str, are_several: bool) {
     report.value("case", name);

@@ -1,0 +1,5 @@
+//! `[joint.NAME]`.
+
+pub(crate) mod element;
+pub(crate) mod joint;
+pub(crate) mod mirrored;

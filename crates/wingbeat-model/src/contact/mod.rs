@@ -1,0 +1,7 @@
+//! Wings that pass through each other, lie in each other or in the body, or whose roots meet: what a vortex
+//! lattice has to know.
+
+pub(crate) mod coincident;
+pub(crate) mod crossing;
+pub(crate) mod inside;
+pub(crate) mod touching;

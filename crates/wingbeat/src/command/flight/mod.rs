@@ -1,0 +1,4 @@
+//! The commands that fly a case.
+
+pub(crate) mod ensemble;
+pub(crate) mod run;

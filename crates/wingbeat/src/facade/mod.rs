@@ -1,0 +1,13 @@
+//! Flights as values: built, flown and read without case files or result directories.
+
+mod batch;
+mod ensemble;
+mod error;
+mod flight;
+mod run;
+
+pub use batch::fly_all;
+pub use ensemble::ensemble;
+pub use error::Error;
+pub use flight::Flight;
+pub use run::{Beat, Run};
