@@ -39,7 +39,7 @@ pub use estimate::Estimate;
 pub use held::{Departure, Departures};
 pub use impulse::ImpulseBudget;
 pub use last_part::LastPart;
-pub use means::{ManyBeats, left_out};
+pub use means::{ManyBeats, left_out, starting_beats, what_starts};
 use momentum_balance::ratio;
 pub use numbers::Summary;
 pub use per_beat::{PerBeat, SummaryQuantity};
