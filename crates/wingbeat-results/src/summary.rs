@@ -154,6 +154,7 @@ impl Summary {
         let mut warnings = trust::warnings(setup, &doubts, &summary, momentum);
         bent::warnings(setup, &s.each.bent, &mut warnings);
         turned_over(setup, &s.each, &mut warnings);
+        trust::starting_steps(setup, s.corrector_residual, &mut warnings);
         trust::flown_crossings(
             setup,
             &doubts,
