@@ -7,7 +7,7 @@ use super::{Chart, Panel, Series};
 pub struct SpeedRow {
     /// Mean speed forward [m/s].
     pub forward: f64,
-    /// Power against the air, of muscles with perfect elastic storage, and with none, per mass of the animal [W/kg].
+    /// Power against the air, of actuators with perfect elastic storage, and with none, per mass of the animal [W/kg].
     pub power: [f64; 3],
     /// Stroke angle from end to end \[rad\].
     pub stroke_amplitude: f64,
@@ -51,8 +51,8 @@ pub fn swept(name: &str, rows: &[SpeedRow], lost: Option<f64>) -> String {
                 "power [W/kg]",
                 vec![
                     series("against the air", &|r| r.power[0]),
-                    series("muscles, perfect elastic storage", &|r| r.power[1]),
-                    series("muscles, no elastic storage", &|r| r.power[2]),
+                    series("actuators, perfect elastic storage", &|r| r.power[1]),
+                    series("actuators, no elastic storage", &|r| r.power[2]),
                 ],
             ),
             panel(
