@@ -62,7 +62,7 @@ pub use stability::{
     trimmed_controls,
 };
 pub use sweep::least_power::trim_within;
-pub use sweep::{Sweep, Swept, sweep};
+pub use sweep::{Sweep, Swept, sweep, sweep_watched};
 pub use trim::lost::{Lost, Way};
 pub use trim::preconditions::{SPEED_OF_SOUND, TRIM_STEPS};
 pub use trim::problem::{TrimProblem, TrimSettings, turned_inside_out};

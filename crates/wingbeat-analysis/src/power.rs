@@ -1,4 +1,4 @@
-//! Mechanical power of flapping: aerodynamic, inertial, and what the muscles pay.
+//! Mechanical power of flapping: aerodynamic, inertial, and what the actuators (muscles, motors) pay.
 
 use wingbeat_dynamics::{Body, BodyMotion, Mechanism, Wrench};
 use wingbeat_flight::{FlightSetup, Past, Record, Simulation, system_of};
@@ -68,9 +68,9 @@ impl Power {
             "mean power against the air, of the motion relative to the body", |p| p.aerodynamic),
         row("inertial_positive", "inertial, positive part", "positive part of the inertial power",
             |p| p.inertial_positive),
-        row("perfect_storage", "muscles, perfect elastic storage", "muscle power with perfect elastic storage",
+        row("perfect_storage", "actuators, perfect elastic storage", "power of actuators (muscles, motors) with perfect elastic storage",
             |p| p.perfect_storage),
-        row("no_storage", "muscles, no elastic storage", "muscle power without elastic storage",
+        row("no_storage", "actuators, no elastic storage", "power of actuators (muscles, motors) without elastic storage",
             |p| p.no_storage),
         row("peak", "peak of all wings", "peak power of all wings", |p| p.peak),
         row("damping", "damping of elastic wings", "mean of what the damping of elastic wings takes",
@@ -82,7 +82,7 @@ impl Power {
         power / self.mass
     }
 
-    /// Power per mass of flight muscle [W/kg], `muscle` its part of the body mass.
+    /// Power per mass of the actuators (flight muscle, motors) [W/kg], `muscle` its part of the mass of the flyer \[1\].
     pub fn muscle_specific(&self, power: f64, muscle: f64) -> f64 {
         power / (muscle * self.mass)
     }

@@ -10,6 +10,7 @@ pub(crate) mod continuation;
 pub(crate) mod least_power;
 
 use std::f64::consts::PI;
+use std::ops::ControlFlow;
 
 use wingbeat_flight::FlightSetup;
 use wingbeat_math::DVec3;
@@ -45,6 +46,8 @@ pub struct Sweep {
     pub missed: Vec<(DVec3, Lost)>,
     /// The first velocity after those reached that was not, N components [m/s], and why.
     pub lost: Option<(DVec3, Lost)>,
+    /// The velocities that were left when [`sweep_watched`] was stopped, N components [m/s], in the order asked.
+    pub untried: Vec<DVec3>,
 }
 
 impl Sweep {
@@ -54,12 +57,12 @@ impl Sweep {
         finite.min_by(|a, b| cost(a).total_cmp(&cost(b)))
     }
 
-    /// The flight of least power (muscles, perfect elastic storage).
+    /// The flight of least power (actuators, perfect elastic storage).
     pub fn least_power(&self) -> Option<&Swept> {
-        self.least(muscle_power)
+        self.least(actuator_power)
     }
 
-    /// The flight of least work per distance (muscles, perfect elastic storage); none in hover alone.
+    /// The flight of least work per distance (actuators, perfect elastic storage); none in hover alone.
     pub fn least_work(&self) -> Option<&Swept> {
         self.least(work_per_distance)
     }
@@ -67,7 +70,7 @@ impl Sweep {
     /// Speed forward (along n1) of least power, between the flights: that of the parabola through the least and its
     /// neighbours [m/s]; none at an end.
     pub fn least_power_forward(&self) -> Option<f64> {
-        self.vertex(muscle_power)
+        self.vertex(actuator_power)
     }
 
     /// The same of least work per distance [m/s].
@@ -91,8 +94,8 @@ impl Sweep {
     }
 }
 
-/// Mean power of muscles with perfect elastic storage [W].
-fn muscle_power(f: &Swept) -> f64 {
+/// Mean power of actuators with perfect elastic storage [W].
+fn actuator_power(f: &Swept) -> f64 {
     f.power.perfect_storage
 }
 
@@ -114,11 +117,25 @@ pub fn sweep(
     problem: &TrimProblem,
     velocities: &[DVec3],
 ) -> Result<Sweep, AnalysisError> {
+    sweep_watched(setup, problem, velocities, |_, _| ControlFlow::Continue(()))
+}
+
+/// The same, `watch`ed: it hears of each velocity [m/s], N components, as soon as that is trimmed, or why it was not, and
+/// may stop there: what was found so far is the sweep, and the rest are [`Sweep::untried`].
+///
+/// # Errors
+/// As [`sweep`].
+pub fn sweep_watched(
+    setup: &FlightSetup,
+    problem: &TrimProblem,
+    velocities: &[DVec3],
+    watch: impl FnMut(DVec3, Option<Lost>) -> ControlFlow<()>,
+) -> Result<Sweep, AnalysisError> {
     if !is_falling(setup, velocities) {
-        return rising(setup, problem, velocities);
+        return rising(setup, problem, velocities, watch);
     }
     let upwards: Vec<DVec3> = velocities.iter().rev().copied().collect();
-    let found = rising(setup, problem, &upwards)?;
+    let found = rising(setup, problem, &upwards, watch)?;
     Ok(turned(found, velocities))
 }
 
@@ -140,12 +157,15 @@ fn turned(found: Sweep, velocities: &[DVec3]) -> Sweep {
         mut flights,
         missed: mut slow,
         lost: fast,
+        mut untried,
     } = found;
     flights.reverse();
     slow.reverse();
+    untried.reverse();
     if flights.is_empty() {
         return Sweep {
             missed: slow,
+            untried,
             ..Sweep::default()
         };
     }
@@ -158,6 +178,7 @@ fn turned(found: Sweep, velocities: &[DVec3]) -> Sweep {
         flights,
         missed,
         lost: slow.first().copied(),
+        untried,
     }
 }
 
@@ -166,12 +187,15 @@ fn rising(
     setup: &FlightSetup,
     problem: &TrimProblem,
     velocities: &[DVec3],
+    mut watch: impl FnMut(DVec3, Option<Lost>) -> ControlFlow<()>,
 ) -> Result<Sweep, AnalysisError> {
     let mut path = Path::new(setup, problem);
     let mut found = Sweep::default();
     for (k, &velocity) in velocities.iter().enumerate() {
         progress::task("sweep", k, velocities.len());
-        match flight_at(&mut path, velocity)? {
+        let reached = flight_at(&mut path, velocity)?;
+        let goes_on = watch(velocity, reached.as_ref().err().copied());
+        match reached {
             Ok(flight) => found.flights.push(flight),
             Err(why) if found.flights.is_empty() => {
                 found.missed.push((velocity, why));
@@ -181,6 +205,10 @@ fn rising(
                 found.lost = Some((velocity, why));
                 break;
             }
+        }
+        if goes_on.is_break() {
+            found.untried = velocities[k + 1..].to_vec();
+            break;
         }
     }
     Ok(found)

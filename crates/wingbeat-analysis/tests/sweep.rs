@@ -1,5 +1,7 @@
 //! Trims from speed to speed.
 
+use std::ops::ControlFlow;
+
 use crate::common;
 
 use common::*;
@@ -179,4 +181,34 @@ fn invariant_least_power_of_a_fast_flight_whatever_the_order_of_unknowns() {
     let second = least([BodyPitch, Frequency, StrokeOffset, StrokeAmplitude]);
     // Both within 1e-5 of where power is least, and flat: squares of that remain, 2.4e-9.
     assert!((second / first - 1.0).abs() < 2e-8, "{first} {second}");
+}
+
+/// A sweep that is stopped has the flights of one that is not, as far as it came, from either end.
+#[test]
+fn invariant_a_sweep_that_is_stopped_has_what_was_found() {
+    for (speeds, kept, left) in [
+        ([0.0, 0.2, 0.4, 0.6], [0.0, 0.2], [0.4, 0.6]),
+        ([0.6, 0.4, 0.2, 0.0], [0.2, 0.0], [0.6, 0.4]),
+    ] {
+        let mut told = vec![];
+        let found = sweep_watched(&fly(), &hover(40), &forward(&speeds), |v, lost| {
+            told.push((v.x, lost));
+            match told.len() {
+                2 => ControlFlow::Break(()),
+                _ => ControlFlow::Continue(()),
+            }
+        });
+        let found = found.unwrap();
+        assert_eq!(told, [(0.0, None), (0.2, None)]);
+        let flown: Vec<f64> = found.flights.iter().map(|f| f.velocity.x).collect();
+        assert_eq!(flown, kept);
+        assert_eq!(found.untried, forward(&left));
+        assert!(found.lost.is_none() && found.missed.is_empty());
+        let whole = sweep(&fly(), &hover(40), &forward(&speeds)).unwrap();
+        assert!(whole.untried.is_empty());
+        for f in &found.flights {
+            let same = whole.flights.iter().find(|w| w.velocity == f.velocity);
+            assert_eq!(same.unwrap().trim.point, f.trim.point);
+        }
+    }
 }

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use sha2::{Digest, Sha256};
 use wingbeat_case::{IoError, LoadedCase};
 use wingbeat_flight::FlightSetup;
+use wingbeat_results::summary::starting_beats;
 
 use crate::plan::blocks::points_of_block;
 use crate::plan::cases;
@@ -42,7 +43,7 @@ impl Campaign {
         let numbers = file.kept()?;
         Ok(Self {
             path: path.to_owned(),
-            digest: digest_of(&file.raw, &file.base, &numbers),
+            digest: digest_of(&file, &numbers),
             contents: named::contents(&file.plan, &file.base, &file.case_folder),
             programs: named::programs(&file.plan, &file.base, &file.case_folder),
             block: points_of_block(&file.raw, &file.base.setup, file.plan.points()),
@@ -185,7 +186,8 @@ fn checked(path: &Path) -> Result<CampaignFile, IoError> {
 }
 
 /// What all points have in common.
-fn digest_of(raw: &RawCampaign, base: &LoadedCase, numbers: &[Number]) -> Sha256 {
+fn digest_of(file: &CampaignFile, numbers: &[Number]) -> Sha256 {
+    let (raw, base) = (&file.raw, &file.base);
     let mut hash = Sha256::new_with_prefix(concat!("wingbeat ", env!("CARGO_PKG_VERSION"), "\n"));
     hash.update(Sha256::digest(base.resolved()));
     hash.update(Sha256::digest(base.text()));
@@ -196,6 +198,10 @@ fn digest_of(raw: &RawCampaign, base: &LoadedCase, numbers: &[Number]) -> Sha256
     }
     if numbers.iter().any(|n| n.source.is_extreme()) {
         hash.update("extremes of the last wingbeats\n"); // they were those of the whole flight once
+    }
+    let starts = starting_beats(&base.setup) > 0 || file.plan.varies_starts();
+    if starts && numbers.iter().any(|n| n.source.is_mean()) {
+        hash.update("means without starts and holds\n"); // they were of the last wingbeats, whatever these were
     }
     hash
 }

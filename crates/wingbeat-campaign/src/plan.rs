@@ -123,6 +123,12 @@ impl Plan {
         self.keys.iter().any(|k| k == key)
     }
 
+    /// Whether a key that says how a flight starts varies from point to point: of smooth starts and of holds.
+    pub fn varies_starts(&self) -> bool {
+        let of_start = |key: &String| key.contains("start") || key.contains("held_beats");
+        self.keys.iter().any(of_start)
+    }
+
     /// Sizes of the grid, samples last where something is drawn.
     pub fn shape(&self) -> Vec<usize> {
         let drawn = (!self.samplers.is_empty()).then_some(self.samples);

@@ -111,7 +111,11 @@ fn refuses_buoyancy_that_can_be_none() {
          inertia_about_centre_kg_m2 = [1, 1, 1, 0, 0, 0]\n";
     let open = refused(open, &[]);
     assert!(
-        open.contains("air.buoyancy") && open.contains("closed part"),
+        open.contains("air.buoyancy") && open.contains("allowed: beside a closed part"),
+        "{open}"
+    );
+    assert!(
+        open.contains("try: give the body its shape ([body.part.NAME]"),
         "{open}"
     );
     let vacuum = "format = 1\n[time]\nstep_s = 0.01\nsteps = 2\n[air]\nmodel = \"none\"\nbuoyancy = true\n\

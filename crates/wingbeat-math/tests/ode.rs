@@ -5,7 +5,7 @@ use std::ops::Range;
 
 use wingbeat_math::ode::{
     AdamsBashforthMoulton, AdaptiveError, Asked, Bdf, Convergence, Dop853, Hamming, Memoryless,
-    Multistep, Rk4, StepError, Tolerance, block_start,
+    Multistep, Replay, Rk4, StepError, Tolerance, block_start,
 };
 
 const CONVERGENCE: Convergence = Convergence {
@@ -318,4 +318,52 @@ fn order_of_bdf(name: &str, of: fn(Bdf) -> Bdf, expected: Range<f64>) {
     let s = slopes(error);
     println!("BDF of order {name}: {s:.2?}");
     assert!(s.iter().all(|s| expected.contains(s)), "{s:?}");
+}
+
+/// A history that answers to every sweep: rates of 1 and 1 + jump by turns.
+struct Jumping {
+    sweeps: u32,
+    jump: f64,
+}
+
+impl Replay for Jumping {
+    type Error = Infallible;
+
+    fn enter(&mut self, k: usize) -> Result<(), Infallible> {
+        self.sweeps += u32::from(k == 1);
+        Ok(())
+    }
+
+    fn rates(&mut self, _: usize, _: &[f64], f: &mut [f64]) -> Result<(), Infallible> {
+        f[0] = 1.0 + self.jump * f64::from(self.sweeps % 2);
+        Ok(())
+    }
+
+    fn leave(&mut self, _: usize) -> Result<(), Infallible> {
+        Ok(())
+    }
+}
+
+/// Starting steps that jump from sweep to sweep say by how much: of constant rates the third state by the step times the
+/// jump times 3. What is no number is an error.
+#[test]
+fn exact_residual_of_a_start_that_does_not_converge() {
+    let h = 0.01;
+    let start = |jump: f64| {
+        let mut replay = Jumping { sweeps: 0, jump };
+        block_start(&[0.0], &[1.0], h, CONVERGENCE, &[1.0], &mut replay)
+    };
+    let report = start(1e-3).unwrap().1;
+    // The rate at the start, 1, is in all formulas, with 3/8 of a step in the last.
+    let expected = 1e-3 * h * (3.0 - 3.0 / 8.0);
+    assert!(
+        (report.residual / expected - 1.0).abs() < 1e-9,
+        "{report:?} {expected:e}"
+    );
+    assert!(start(0.0).unwrap().1.residual <= CONVERGENCE.tolerance);
+    let never = start(f64::NAN);
+    assert!(
+        matches!(never, Err(StepError::NotConverged(_))),
+        "{never:?}"
+    );
 }

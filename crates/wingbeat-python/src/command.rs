@@ -3,6 +3,7 @@
 use std::ffi::OsString;
 
 use pyo3::prelude::*;
+use wingbeat::analysis::Power;
 use wingbeat::case::{self, presets::PRESETS};
 use wingbeat::results::Summary;
 use wingbeat::results::summary::PerBeat;
@@ -35,6 +36,18 @@ pub fn described(name: &str) -> String {
     let about = of_beats.map(|q| q.about).or(of_flight.map(|q| q.about));
     let of_key = || case::keys::described(name).map(|[_, about]| about);
     about.map(str::to_owned).or_else(of_key).unwrap_or_default()
+}
+
+/// Names of the means over wingbeats, of the numbers of the summary, and of powers [W].
+#[pyfunction]
+pub fn names_of_numbers() -> [Vec<String>; 3] {
+    let beats = PerBeat::<f64>::QUANTITIES.iter();
+    let powers = Power::QUANTITIES.iter();
+    [
+        beats.map(|q| q.name.to_owned()).collect(),
+        Summary::NUMBERS.iter().map(|q| q.name.to_owned()).collect(),
+        powers.map(|q| format!("{}_watt", q.name)).collect(),
+    ]
 }
 
 /// Version of the program.

@@ -45,7 +45,7 @@ mod worker;
 #[pyo3::pymodule]
 mod _core {
     #[pymodule_export]
-    use crate::command::{described, main, presets, schema, version};
+    use crate::command::{described, main, names_of_numbers, presets, schema, version};
     #[pymodule_export]
     use crate::course::Course;
     #[pymodule_export]

@@ -158,6 +158,12 @@ impl Run {
         Ok(dict)
     }
 
+    /// Wingbeats at the start that means leave out: those that smooth starts or the hold reach into.
+    #[getter]
+    fn starting_beats(&self) -> usize {
+        results::summary::starting_beats(&self.run.setup)
+    }
+
     /// The summary: as JSON, in words.
     fn summary(&self, py: Python<'_>) -> PyResult<(String, String)> {
         let summary = py.detach(|| self.summarised());

@@ -104,7 +104,7 @@ def test_behaves_points_that_cannot_be_flown_have_reasons():
     assert table.ok.tolist() == [True, False, False] and np.isnan(table["power_watt"][1:]).all()
     assert "motion.frequency_hz=-3.0" in table.reasons[1] and "2 without numbers" in repr(table)
     none = campaign.map({"time.beats": [0.5]}, campaign.Serial(), base="fruit-fly-blade")
-    assert none.reasons == ["0 whole wingbeats were flown, means need 1 (time.beats)"]
+    assert none.reasons == ["0 whole wingbeats were flown; means need 1 (time.beats)"]
     bad = campaign.map({"time.beats": [1]}, campaign.Serial(), base="fruit-fly-blade", do=tasks.wrong, keep=["x"])
     assert bad.reasons == ["KeyError: 'fruit-fly-blade'"]
     over = campaign.map({"time.beats": [1]}, workers=1, base="fruit-fly-blade", do=tasks.exits, keep=["x"])
@@ -309,10 +309,30 @@ def test_exact_names_are_those_of_runs_and_trims(blade):
     run, trim = blade.fly(), blade.trim()
     assert set(campaign.BEATS) == set(run.beats) - {"beat"}
     numbers = {k for k, v in _task.of_summary(run.summary).items() if isinstance(v, (int, float)) and not isinstance(v, bool)}
-    assert set(campaign.SUMMARY) == numbers
+    assert set(campaign.SUMMARY) == numbers and len(campaign.SUMMARY) == len(numbers)
     assert all(isinstance(getattr(trim.power(), name), float) for name in campaign.POWER)
     assert all(isinstance(getattr(trim, name), (int, float)) for name in campaign.ATTITUDE)
     assert set(campaign.ADJUSTMENT) == set(type(trim.adjustment).__slots__)
+
+
+def test_exact_means_leave_out_the_beats_of_a_smooth_start_and_of_a_hold(tmp_path):
+    """Of all beats, or of the last ones, those that the start or the hold reaches into count for nothing; a flight without
+    others has no numbers.
+    """
+    base = Flight.preset("fruit-fly-blade").set({"motion.start": "smooth", "time.steps_per_beat": 40})
+    points = [{"time.beats": 5, "motion.start_beats": 3}, {"time.beats": 3, "motion.start_beats": 2.5}]
+    table = campaign.map(points, campaign.Serial(), base=base, out=tmp_path)
+    run = base.set(points[0]).fly()
+    assert table["power_watt"][0] == run.beats["power_watt"][3:].mean()
+    assert abs(table["power_watt"][0] - run.beats["power_watt"].mean()) > 1e-3 * table["power_watt"][0]
+    assert table.reasons[1].startswith("3 whole wingbeats were flown, of which the first 3 are left out") and "1 more" in table.reasons[1]
+    last = campaign.map(points[:1], campaign.Serial(), base=base, last_beats=2)
+    assert last["power_watt"][0] == table["power_watt"][0]
+    more = campaign.map(points[:1], campaign.Serial(), base=base, last_beats=3)
+    assert "means need 3 more" in more.reasons[0]
+    held = {"time.beats": 4, "flight.held_beats": 2}
+    held_table = campaign.map([held], campaign.Serial(), base="fruit-fly-blade")
+    assert held_table["power_watt"][0] == Flight.preset("fruit-fly-blade").set(held).fly().beats["power_watt"][2:].mean()
 
 
 def test_behaves_a_table_is_a_dataset_with_units(serial, tmp_path):
@@ -325,7 +345,7 @@ def test_behaves_a_table_is_a_dataset_with_units(serial, tmp_path):
     data.to_netcdf(tmp_path / "table.nc", engine="h5netcdf")
     with xarray.open_dataset(tmp_path / "table.nc", engine="h5netcdf") as read:
         assert read["power_watt"].values.tobytes() == serial["power_watt"].tobytes()
-    starts = campaign.map({"motion.start": ["impulsive", "smooth"], "time.beats": 1}, campaign.Serial(), base="fruit-fly-blade").dataset
+    starts = campaign.map({"motion.start": ["impulsive", "smooth"], "time.beats": 2}, campaign.Serial(), base="fruit-fly-blade").dataset
     assert "units" not in starts["motion.start"].attrs and starts["motion.start"].attrs["long_name"]
 
 

@@ -39,7 +39,7 @@ pub use estimate::Estimate;
 pub use held::{Departure, Departures};
 pub use impulse::ImpulseBudget;
 pub use last_part::LastPart;
-pub use means::{ManyBeats, left_out};
+pub use means::{ManyBeats, left_out, starting_beats, what_starts};
 use momentum_balance::ratio;
 pub use numbers::Summary;
 pub use per_beat::{PerBeat, SummaryQuantity};
@@ -154,6 +154,7 @@ impl Summary {
         let mut warnings = trust::warnings(setup, &doubts, &summary, momentum);
         bent::warnings(setup, &s.each.bent, &mut warnings);
         turned_over(setup, &s.each, &mut warnings);
+        trust::starting_steps(setup, s.corrector_residual, &mut warnings);
         trust::flown_crossings(
             setup,
             &doubts,

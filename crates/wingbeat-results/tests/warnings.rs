@@ -3,8 +3,9 @@
 use crate::flights::{flown, preset, says};
 use std::path::Path;
 use wingbeat_case::LoadedCase;
-use wingbeat_flight::DoubtKind;
+use wingbeat_flight::{DoubtKind, Simulation};
 use wingbeat_results::summary::Verdict;
+use wingbeat_results::{Outcome, Summary};
 
 /// Wings that pass through each other are named by every air, and so is a lift that no animal has.
 #[test]
@@ -268,4 +269,27 @@ fn behaves_wings_that_graze_are_amber_and_may_be_joined() {
     assert!(!says(&grazes, "have no meaning"));
     let apart = fly(1e-3);
     assert!(!says(&apart, "graze"), "{:?}", apart.warnings);
+}
+
+/// Starting steps whose residual is above the tolerance of the corrector are named with both, and are no solution above
+/// the loosest that a case may ask for.
+#[test]
+fn behaves_starting_steps_that_have_not_converged_are_named() {
+    let case = preset("fruit-fly-blade", &["time.beats=0.05"]);
+    let mut flight = Simulation::new(case.setup.clone()).unwrap();
+    let mut records = vec![flight.record().clone()];
+    while !flight.finished() {
+        records.push(flight.step().unwrap().clone());
+    }
+    let mut summary = |residual: f64| {
+        records[1].corrector_residual = residual;
+        Summary::of(&case.setup, &records, &Outcome::Finished)
+    };
+    let words = "The starting steps have not converged";
+    assert!(!says(&summary(1e-10), words));
+    let doubted = summary(2e-7);
+    assert!(says(&doubted, words) && says(&doubted, "by 2.0e-7 from one sweep"));
+    assert!(says(&doubted, "corrector.tolerance is 1.0e-10"));
+    assert_eq!(doubted.verdict, Verdict::Amber);
+    assert_eq!(summary(2e-3).verdict, Verdict::Red);
 }

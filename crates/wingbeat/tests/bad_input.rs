@@ -458,3 +458,19 @@ fn refuses_cores_wider_than_panels_by_their_key() {
         assert!(report.contains(words), "{words}: {report}");
     }
 }
+
+/// Less than half a step is none, and is not made one.
+#[test]
+fn exact_flights_of_less_than_a_step() {
+    refused(
+        "no-step",
+        "beats = 0.2",
+        "beats = 0.01",
+        "beats = 0.01",
+        &[
+            "time.beats = 0.01: this is 4.00e-1 of a step, and not one is flown",
+            "a step or more: 2.500e-2 wingbeats are one",
+            "give `steps` in place of `beats`",
+        ],
+    );
+}

@@ -152,7 +152,24 @@ fn refuses_to_replace_figures_unasked() {
     let on_paper = ["plot", "run", "animation", "--style", "paper"];
     refused(&scratch.0, &on_paper, "drawn for screen or dark");
     let at_step = ["plot", "run", "trajectory", "--step", "1"];
-    refused(&scratch.0, &at_step, "--step has no effect");
+    refused(&scratch.0, &at_step, "error: --step has no effect");
+    let turned = ["plot", "run", "angles", "--from", "0.2", "--to", "0.1"];
+    refused(
+        &scratch.0,
+        &turned,
+        "error: --from 0.2 does not lie before --to 0.1",
+    );
+    // Of options alone, before the run is looked at.
+    let moving = ["plot", "nowhere", "angles", "--format", "gif"];
+    refused(
+        &scratch.0,
+        &moving,
+        "error: --format gif: angles is written as svg, png or pdf",
+    );
+    let thrice = [
+        "plot", "nowhere", "--from", "1", "--to", "2", "--beats", "1",
+    ];
+    refused(&scratch.0, &thrice, "error: --beats says too much");
     for (kind, reason) in [
         ("forces", "this flight has no air"),
         ("wake", "no frames were written"),

@@ -3,7 +3,7 @@
 #![cfg(target_os = "linux")]
 
 use std::fs::{self, File};
-use std::io::Read;
+use std::io::{BufRead, BufReader, Read};
 use std::path::Path;
 use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
@@ -226,4 +226,42 @@ fn behaves_a_killed_run_is_interrupted_and_a_living_one_is_running() {
         .read_to_string(&mut said)
         .unwrap();
     shown("was interrupted");
+}
+
+/// A sweep tells of each speed, and what an interruption leaves of it is reported and drawn, with its exit code.
+#[test]
+fn behaves_an_interrupted_sweep_has_what_is_done() {
+    let scratch = Scratch::new("sweep-stopped");
+    let args = "trim bumblebee-blade --steps 40 --sweep 0 1 --points 900 --json --figure s.svg";
+    let mut command = Command::new(env!("CARGO_BIN_EXE_wingbeat"));
+    let command = command.current_dir(&scratch.0).args(args.split(' '));
+    let child = command.stdout(Stdio::piped()).stderr(Stdio::piped());
+    let mut child = child.spawn().unwrap();
+    let mut errors = BufReader::new(child.stderr.take().unwrap()).lines();
+    let first = errors.find_map(|l| l.ok().filter(|l| l.contains("m/s trimmed")));
+    let first = first.expect("it tells of a speed");
+    assert!(
+        first.ends_with("0.000 m/s trimmed, 1 of 900 speeds"),
+        "{first}"
+    );
+    signal(&child, "INT");
+    let rest: Vec<String> = errors.map(Result::unwrap).collect();
+    let out = child.wait_with_output().unwrap();
+    assert_eq!(out.status.code(), Some(130), "{rest:?}");
+    assert!(
+        rest.iter()
+            .any(|l| l.starts_with("interrupted: this speed is finished")),
+        "{rest:?}"
+    );
+    let report: serde_json::Value = serde_json::from_slice(&out.stdout).unwrap();
+    let length = |name: &str| report[name].as_array().unwrap().len();
+    assert_eq!(report["complete"], false);
+    let [flown, left] = ["flights", "not_tried_forward_m_s"].map(length);
+    assert!(
+        flown >= 1 && left >= 1 && flown + left == 900,
+        "{flown} {left}"
+    );
+    let told = format!("interrupted: {left} of 900 speeds were not tried");
+    assert!(rest.contains(&told), "{rest:?}");
+    assert!(scratch.0.join("s.svg").is_file());
 }

@@ -73,13 +73,13 @@ fn check_numbers(setup: &FlightSetup, problem: &TrimProblem) -> Result<(), Analy
         .find(|v| v.is_nan() || v.abs() >= SPEED_OF_SOUND)
     {
         return Err(AnalysisError::not_covered(
-            format!("{speed} m/s is no speed below that of sound ({SPEED_OF_SOUND} m/s)"),
+            format!("{speed:?} m/s is no speed below that of sound ({SPEED_OF_SOUND} m/s)"),
             "the air is incompressible: choose a lower speed",
         ));
     }
     if !problem.turn_rate.is_finite() {
         return Err(AnalysisError::not_covered(
-            format!("a turn by {} rad/s", problem.turn_rate),
+            format!("a turn by {:?} rad/s", problem.turn_rate),
             "give a finite number",
         ));
     }

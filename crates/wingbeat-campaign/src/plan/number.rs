@@ -140,12 +140,12 @@ type OverMass = (&'static str, &'static str, fn(&Power) -> f64);
 const POWERS_OVER_MASS: [OverMass; 2] = [
     (
         "perfect_storage",
-        "muscle power with perfect storage over mass",
+        "power of actuators (muscles, motors) with perfect storage over mass",
         |p| p.body_specific(p.perfect_storage),
     ),
     (
         "no_storage",
-        "muscle power without storage over mass",
+        "power of actuators (muscles, motors) without storage over mass",
         |p| p.body_specific(p.no_storage),
     ),
 ];

@@ -36,7 +36,8 @@ pub struct RawCampaign {
     /// Numbers that are kept, by their names, one at least; `wingbeat campaign numbers FILE` lists all.
     #[serde(default)]
     pub keep: Vec<String>,
-    /// Whole wingbeats over which means are taken, the last of those counted from the start; 1 or more, default 1.
+    /// Whole wingbeats over which means are taken, the last of those counted from the start, none of them one that a smooth
+    /// start or a hold reaches into; 1 or more, default 1.
     pub mean_beats: Option<usize>,
     /// Files that are kept of each flight.
     #[serde(default)]

@@ -140,7 +140,7 @@ fn check_options(options: &TrimOptions) -> Result<(), Bad> {
         if let Some(speed) = speed.filter(|v| v.abs() >= SPEED_OF_SOUND) {
             return Err(Bad {
                 key: format!("{TRIM}{name}"),
-                problem: format!("{speed} m/s is no speed below that of sound"),
+                problem: format!("{speed:?} m/s is no speed below that of sound"),
                 allowed: format!("a speed between -{SPEED_OF_SOUND} and {SPEED_OF_SOUND}"),
                 remedy: "the air is incompressible: choose a lower speed",
             });

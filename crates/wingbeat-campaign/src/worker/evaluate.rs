@@ -10,7 +10,7 @@ use wingbeat_flight::{FlightSetup, Record};
 use wingbeat_math::{larger, smaller};
 use wingbeat_results::Summary;
 use wingbeat_results::columns::Columns;
-use wingbeat_results::summary::{BeatMeans, Estimate, PerBeat};
+use wingbeat_results::summary::{BeatMeans, Estimate, PerBeat, starting_beats, what_starts};
 
 use crate::plan::number::{ModeNumber, Modes, Number, Of, Source, TrimNumber};
 
@@ -25,19 +25,25 @@ pub struct Flown {
 }
 
 impl Flown {
-    /// That it has fewer wingbeats than means are taken over, in words; none where it has enough.
+    /// That it has fewer wingbeats than means are taken over beyond those that its start or its hold reach into, in words;
+    /// none where it has enough.
     pub fn lacks(&self, numbers: &[Number], beats: usize) -> Option<String> {
         if !needs_beats(numbers, &self.setup) {
             return None;
         }
-        let flown = self.summary.beats.len();
-        let words = || {
-            format!(
+        let (flown, out) = (self.summary.beats.len(), starting_beats(&self.setup));
+        let left = flown.saturating_sub(out);
+        (left < beats).then(|| match out {
+            0 => format!(
                 "means over {beats} wingbeats, but only {flown} whole ones were flown: fly longer (time.beats), or take mean_beats = {}",
                 flown.max(1)
-            )
-        };
-        (flown < beats).then(words)
+            ),
+            _ => format!(
+                "means over {beats} wingbeats, and {left} are left of {flown} whole ones that were flown: means leave out those that {} reach into; fly longer (time.beats = {} or more)",
+                what_starts(&self.setup),
+                out + beats
+            ),
+        })
     }
 
     /// Its numbers, put where `numbers` has them (others are left as they are).

@@ -3,6 +3,7 @@
 
 use wingbeat_analysis::estimate;
 use wingbeat_case::{IoError, LoadedCase, nearest};
+use wingbeat_results::summary::starting_beats;
 
 use crate::plan::cases;
 use crate::plan::file::CampaignFile;
@@ -295,20 +296,22 @@ impl CampaignFile {
     }
 
     /// An error if means are asked for and none is kept, or no point that is tried has as many whole wingbeats
-    /// as they are taken over, and none that is not would have more.
+    /// beyond its start as they are taken over, and none that is not would have more.
     fn check_beats(&self, numbers: &[Number]) -> Result<(), IoError> {
         if self.raw.mean_beats.is_some() && !numbers.iter().any(|n| n.source.is_mean()) {
             let problem = "this has no effect: no mean over wingbeats is kept".to_owned();
             return Err(self.fault("mean_beats", problem, "beside a mean in keep", "remove it"));
         }
         let wanted = self.raw.mean_beats();
-        let (mut most, mut asked) = (0, false);
+        let (mut most, mut longest, mut asked) = (0, 0, false);
         for case in self.cases() {
             if !evaluate::needs_beats(numbers, &case.setup) {
                 return Ok(());
             }
             let each = case.setup.time.steps_per_beat();
-            most = most.max(each.map_or(0, |each| case.setup.time.steps / each));
+            let whole = each.map_or(0, |each| case.setup.time.steps / each);
+            longest = longest.max(whole);
+            most = most.max(whole.saturating_sub(starting_beats(&case.setup)));
             asked = true;
             if most >= wanted {
                 return Ok(());
@@ -316,20 +319,28 @@ impl CampaignFile {
         }
         let all_tried = self.plan.points() <= self.tried().count();
         let timed = |key: &String| key.starts_with("time.") || key == "motion.frequency_hz";
-        if !asked || (!all_tried && self.plan.keys().iter().any(timed)) {
+        let differ = self.plan.varies_starts() || self.plan.keys().iter().any(timed);
+        if !asked || (!all_tried && differ) {
             return Ok(());
         }
         let place = match self.raw.mean_beats {
             Some(_) => "mean_beats",
             None => "keep",
         };
-        let allowed = match most {
-            0 => "flights of a whole wingbeat or more".to_owned(),
+        let beyond = match most < longest {
+            true => {
+                ", of which means leave out those that a smooth start or a hold reach into (motion.start_beats, flight.held_beats, flight.tether.start_s)"
+            }
+            false => "",
+        };
+        let allowed = match (most, longest) {
+            (0, 0) => "flights of a whole wingbeat or more".to_owned(),
+            (0, _) => "flights of a whole wingbeat or more beyond their start".to_owned(),
             _ => format!("a whole number from 1 to {most}"),
         };
         Err(self.fault(
             place,
-            format!("means over {wanted} wingbeats, and flights of {most} whole ones"),
+            format!("means over {wanted} wingbeats, and flights of {longest} whole ones{beyond}"),
             &allowed,
             "fly longer (`\"time.beats\"` in [set]), take means over fewer, or keep what is no mean (`end.`, `summary.`)",
         ))

@@ -11,7 +11,7 @@ use wingbeat_flight::control::check_heeded;
 use wingbeat_flight::{
     Aim, ControlModel, Controller, FlightError, FlightSetup, RESUME_AS_SAVED, Sensed,
 };
-use wingbeat_math::DVec3;
+use wingbeat_math::{DVec3, to_digits};
 use wingbeat_model::motion::Adjustment;
 use wingbeat_model::{Side, Wing};
 
@@ -30,6 +30,11 @@ const SPOKEN: Protocol = Protocol {
 
 /// Numbers of an adjustment that are commanded.
 const NUMBERS: usize = 7;
+
+/// An angle or a rate in degrees, without the last digit, which is the rounding of the conversion: 12, as a case has it.
+fn degrees(radians: f64) -> f64 {
+    to_digits(radians.to_degrees(), 15)
+}
 
 /// A controller in a program that is started for each flight.
 #[derive(Clone, Debug, PartialEq)]
@@ -220,13 +225,13 @@ impl Conversation {
             reference: ReferenceTold {
                 position_m: aim.position.to_array(),
                 velocity_m_s: aim.velocity.to_array(),
-                heading_deg: aim.heading.to_degrees(),
-                heading_rate_deg_s: aim.heading_rate.to_degrees(),
+                heading_deg: degrees(aim.heading),
+                heading_rate_deg_s: degrees(aim.heading_rate),
             },
             wings: &self.names,
             limits: LimitsTold {
                 amplitude: model.limits.amplitude,
-                angle_deg: model.limits.angle.to_degrees(),
+                angle_deg: degrees(model.limits.angle),
             },
             memory: &self.memory,
         };

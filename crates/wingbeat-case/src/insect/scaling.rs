@@ -112,7 +112,10 @@ impl Size {
         };
         [
             "wingbeat new".to_owned(),
-            part("mass", self.mass, 1e6, "mg"),
+            match self.mass {
+                Some(mass) if mass >= GRAM => part("mass", self.mass, 1e3, "g"),
+                mass => part("mass", mass, 1e6, "mg"),
+            },
             part("wing", self.wing_length, 1e3, "mm"),
             part("frequency", self.frequency, 1.0, ""),
         ]
@@ -120,9 +123,12 @@ impl Size {
     }
 }
 
+/// A gram \[kg\].
+const GRAM: f64 = 1e-3;
+
 /// A mass \[kg\] in milligrams, or in grams from one on.
 fn in_words(mass: f64) -> String {
-    let (scaled, unit) = match mass < 1e-3 {
+    let (scaled, unit) = match mass < GRAM {
         true => (1e6 * mass, "mg"),
         false => (1e3 * mass, "g"),
     };
@@ -219,7 +225,10 @@ impl Insect {
             |value| Sourced::new(value, format!("estimated: proportions of the {}", s.name));
         Ok(Self {
             name: "insect".to_owned(),
-            title: format!("insect of {}", in_words(mass.value)),
+            title: format!(
+                "flyer of {}, in the proportions of an insect",
+                in_words(mass.value)
+            ),
             made_by: size.command(),
             wing_mass: proportional(s.wing_share * mass.value),
             body_length: proportional(s.body_length * (mass.value / m0).cbrt()),

@@ -3,6 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use smart_default::SmartDefault;
+use wingbeat_analysis::SPEED_OF_SOUND;
 use wingbeat_analysis::control::{ProcessNoise, Stiffness, Weights};
 
 use super::ExternalCase;
@@ -33,12 +34,12 @@ pub struct ControlCase {
     /// Mean velocity to fly with along n1, with `hold` = `start` along the heading at the release.
     ///
     /// Change it for forward flight.
-    #[schemars(extend("with" = LAID_OUT))]
+    #[schemars(extend("with" = LAID_OUT, "exclusiveMinimum" = -SPEED_OF_SOUND, "exclusiveMaximum" = SPEED_OF_SOUND))]
     pub forward_m_s: f64,
     /// Mean velocity to fly with upwards, along -n3.
     ///
     /// Change it to climb or to sink.
-    #[schemars(extend("with" = LAID_OUT))]
+    #[schemars(extend("with" = LAID_OUT, "exclusiveMinimum" = -SPEED_OF_SOUND, "exclusiveMaximum" = SPEED_OF_SOUND))]
     pub climb_m_s: f64,
     /// Looks in a wingbeat, at equal times: a number that divides its time steps and leaves four or more between
     /// looks.

@@ -49,6 +49,9 @@ pub struct Plotted {
 /// A result that cannot be read, figures none of which the run can give, a file that is there already or
 /// cannot be written.
 pub fn plot(dir: &ResultDir, order: &Order) -> Result<Plotted, IoError> {
+    if let Some(problem) = order.contradiction() {
+        return Err(fault(&order.folder)(problem));
+    }
     let case = dir.case()?;
     let manifest = dir.manifest()?;
     check_step(dir, order, manifest.steps)?;
@@ -72,9 +75,7 @@ fn check_step(dir: &ResultDir, order: &Order, steps: usize) -> Result<(), IoErro
     let Some(step) = order.step else {
         return Ok(());
     };
-    let problem = if !order.wanted().contains(&Kind::Wake) {
-        "--step has no effect without the figure `wake`, which is drawn at a step: leave it out, or name `wake`".to_owned()
-    } else if frames::steps(dir.path())?.is_empty() {
+    let problem = if frames::steps(dir.path())?.is_empty() {
         "it has no frames, so there is no wake to draw at a step".to_owned()
     } else if step > steps {
         format!("there is no step {step}: its steps are 0 to {steps}")
@@ -105,7 +106,6 @@ impl Drawn {
             let file = format!("{}.{}", kind.name(), format.ending());
             let file = order.folder.join(file);
             if kind == Kind::Animation {
-                check_animated(order.style).map_err(fault(&order.folder))?;
                 drawn.films.push((file, format == Format::Mp4));
                 continue;
             }
@@ -145,16 +145,6 @@ fn fault(path: &Path) -> impl FnOnce(String) -> IoError + '_ {
     move |problem| IoError::Figure {
         path: path.to_owned(),
         problem,
-    }
-}
-
-/// An animation has no style for papers.
-fn check_animated(style: Style) -> Result<(), String> {
-    match style {
-        Style::Screen | Style::Dark => Ok(()),
-        Style::Paper => Err(
-            "--style paper: the animation is drawn for screen or dark; draw it by a command of its own".into(),
-        ),
     }
 }
 

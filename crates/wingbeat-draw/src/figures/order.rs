@@ -160,6 +160,16 @@ impl Format {
     }
 }
 
+/// An animation has no style for papers.
+fn check_animated(style: Style) -> Result<(), String> {
+    match style {
+        Style::Screen | Style::Dark => Ok(()),
+        Style::Paper => Err(
+            "--style paper: the animation is drawn for screen or dark; draw it by a command of its own".into(),
+        ),
+    }
+}
+
 /// What is to be drawn, how and where to.
 #[derive(Clone, Debug)]
 pub struct Order {
@@ -180,6 +190,23 @@ pub struct Order {
 }
 
 impl Order {
+    /// Options that contradict each other, whatever the run; none where they do not.
+    pub fn contradiction(&self) -> Option<String> {
+        let wanted = self.wanted();
+        if self.step.is_some() && !wanted.contains(&Kind::Wake) {
+            return Some("--step has no effect without the figure `wake`, which is drawn at a step: leave it out, or name `wake`".to_owned());
+        }
+        let of_kind = |kind: &Kind| {
+            let format = Format::of(self.format, *kind).err();
+            format.or_else(|| {
+                let is_animated = *kind == Kind::Animation;
+                is_animated.then(|| check_animated(self.style).err())?
+            })
+        };
+        let of_kinds = wanted.iter().find_map(of_kind);
+        of_kinds.or_else(|| self.window.contradiction())
+    }
+
     /// The kinds that are drawn.
     pub(super) fn wanted(&self) -> Vec<Kind> {
         let stills = Kind::ALL.map(|k| k.1).into_iter();

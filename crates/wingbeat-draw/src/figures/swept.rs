@@ -7,7 +7,7 @@ use super::{Chart, Panel};
 pub struct SpeedRow {
     /// Mean speed forward [m/s].
     pub forward: f64,
-    /// Power against the air, of muscles with perfect elastic storage, and with none, per mass of the animal [W/kg].
+    /// Power against the air, of actuators with perfect elastic storage, and with none, per mass of the animal [W/kg].
     pub power: [f64; 3],
     /// Stroke angle from end to end \[rad\].
     pub stroke_amplitude: f64,
@@ -42,8 +42,8 @@ pub fn swept(name: &str, rows: &[SpeedRow], lost: Option<f64>) -> String {
                 "power [W/kg]",
                 vec![
                     ("against the air", each(&|r| r.power[0])),
-                    ("muscles, perfect elastic storage", each(&|r| r.power[1])),
-                    ("muscles, no elastic storage", each(&|r| r.power[2])),
+                    ("actuators, perfect elastic storage", each(&|r| r.power[1])),
+                    ("actuators, no elastic storage", each(&|r| r.power[2])),
                 ],
             ),
             Panel::new(

@@ -72,7 +72,8 @@ impl<E, F: FnMut(f64, &[f64], &mut [f64]) -> Result<(), E>> Replay for Memoryles
     }
 }
 
-/// Three starting steps of size `step` from the state `y0` with the rates `f0`.
+/// Three starting steps of size `step` from the state `y0` with the rates `f0`. Where sweeps over them still differ after
+/// the last, by more than `convergence` allows, the report has by how much.
 ///
 /// # Errors
 /// The right-hand side fails; y and f of a step do not agree to `convergence`.
@@ -108,7 +109,10 @@ pub fn block_start<R: Replay>(
             break;
         }
     }
-    Ok((past, report))
+    match report.residual.is_finite() {
+        true => Ok((past, report)),
+        false => Err(StepError::NotConverged(report)),
+    }
 }
 
 /// Three starting steps by formulas that ask for no later rate: `weights` of f0 to f3 in (y_k - y_0) / h.

@@ -7,8 +7,7 @@ import threading
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from copy import deepcopy as copy_of
-from difflib import get_close_matches
-from typing import TYPE_CHECKING, Any, NoReturn, Self
+from typing import TYPE_CHECKING, Any, NoReturn, Self, Unpack
 
 import gymnasium
 import numpy as np
@@ -17,6 +16,7 @@ from wingbeat import _core
 from wingbeat._flyers import Flyers
 from wingbeat._numbers import reals, whole
 from wingbeat._saved import SavedState
+from wingbeat._settings import DEFAULTS, Settings, check_known
 from wingbeat.errors import AnalysisError, CaseError
 
 if TYPE_CHECKING:
@@ -57,12 +57,10 @@ class Uncopied:
     def __new__(cls, *_arguments: Any, **settings: Any) -> Self:
         parameters = inspect.signature(cls.__init__).parameters
         is_open = any(p.kind is p.VAR_KEYWORD for p in parameters.values())
-        known = [name for name, p in parameters.items() if p.kind is p.KEYWORD_ONLY]
-        for name in settings:
-            if name not in parameters and not is_open:
-                near = get_close_matches(name, known, 1)
-                remedy = f"did you mean {near[0]!r}?" if near else f"it has {', '.join(known)}"
-                raise TypeError(f"wingbeat.gym.{cls.__name__}() has no keyword {name!r}: {remedy}")
+        if not is_open:
+            known = [name for name, p in parameters.items() if p.kind is p.KEYWORD_ONLY]
+            by_name = [name for name, p in parameters.items() if p.kind is p.POSITIONAL_OR_KEYWORD]
+            check_known(cls.__name__, {name: settings[name] for name in settings if name not in by_name}, known)
         return super().__new__(cls)
 
     def __reduce__(self) -> NoReturn:
@@ -83,19 +81,12 @@ class Fleet(Uncopied):
         autoreset: str,
         *,
         flight: Flight | list[Flight] | tuple[Flight, ...] | None = None,
-        steps_per_beat: int = 40,
-        controls_per_beat: int = 1,
-        beats: int = 100,
-        amplitude_limit: float = 0.2,
-        angle_limit_rad: float = 0.2,
-        delay: int = 0,
-        position_noise_m: float = 0.0,
-        velocity_noise_m_per_s: float = 0.0,
-        tilt_noise_rad: float = 0.0,
-        rate_noise_rad_per_s: float = 0.0,
+        **given: Unpack[Settings],
     ) -> None:
-        steps = whole("steps_per_beat", steps_per_beat, 20, 2000)
-        controls = whole("controls_per_beat", controls_per_beat, 1, steps)
+        check_known("Environment", {**given}, list(DEFAULTS))
+        chosen = DEFAULTS | given
+        steps = whole("steps_per_beat", chosen["steps_per_beat"], 20, 2000)
+        controls = whole("controls_per_beat", chosen["controls_per_beat"], 1, steps)
         if steps % controls:
             raise CaseError(
                 f"controls_per_beat = {controls}: {steps} steps are no whole number for each",
@@ -105,14 +96,14 @@ class Fleet(Uncopied):
         settings = {
             "task": task,
             "interval": steps // controls,
-            "beats": whole("beats", beats, 1, 1_000_000),
-            "amplitude_limit": _size("amplitude_limit", amplitude_limit, 0.5),
-            "angle_limit_rad": _size("angle_limit_rad", angle_limit_rad, 0.5),
-            "delay": whole("delay", delay, 0, 10_000),
-            "position_noise_m": _size("position_noise_m", position_noise_m, 1e3),
-            "velocity_noise_m_per_s": _size("velocity_noise_m_per_s", velocity_noise_m_per_s, 1e3),
-            "tilt_noise_rad": _size("tilt_noise_rad", tilt_noise_rad, 3.0),
-            "rate_noise_rad_per_s": _size("rate_noise_rad_per_s", rate_noise_rad_per_s, 1e5),
+            "beats": whole("beats", chosen["beats"], 1, 1_000_000),
+            "amplitude_limit": _size("amplitude_limit", chosen["amplitude_limit"], 0.5),
+            "angle_limit_rad": _size("angle_limit_rad", chosen["angle_limit_rad"], 0.5),
+            "delay": whole("delay", chosen["delay"], 0, 10_000),
+            "position_noise_m": _size("position_noise_m", chosen["position_noise_m"], 1e3),
+            "velocity_noise_m_per_s": _size("velocity_noise_m_per_s", chosen["velocity_noise_m_per_s"], 1e3),
+            "tilt_noise_rad": _size("tilt_noise_rad", chosen["tilt_noise_rad"], 3.0),
+            "rate_noise_rad_per_s": _size("rate_noise_rad_per_s", chosen["rate_noise_rad_per_s"], 1e5),
         }
         if not isinstance(task, str) or task not in TASKS:
             raise CaseError(f"task = {task!r:.60}: not known", key="task", remedy=", ".join(TASKS))

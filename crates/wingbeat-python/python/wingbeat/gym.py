@@ -73,7 +73,7 @@ from __future__ import annotations
 import operator
 from collections.abc import Mapping, Sequence
 from difflib import get_close_matches
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Unpack
 
 import gymnasium
 import numpy as np
@@ -86,6 +86,7 @@ from wingbeat._flight import Flight
 from wingbeat._flyers import check_one
 from wingbeat._numbers import reals, whole
 from wingbeat._saved import SavedState
+from wingbeat._settings import Settings, with_settings
 from wingbeat.errors import CaseError
 
 if TYPE_CHECKING:
@@ -142,42 +143,19 @@ class Environment(Uncopied, gymnasium.Env[Any, Any]):
 
     metadata = {"render_modes": []}  # noqa: RUF012
 
+    @with_settings
     def __init__(
         self,
         task: str = "hover",
         *,
         flight: Flight | None = None,
-        steps_per_beat: int = 40,
-        controls_per_beat: int = 1,
-        beats: int = 100,
-        amplitude_limit: float = 0.2,
-        angle_limit_rad: float = 0.2,
-        delay: int = 0,
-        position_noise_m: float = 0.0,
-        velocity_noise_m_per_s: float = 0.0,
-        tilt_noise_rad: float = 0.0,
-        rate_noise_rad_per_s: float = 0.0,
         render_mode: None = None,
+        **settings: Unpack[Settings],
     ) -> None:
         if render_mode is not None:
             raise CaseError("render_mode: there is none", key="render_mode", remedy="leave it out")
         check_one(flight)
-        self._fleet = Fleet(
-            1,
-            task,
-            "disabled",
-            flight=flight,
-            steps_per_beat=steps_per_beat,
-            controls_per_beat=controls_per_beat,
-            beats=beats,
-            amplitude_limit=amplitude_limit,
-            angle_limit_rad=angle_limit_rad,
-            delay=delay,
-            position_noise_m=position_noise_m,
-            velocity_noise_m_per_s=velocity_noise_m_per_s,
-            tilt_noise_rad=tilt_noise_rad,
-            rate_noise_rad_per_s=rate_noise_rad_per_s,
-        )
+        self._fleet = Fleet(1, task, "disabled", flight=flight, **settings)
         self.observation_space = self._fleet.observation_space
         self.action_space = self._fleet.action_space
 
@@ -230,6 +208,7 @@ class VectorEnvironment(Uncopied, gymnasium.vector.VectorEnv[Any, Any, Any]):
     gymnasium has them.
     """
 
+    @with_settings
     def __init__(
         self,
         num_envs: int = 1,
@@ -238,17 +217,8 @@ class VectorEnvironment(Uncopied, gymnasium.vector.VectorEnv[Any, Any, Any]):
         autoreset_mode: AutoresetMode | str = AutoresetMode.NEXT_STEP,
         copy: bool = True,
         flight: Flight | list[Flight] | tuple[Flight, ...] | None = None,
-        steps_per_beat: int = 40,
-        controls_per_beat: int = 1,
-        beats: int = 100,
-        amplitude_limit: float = 0.2,
-        angle_limit_rad: float = 0.2,
-        delay: int = 0,
-        position_noise_m: float = 0.0,
-        velocity_noise_m_per_s: float = 0.0,
-        tilt_noise_rad: float = 0.0,
-        rate_noise_rad_per_s: float = 0.0,
         render_mode: None = None,
+        **settings: Unpack[Settings],
     ) -> None:
         try:
             mode = AutoresetMode(autoreset_mode)
@@ -257,22 +227,7 @@ class VectorEnvironment(Uncopied, gymnasium.vector.VectorEnv[Any, Any, Any]):
             raise CaseError(f"autoreset_mode = {autoreset_mode!r:.60}", key="autoreset_mode", remedy=names) from None
         if render_mode is not None:
             raise CaseError("render_mode: there is none", key="render_mode", remedy="leave it out")
-        self._fleet = Fleet(
-            num_envs,
-            task,
-            mode.name.lower(),
-            flight=flight,
-            steps_per_beat=steps_per_beat,
-            controls_per_beat=controls_per_beat,
-            beats=beats,
-            amplitude_limit=amplitude_limit,
-            angle_limit_rad=angle_limit_rad,
-            delay=delay,
-            position_noise_m=position_noise_m,
-            velocity_noise_m_per_s=velocity_noise_m_per_s,
-            tilt_noise_rad=tilt_noise_rad,
-            rate_noise_rad_per_s=rate_noise_rad_per_s,
-        )
+        self._fleet = Fleet(num_envs, task, mode.name.lower(), flight=flight, **settings)
         self._mode, self._copy = mode, copy
         self.num_envs = num_envs
         self.metadata = {"render_modes": [], "autoreset_mode": mode}

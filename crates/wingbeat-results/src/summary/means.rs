@@ -26,16 +26,36 @@ const ROUNDING: f64 = 1e-6;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn left_out(setup: &FlightSetup) -> usize {
+    starting_beats(setup).max(LEFT_OUT)
+}
+
+/// Beats at the start of a flight of `setup` that smooth starts of strokes and of a moving tether, or the hold before the
+/// release, reach into: none of them is a beat of the flight that is asked about. 0 of a flight without wingbeats.
+///
+/// ```
+/// let set = ["motion.start=smooth", "motion.start_beats=1.5"].map(str::to_owned);
+/// let case = wingbeat_case::LoadedCase::find("fruit-fly-blade", &set)?;
+/// assert_eq!(wingbeat_results::summary::starting_beats(&case.setup), 2);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn starting_beats(setup: &FlightSetup) -> usize {
     let Some(period) = setup.time.period else {
-        return LEFT_OUT;
+        return 0;
     };
     let beats = |time: f64| (time / period - ROUNDING).ceil().max(0.0) as usize;
     let reached = setup.smooth_starts().map(beats);
     let held = held_steps(setup) as f64 * setup.time.step;
-    reached
-        .into_iter()
-        .chain([beats(held)])
-        .fold(LEFT_OUT, usize::max)
+    reached.into_iter().chain([beats(held)]).fold(0, usize::max)
+}
+
+/// What reaches into the [`starting_beats`] of a flight, in words with its keys.
+pub fn what_starts(setup: &FlightSetup) -> &'static str {
+    match held_steps(setup) {
+        0 => "smooth starts (motion.start_beats, flight.tether.start_s)",
+        _ => {
+            "a smooth start or the hold before the release (motion.start_beats, flight.held_beats)"
+        }
+    }
 }
 
 /// Steps before the release; 0 where nothing is held, or held to the end.
@@ -51,12 +71,9 @@ pub(super) fn too_few_left(setup: &FlightSetup, flown: usize) -> Option<String> 
     let out = left_out(setup);
     let left = flown.saturating_sub(out);
     (flown >= LEFT_OUT + FEWEST && left < FEWEST).then(|| {
-        let what = match held_steps(setup) {
-            0 => "smooth starts (motion.start_beats, flight.tether.start_s)",
-            _ => "a smooth start or the hold before the release (motion.start_beats, flight.held_beats)",
-        };
         format!(
-            "No mean over wingbeats: means leave out the beats that {what} reach into, of {flown} flown {left} are left, and three are needed: time.beats = {} or more.",
+            "No mean over wingbeats: means leave out the beats that {} reach into, of {flown} flown {left} are left, and three are needed: time.beats = {} or more.",
+            what_starts(setup),
             out + FEWEST
         )
     })
@@ -260,7 +277,10 @@ mod tests {
                 .collect();
             let case = wingbeat_case::LoadedCase::find("fruit-fly-blade", &set).unwrap();
             assert_eq!(left_out(&case.setup), expected, "{set:?}");
+            assert!(starting_beats(&case.setup) <= expected, "{set:?}");
         }
+        let impulsive = wingbeat_case::LoadedCase::find("fruit-fly-blade", &[]).unwrap();
+        assert_eq!(starting_beats(&impulsive.setup), 0);
         let short = wingbeat_case::LoadedCase::find(
             "fruit-fly-blade",
             &["time.beats=9".to_owned(), "flight.held_beats=7".to_owned()],

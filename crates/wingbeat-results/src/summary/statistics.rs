@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use wingbeat_flight::{FlightSetup, Record};
+use wingbeat_math::larger;
 
 use super::beats::{BeatMeans, Beats};
 use super::each_step::EachStep;
@@ -21,6 +22,8 @@ pub(super) struct Statistics {
     pub regularised: usize,
     pub limited: usize,
     pub leading_rings: f64,
+    /// Largest residual of a last corrector pass \[1\].
+    pub corrector_residual: f64,
     /// Rings of wakes in sum over the rows, and how many rows that are.
     pub wake_rings: usize,
     pub rows: usize,
@@ -77,6 +80,7 @@ impl Statistics {
         self.regularised += r.regularised;
         self.limited += r.limited;
         self.leading_rings += r.leading_rings;
+        self.corrector_residual = larger(self.corrector_residual, r.corrector_residual);
         self.wake_rings += r.wake_rings;
         self.rows += 1;
     }

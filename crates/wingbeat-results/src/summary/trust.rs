@@ -15,7 +15,7 @@ use self::doubts::Place;
 pub(super) use self::motion::flown_crossings;
 use super::means::too_few_left;
 use super::numbers::Summary;
-use super::verdict::Warnings;
+use super::verdict::{Verdict, Warnings};
 
 /// Relative difference from a whole number of steps in a wingbeat that is rounding.
 const WHOLE: f64 = 1e-9;
@@ -111,6 +111,23 @@ fn euler_angles(setup: &FlightSetup, summary: &Summary, list: &mut Warnings) {
             summary.violation_position_m, summary.violation_orientation
         ));
     }
+}
+
+/// Largest tolerance of the corrector that a case may have: starting steps with a larger residual are no solution.
+const LOOSEST: f64 = 1e-3;
+
+/// Starting steps whose sweeps do not converge (a history that answers to the smallest change may not); later steps that
+/// do not are an error. `residual`: the largest of a last pass \[1\].
+pub(super) fn starting_steps(setup: &FlightSetup, residual: f64, list: &mut Warnings) {
+    let tolerance = setup.corrector.tolerance;
+    if tolerance <= 0.0 || residual <= tolerance {
+        return;
+    }
+    let verdict = match residual <= LOOSEST {
+        true => Verdict::Amber,
+        false => Verdict::Red,
+    };
+    list.add(verdict, format!("The starting steps have not converged: the states that they begin from differ by {residual:.1e} from one sweep over them to the next, and corrector.tolerance is {tolerance:.1e}. Make the steps smaller (time.steps_per_beat), or start smoothly (motion.start, flight.held_beats)."));
 }
 
 /// Wingbeats that are not a whole number of steps.

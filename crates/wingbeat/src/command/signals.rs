@@ -16,16 +16,21 @@ use crate::command::output::terminal::tell;
 pub(crate) struct Interrupts {
     stop: Arc<AtomicBool>,
     is_built: Arc<AtomicBool>,
+    /// What is finished after the first signal, where that may take a while.
+    finishes: Option<&'static str>,
 }
 
 impl Interrupts {
     /// From now on; until [`Self::flight_is_built`] a signal ends the program at once.
     pub(crate) fn while_building() -> Self {
-        let interrupts = Self::default();
-        if let Err(e) = watch(interrupts.clone()) {
+        Self::default().watched()
+    }
+
+    fn watched(self) -> Self {
+        if let Err(e) = watch(self.clone()) {
             tell!("warning: Ctrl-C will not end the run cleanly ({e})");
         }
-        interrupts
+        self
     }
 
     /// The flight is there, and is written from now on: signals end it after its step.
@@ -37,6 +42,17 @@ impl Interrupts {
     pub(crate) fn stop(&self) -> &AtomicBool {
         &self.stop
     }
+}
+
+/// Set by the first signal, for work in parts that may take a while: the one that is under way is finished, in words
+/// (`this speed`), and what is done is reported.
+pub(crate) fn stop_flag_after(part: &'static str) -> Arc<AtomicBool> {
+    let interrupts = Interrupts {
+        finishes: Some(part),
+        ..Interrupts::default()
+    };
+    interrupts.flight_is_built();
+    interrupts.watched().stop
 }
 
 /// Set by the first signal, for what is begun already.
@@ -58,6 +74,11 @@ fn watch(interrupts: Interrupts) -> std::io::Result<()> {
             if interrupts.stop.swap(true, Ordering::SeqCst) || !is_built {
                 wingbeat::case::external::end_all();
                 std::process::exit(i32::from(INTERRUPTED));
+            }
+            if let Some(part) = interrupts.finishes {
+                tell!(
+                    "interrupted: {part} is finished, and what is done is reported; a second Ctrl-C ends it at once"
+                );
             }
         }
     });

@@ -213,3 +213,57 @@ list = [1, 7]
         );
     }
 }
+
+/// Means of campaigns leave out the wingbeats that a smooth start reaches into: they are those of the beats after it, a
+/// point with fewer has failed, and a campaign without one that flies enough is refused.
+#[test]
+fn exact_means_of_campaigns_leave_out_smooth_starts() {
+    let scratch = Scratch::new("campaign-starts");
+    let dir = &scratch.0;
+    let text = r#"case = "fruit-fly-blade"
+keep = ["lift_over_weight", "max.air_wing_right_force_n3_newton"]
+mean_beats = 2
+[set]
+"time.beats" = 4
+"time.steps_per_beat" = 40
+"motion.start" = "smooth"
+[parameter."motion.start_beats"]
+list = [1.5, 2.5]
+"#;
+    write(dir, text);
+    flown(dir, &["campaign", "run", "c.toml", "--out", "r", "--quiet"]);
+    flown(dir, &["campaign", "merge", "c.toml", "--out", "r"]);
+    assert_eq!(column(dir, "r", "reason"), ["", "short"]);
+    let set = [
+        "time.beats=4",
+        "time.steps_per_beat=40",
+        "motion.start=smooth",
+        "motion.start_beats=1.5",
+    ];
+    let set: Vec<String> = set.map(str::to_owned).into();
+    let case = wingbeat::case::LoadedCase::find("fruit-fly-blade", &set).unwrap();
+    let beats = wingbeat::Flight::from(case).fly().unwrap().summary().beats;
+    let last: Vec<f64> = beats[2..]
+        .iter()
+        .filter_map(|b| b.mean.lift_over_weight)
+        .collect();
+    let mean = last.iter().sum::<f64>() / 2.0;
+    assert_eq!(numbers(dir, "r", "lift_over_weight")[0], mean);
+    let failed = fs::read_to_string(dir.join("r/failed.csv")).unwrap();
+    for part in [
+        "means over 2 wingbeats, and 1 are left of 4 whole ones that were flown",
+        "(motion.start_beats, flight.tether.start_s)",
+        "(time.beats = 5 or more)",
+    ] {
+        assert!(failed.contains(part), "{part} not in\n{failed}");
+    }
+    write(dir, &text.replace("1.5, 2.5", "2.5, 3"));
+    let out = wingbeat(dir, &["campaign", "check", "c.toml"]);
+    let said = String::from_utf8(out.stderr).unwrap();
+    assert_eq!(out.status.code(), Some(2), "{said}");
+    assert!(
+        said.contains("flights of 4 whole ones, of which means leave out")
+            && said.contains("a whole number from 1 to 1"),
+        "{said}"
+    );
+}

@@ -4,7 +4,8 @@ use wingbeat_flight::{AirModel, AppliedLoad};
 use wingbeat_math::DVec3;
 use wingbeat_model::Animal;
 
-use crate::build::fault::{Built, idle};
+use crate::build::fault::Built;
+use crate::error::Fault;
 use crate::raw::Case;
 
 const KEY: &str = "air.buoyancy";
@@ -16,23 +17,35 @@ pub(crate) fn loads(case: &Case, air: &AirModel, animal: &Animal) -> Built<Vec<A
         return Ok(vec![]);
     }
     let Some(density) = air.density() else {
-        return Err(idle(
-            KEY,
-            "in air of no density: air.model = \"vortex_lattice\" or \"blade_element\"",
+        return Err(lacking(
+            "in air of no density",
+            "beside air that has a density",
+            "set air.model = \"vortex_lattice\" or \"blade_element\"",
         ));
     };
     let gravity = DVec3::from(case.gravity_m_s2);
     if gravity == DVec3::ZERO {
-        return Err(idle(KEY, "without gravity (gravity_m_s2)"));
+        return Err(lacking(
+            "without gravity",
+            "with gravity_m_s2 that is not 0",
+            "give gravity_m_s2",
+        ));
     }
     let solids = animal.solids();
     if solids.is_empty() {
-        return Err(idle(
-            KEY,
-            "where neither the body nor a segment has a closed part ([body.part.NAME])",
+        return Err(lacking(
+            "where neither the body nor a segment has a closed part, which displaces fluid",
+            "beside a closed part of the body or of a segment",
+            "give the body its shape ([body.part.NAME], [segment.NAME.part.NAME])",
         ));
     }
     let load =
         |(body, volume, centre)| AppliedLoad::constant(body, centre, -density * volume * gravity);
     Ok(solids.into_iter().map(load).collect())
+}
+
+/// Buoyancy that has no effect, what it needs, and how that is given.
+fn lacking(why: &str, needs: &str, give: &str) -> Fault {
+    let remedy = format!("{give}, or remove this");
+    Fault::new(KEY, format!("this has no effect {why}"), needs, remedy)
 }

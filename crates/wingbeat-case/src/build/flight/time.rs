@@ -20,9 +20,7 @@ pub(crate) fn grid(case: &Case) -> Built<TimeGrid> {
     };
     let (key, steps) = match (time.steps, period, time.beats) {
         (Some(steps), _, _) => ("time.steps", steps as f64),
-        (None, Some(period), Some(beats)) => {
-            ("time.beats", (beats * period / step).round().max(1.0))
-        }
+        (None, Some(period), Some(beats)) => ("time.beats", counted(beats, period / step)?),
         _ => return Err(no_beat("time.steps", "steps")),
     };
     if steps > MAX_STEPS as f64 {
@@ -43,6 +41,23 @@ pub(crate) fn grid(case: &Case) -> Built<TimeGrid> {
         steps: steps as usize,
         period,
     })
+}
+
+/// Whole steps in so many wingbeats of `each` steps \[1\].
+fn counted(beats: f64, each: f64) -> Built<f64> {
+    let steps = (beats * each).round();
+    match steps < 1.0 {
+        true => Err(Fault::new(
+            "time.beats",
+            format!(
+                "this is {:.2e} of a step, and not one is flown",
+                beats * each
+            ),
+            format!("a step or more: {:.3e} wingbeats are one", 1.0 / each),
+            "fly longer, or give `steps` in place of `beats`",
+        )),
+        false => Ok(steps),
+    }
 }
 
 fn no_beat(key: &str, name: &str) -> Fault {

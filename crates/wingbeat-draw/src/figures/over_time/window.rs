@@ -28,6 +28,20 @@ pub struct Window {
 }
 
 impl Window {
+    /// Ends that contradict each other, whatever the flight; none where they do not.
+    pub(super) fn contradiction(self) -> Option<String> {
+        match (self.from, self.to, self.beats) {
+            (Some(_), Some(_), Some(_)) => Some(
+                "--beats says too much beside both --from and --to; leave one of them out"
+                    .to_owned(),
+            ),
+            (Some(from), Some(to), None) if from >= to => Some(format!(
+                "--from {from} does not lie before --to {to}: nothing is drawn; exchange them"
+            )),
+            _ => None,
+        }
+    }
+
     /// The rows of the history at `path`, with these times \[s\], that lie in it.
     ///
     /// # Errors
@@ -83,14 +97,10 @@ impl Window {
                 "--beats: this flight has no wingbeats; use --from and --to, seconds".into(),
             );
         }
+        if let Some(problem) = self.contradiction() {
+            return Err(problem);
+        }
         match self {
-            Self {
-                from: Some(_),
-                to: Some(_),
-                beats: Some(_),
-            } => Err(
-                "--beats says too much beside both --from and --to; leave one of them out".into(),
-            ),
             Self {
                 from: Some(from),
                 to,

@@ -35,8 +35,8 @@ def map(
     ``base`` is a flight, a case, the name of a preset, or a function that makes a flight of a point. ``do`` is
     ``"fly"``; ``"trim"``, where points may also have ``trim.forward_m_per_s`` and the like; or a function of the flight that
     returns numbers by name. ``keep`` are the names of numbers to be kept, of a function also with their units: of flights
-    means over all whole wingbeats, or the ``last_beats`` of them, and numbers of the summary; left out: lift over weight and power
-    of flights, power and body angles of trims.
+    means over all whole wingbeats but those that a smooth start or a hold reach into, or over the ``last_beats`` of them, and numbers
+    of the summary; left out: lift over weight and power of flights, power and body angles of trims.
 
     ``executor`` is any of the interface of ``concurrent.futures``, or a client of Dask; processes of this machine if left
     out. ``workers`` is how many of them there are, if it is not to be found out. Points go to workers in batches of

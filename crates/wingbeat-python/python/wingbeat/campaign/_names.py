@@ -5,66 +5,15 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from typing import Any
 
+from wingbeat import _core
 from wingbeat.errors import CaseError
 
-BEATS = (
-    "lift_over_weight",
-    "lift_newton",
-    "thrust_newton",
-    "power_watt",
-    "positive_power_watt",
-    "lift_coefficient",
-    "thrust_coefficient",
-    "inviscid_lift_newton",
-    "lift_by_impulse_newton",
-)
+_beats, _summary, _powers = _core.names_of_numbers()
+BEATS = tuple(_beats)
 """Means over wingbeats."""
-SUMMARY = (
-    "steps",
-    "time_s",
-    "mass_kg",
-    "forward_m",
-    "right_m",
-    "down_m",
-    "pitch_deg",
-    "yaw_deg",
-    "roll_deg",
-    "final_lift_newton",
-    "final_thrust_newton",
-    "last_lift_coefficient",
-    "last_thrust_coefficient",
-    "tip_displacement_m",
-    "tip_twist_deg",
-    "strain_energy_joule",
-    "energy_residual_relative",
-    "joint_residual_relative",
-    "momentum_residual_relative",
-    "impulse_residual_relative",
-    "violation_position_m",
-    "violation_orientation",
-    "euler_regularity",
-    "corrector_passes_most",
-    "corrector_passes_mean",
-    "wake_rings",
-    "wake_particles",
-    "regularised",
-    "limited",
-    "limited_part",
-    "leading_rings",
-    "alternating_steps",
-    "net_flux_residual_m_s",
-    "verdict",
-    "warnings",
-)
+SUMMARY = tuple(_summary)
 """Numbers of the summary: way and turn from start to end by components; ``verdict``: 0 green, 1 amber, 2 red; how many ``warnings``."""
-POWER = (
-    "aerodynamic_watt",
-    "inertial_positive_watt",
-    "perfect_storage_watt",
-    "no_storage_watt",
-    "peak_watt",
-    "damping_watt",
-)
+POWER = tuple(_powers)
 ATTITUDE = ("body_pitch_rad", "body_roll_rad", "period_s", "iterations")
 ADJUSTMENT = (
     "stroke_amplitude",

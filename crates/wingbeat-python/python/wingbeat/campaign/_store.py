@@ -14,6 +14,7 @@ from typing import Any
 from wingbeat import _core, _toml
 from wingbeat._flight import Flight
 from wingbeat.campaign._identity import of_part
+from wingbeat.campaign._names import BEATS
 from wingbeat.campaign._points import Point
 from wingbeat.campaign._task import Found, Task
 from wingbeat.errors import CaseError, ResultError
@@ -106,6 +107,8 @@ def _digest(task: Task) -> str:
     """Everything that all points share: version, case, programs that it asks, what is done, what is kept."""
     base, do = of_part(task.base, "base"), of_part(task.do, "do")
     parts = [_FORMAT, _core.version(), base, do, task.keep, task.last_beats]
+    if task.do == "fly" and any(name in BEATS for name in task.keep):
+        parts.append("means without smooth starts and holds")  # they were of the last wingbeats, whatever these were
     if isinstance(task.base, Flight):
         parts.append(task.base._core.hash_of_programs())
     return hashlib.sha256(json.dumps(parts).encode()).hexdigest()

@@ -72,10 +72,11 @@ class Task:
 
 def _flown(flight: Flight, keep: Sequence[str], last: int | None) -> dict[str, Any]:
     run = flight.fly(frames=False)
-    count = len(run.summary["beats"])
-    least = last or 1
+    flown, out = len(run.summary["beats"]), run._core.starting_beats
+    count, least = max(0, flown - out), last or 1
     if count < least and any(name in _names.BEATS for name in keep):
-        raise AnalysisError(f"{count} whole wingbeats were flown, means need {least} (time.beats)")
+        started = f", of which the first {out} are left out: a smooth start or the hold reaches into them" if out and flown else ""
+        raise AnalysisError(f"{flown} whole wingbeats were flown{started}; means need {least}{' more' if started else ''} (time.beats)")
     numbers = of_summary(run.summary)
     for name in keep:
         if name in _names.BEATS:

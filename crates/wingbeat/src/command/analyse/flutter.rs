@@ -3,6 +3,7 @@
 mod table;
 
 use std::f64::consts::TAU;
+use std::sync::atomic::Ordering;
 
 use clap::Args;
 use serde_json::{Value, json};
@@ -14,9 +15,10 @@ use wingbeat::case::LoadedCase;
 
 use self::table::{head, notes, tell};
 use crate::command::options::{self, CaseArgs};
-use crate::command::output::failure::Failure;
+use crate::command::output::failure::{Failure, INTERRUPTED};
 use crate::command::output::report::{Report, ReportArgs, line};
 use crate::command::output::terminal::tell as announce;
+use crate::command::signals::stop_flag_after;
 use crate::command::progress::watch::watched;
 
 /// Arguments of `wingbeat flutter`.
@@ -71,7 +73,18 @@ pub(crate) fn run(args: &FlutterArgs) -> Result<(), Failure> {
                 case.name
             );
         }
+        let stop = stop_flag_after("this speed");
         for (done, &speed) in asked.iter().enumerate() {
+            if stop.load(Ordering::Relaxed) {
+                conclude_all(report, &case, &found, false);
+                report.value("missing_speeds_m_s", &asked[done..]);
+                announce!(
+                    "interrupted: {} of {} speeds were not tried",
+                    asked.len() - done,
+                    asked.len()
+                );
+                return Err(Failure::Told(INTERRUPTED));
+            }
             let next = match watched("flutter", || condition(&case.setup, speed, &settings)) {
                 Ok(next) => next,
                 Err(error) => {
@@ -89,6 +102,9 @@ pub(crate) fn run(args: &FlutterArgs) -> Result<(), Failure> {
                 tell(report, c, (next.len() > 1).then(|| name(c)));
             }
             found.extend(next);
+            if !report.is_said_at_once() {
+                announce!("{}: {} of {} speeds", case.name, done + 1, asked.len());
+            }
             let all = found.iter().map(|c| values(c, name(c)));
             report.value("speeds", all.collect::<Vec<_>>());
         }

@@ -140,35 +140,35 @@ fn unknowns(report: &mut Report, t: &TrimSolution) {
     report.value("outside_bounds", names_of(&t.outside));
 }
 
-/// Strokes with which nothing flies.
+/// Doubts of the motion that was found: told, and for programs `warnings`.
 fn warn(report: &mut Report, t: &TrimSolution, setup: &FlightSetup) {
     let strokes = setup.animal.wings.iter().map(stroke_amplitude);
     let stroke = strokes.fold(0.0, f64::max).to_degrees();
     let crossing_wings = setup.crossing_wings().into_iter().map(|c| c.said);
     let crossing_wings: Vec<String> = crossing_wings.collect();
-    match stroke > 180.0 {
-        true => tell!(
-            "warning: strokes of {stroke:.0} deg: wings pass through each other or through the body; choose other --unknowns (frequency, for instance), or a slower flight"
-        ),
-        false => (crossing_wings.iter()).for_each(|text| tell!("warning: {text}")),
-    }
+    let mut warnings = match stroke > 180.0 {
+        true => vec![format!(
+            "strokes of {stroke:.0} deg: wings pass through each other or through the body; choose other --unknowns (frequency, for instance), or a slower flight"
+        )],
+        false => crossing_wings.clone(),
+    };
     let jumps = setup.jumping_rotation();
-    if let Some(text) = &jumps {
-        tell!("warning: {text}");
-    }
+    warnings.extend(jumps.clone());
     report.value("derivatives_in_doubt", jumps);
     let reynolds = doubtful_reynolds_numbers(setup);
-    reynolds.iter().for_each(|text| tell!("warning: {text}"));
+    warnings.extend(reynolds.clone());
     report.value("reynolds_numbers_in_doubt", reynolds);
     report.value("stroke_deg", stroke);
     report.value("crossing_wings", crossing_wings);
     if let Some(unknown) = turned_inside_out(&t.unknowns, &t.values) {
-        tell!(
-            "warning: {} of {}: below -100 % a stroke is turned inside out, back and forth exchanged, which is another motion; choose other --unknowns (frequency or feathering_offset, for instance), or a flight nearer to the motion of the case",
+        warnings.push(format!(
+            "{} of {}: below -100 % a stroke is turned inside out, back and forth exchanged, which is another motion; choose other --unknowns (frequency or feathering_offset, for instance), or a flight nearer to the motion of the case",
             unknown.name(),
             value(unknown, t).0
-        );
+        ));
     }
+    warnings.iter().for_each(|text| tell!("warning: {text}"));
+    report.value("warnings", warnings);
 }
 
 /// Wings that turn over on passive hinges.

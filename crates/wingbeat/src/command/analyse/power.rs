@@ -19,7 +19,7 @@ const INERTIAL: f64 = 0.25;
 pub(crate) struct PowerArgs {
     #[command(flatten)]
     trimming: Trimming,
-    /// Flight muscle as a part of the mass of the whole animal.
+    /// Actuators, flight muscle or motors, as a part of the mass of the whole flyer.
     #[arg(long, value_name = "SHARE", default_value_t = 0.3, value_parser = options::share)]
     muscle: f64,
 }
@@ -56,7 +56,7 @@ fn tell(report: &mut Report, p: &Power, muscle: f64) {
         "",
         format!("{}W", prefix.trim()),
         "W/kg total",
-        "W/kg muscle"
+        "W/kg actuator"
     );
     let mut values = Map::new();
     for (name, key, x) in rows {
@@ -71,7 +71,7 @@ fn tell(report: &mut Report, p: &Power, muscle: f64) {
     }
     line!(
         report,
-        "  muscle counted as {muscle} of the mass of the whole animal"
+        "  actuators (muscles, motors) counted as {muscle} of the mass of the whole flyer (--muscle)"
     );
     if p.inertial_positive > INERTIAL * p.aerodynamic {
         line!(

@@ -1,18 +1,24 @@
 //! `wingbeat trim --sweep`: trimmed flights over a range of speeds.
 
+use std::ops::ControlFlow;
+use std::sync::atomic::Ordering;
+
 use serde_json::{Value, json};
-use wingbeat::analysis::{Sweep, Swept, TrimProblem, sweep};
+use wingbeat::analysis::{Lost, Sweep, Swept, TrimProblem, sweep_watched};
+use wingbeat::case::LoadedCase;
 use wingbeat::draw::figures::swept::{SpeedRow, swept};
 use wingbeat::math::DVec3;
 
 use super::found::{sideslip_and_turn, values, why};
 use super::trimming::Trimming;
-use crate::command::output::failure::{FAILED, Failure};
+use crate::command::output::failure::{FAILED, Failure, INTERRUPTED};
 use crate::command::output::report::{Report, line};
 use crate::command::output::target::Target;
-use crate::command::progress::watch::watched;
+use crate::command::output::terminal::tell as announce;
+use crate::command::signals::stop_flag_after;
+use crate::command::progress::watch::Watch;
 
-/// Trims from speed to speed, reports, and draws.
+/// Trims from speed to speed, reports, and draws; Ctrl-C ends it after a speed, with what is done.
 pub(super) fn run(
     args: &Trimming,
     [from, to]: [f64; 2],
@@ -29,7 +35,7 @@ pub(super) fn run(
         ..problem.velocity
     };
     let velocities: Vec<DVec3> = (0..points).map(velocity).collect();
-    let found = watched("trimming", || sweep(&case.setup, &problem, &velocities))?;
+    let found = watched(&case, &problem, &velocities)?;
     tell(report, &case.name, &problem, &found);
     if let Some(file) = figure.filter(|_| !found.flights.is_empty()) {
         let rows: Vec<SpeedRow> = found.flights.iter().map(row).collect();
@@ -37,10 +43,46 @@ pub(super) fn run(
         file.write(&swept(&case.name, &rows, lost))?;
         report.drew(&file);
     }
+    if !found.untried.is_empty() {
+        announce!(
+            "interrupted: {} of {points} speeds were not tried",
+            found.untried.len()
+        );
+        return Err(Failure::Told(INTERRUPTED));
+    }
     match found.lost.is_none() && found.missed.is_empty() {
         true => Ok(()),
         false => Err(Failure::Told(FAILED)),
     }
+}
+
+/// The sweep, telling of each speed, until a signal stops it.
+fn watched(
+    case: &LoadedCase,
+    problem: &TrimProblem,
+    velocities: &[DVec3],
+) -> Result<Sweep, Failure> {
+    let stop = stop_flag_after("this speed");
+    let watch = Watch::new("trimming");
+    let mut done = 0;
+    let each = |velocity: DVec3, lost: Option<Lost>| {
+        done += 1;
+        let what = lost.map_or_else(
+            || "trimmed".to_owned(),
+            |l| format!("NOT trimmed ({})", why(&l)),
+        );
+        watch.told(&format!(
+            "{}: {:.3} m/s {what}, {done} of {} speeds",
+            case.name,
+            velocity.x,
+            velocities.len()
+        ));
+        match stop.load(Ordering::Relaxed) {
+            true => ControlFlow::Break(()),
+            false => ControlFlow::Continue(()),
+        }
+    };
+    Ok(sweep_watched(&case.setup, problem, velocities, each)?)
 }
 
 fn row(flight: &Swept) -> SpeedRow {
@@ -69,6 +111,7 @@ fn tell(report: &mut Report, name: &str, problem: &TrimProblem, found: &Sweep) {
     cheapest(report, found);
     crossings(report, &found.flights);
     end(report, found);
+    untried(report, found);
     let flights: Vec<Value> = found.flights.iter().map(value).collect();
     report.value("case", name);
     report.value("flights", flights);
@@ -112,7 +155,7 @@ fn table(report: &mut Report, found: &Sweep) {
     }
     line!(
         report,
-        "  air: power against the air; storage: of muscles with perfect elastic storage, no storage: with none"
+        "  air: power against the air; storage: of actuators (muscles, motors) with perfect elastic storage, no storage: with none"
     );
 }
 
@@ -177,6 +220,7 @@ fn end(report: &mut Report, found: &Sweep) {
         false => found.missed.last(),
     };
     let before = match found.flights.is_empty() {
+        true if !found.untried.is_empty() => "no flight was found before the interruption",
         true => "no flight is found in this range",
         false => "the range begins after it",
     };
@@ -199,6 +243,20 @@ fn end(report: &mut Report, found: &Sweep) {
         report.value("not_trimmed_forward_m_s", velocity.x);
         report.value("not_trimmed_reason", why(lost));
     }
+}
+
+/// Speeds that were left when it was interrupted.
+fn untried(report: &mut Report, found: &Sweep) {
+    let speeds: Vec<f64> = found.untried.iter().map(|v| v.x).collect();
+    if let (Some(first), Some(last)) = (speeds.first(), speeds.last()) {
+        line!(
+            report,
+            "NOT tried, as the sweep was interrupted: {} speeds from {first:.3} to {last:.3} m/s",
+            speeds.len()
+        );
+    }
+    report.value("complete", speeds.is_empty());
+    report.value("not_tried_forward_m_s", speeds);
 }
 
 /// Speed of a flight whose wings pass through each other, and the part of the beat in which they do.

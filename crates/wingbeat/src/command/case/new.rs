@@ -26,7 +26,7 @@ pub(crate) struct NewArgs {
     /// An insect of this species; `wingbeat presets` lists them.
     #[arg(long, value_name = "NAME", help_heading = INSECT)]
     species: Option<String>,
-    /// An insect of this mass, e.g. 100mg; what is not given follows from scaling laws.
+    /// A flyer of this mass in the proportions of an insect, e.g. 100mg; what is not given follows from scaling laws.
     #[arg(long, help_heading = INSECT, value_parser = options::mass, allow_hyphen_values = true)]
     mass: Option<f64>,
     /// Length of a wing, hinge to tip, e.g. 9.7mm.
@@ -37,7 +37,7 @@ pub(crate) struct NewArgs {
     #[arg(long, value_name = "HERTZ", help_heading = INSECT,
           value_parser = options::frequency, allow_hyphen_values = true)]
     frequency: Option<f64>,
-    /// The air of an insect: blade elements, or the vortex lattice with wakes [default: blade].
+    /// Its air: blade elements, or the vortex lattice with wakes [default: blade].
     #[arg(long, value_enum, help_heading = INSECT)]
     air: Option<Air>,
     /// Write the schema for editors beside it, too.
@@ -49,7 +49,7 @@ pub(crate) struct NewArgs {
 }
 
 /// Heading of these options in the help.
-const INSECT: &str = "An insect of your own";
+const INSECT: &str = "A flyer of your own, in the proportions of an insect";
 
 const USAGE: &str = "wingbeat new PRESET [FILE] [OPTIONS]
        wingbeat new --species NAME [FILE] [OPTIONS]

@@ -132,12 +132,17 @@ impl Report {
     pub(crate) fn words(&mut self, words: Arguments<'_>) {
         match (self.json, &self.place) {
             (true, _) => {}
-            (false, Place::Output) => terminal::output(words),
+            (false, Place::Output) => terminal::words(words),
             (false, Place::Error) => terminal::errors(words),
             (false, Place::File(_)) => {
                 let _ = self.text.write_fmt(words); // a string takes everything
             }
         }
+    }
+
+    /// Whether words are said as they come, and not in one piece at the end.
+    pub(crate) fn is_said_at_once(&self) -> bool {
+        !self.json && !matches!(self.place, Place::File(_))
     }
 
     /// A value for programs.

@@ -72,9 +72,16 @@ pub(crate) fn output_is_given_up() -> bool {
     OUTPUT.is_given_up()
 }
 
+/// Prints words, not data, on the standard output: numbers in them are of a length that can be read.
+pub(crate) fn words(text: Arguments<'_>) {
+    let text = text.to_string();
+    output(format_args!("{}", readable(&text)));
+}
+
 /// Prints on the standard error.
 pub(crate) fn errors(text: Arguments<'_>) {
     let text = text.to_string();
+    let text = readable(&text);
     ERRORS.print(|| io::stderr().write_all(abridged(&text).as_bytes()));
 }
 
@@ -97,6 +104,34 @@ fn coloured(summary: &Summary, in_colours: bool) -> String {
         Some(rest) if in_colours => format!("{style}{word}{style:#}{rest}"),
         _ => text,
     }
+}
+
+/// Numbers of more characters than this are said as powers of ten: digits beyond some 17 say nothing.
+const LONGEST_NUMBER: usize = 24;
+
+/// The text with numbers of very many digits as powers of ten. What was typed, or follows from it, may be beyond all measure.
+fn readable(text: &str) -> Cow<'_, str> {
+    let ends = |c: char| !(c.is_ascii_digit() || c == '.');
+    if !text.split(ends).any(|word| word.len() > LONGEST_NUMBER) {
+        return Cow::Borrowed(text);
+    }
+    let (mut short, mut rest) = (String::new(), text);
+    while let Some(at) = rest.find(|c| !ends(c)) {
+        let (before, after) = rest.split_at(at);
+        let whole = &after[..after.find(ends).unwrap_or(after.len())];
+        let number = whole.trim_end_matches('.');
+        rest = &after[number.len().max(1)..];
+        let is_word = |end: Option<char>| end.is_some_and(char::is_alphanumeric);
+        let is_name = is_word(before.chars().last()) || is_word(rest.chars().next());
+        short += before;
+        match number.parse::<f64>() {
+            Ok(x) if number.len() > LONGEST_NUMBER && !is_name && x.is_finite() => {
+                short += &format!("{x:.3e}");
+            }
+            _ => short += &after[..number.len().max(1)],
+        }
+    }
+    Cow::Owned(short + rest)
 }
 
 /// Words longer than this many characters are not said in full.
@@ -171,6 +206,34 @@ mod tests {
             "{red}"
         );
         assert_eq!(red.split_once("[0m").unwrap().1, &text["red".len()..]);
+    }
+
+    #[test]
+    fn behaves_numbers_of_very_many_digits_are_said_as_powers_of_ten() {
+        for (text, expected) in [
+            (
+                format!("{} m/s is too fast.", 1e300),
+                "1.000e300 m/s is too fast.",
+            ),
+            (
+                format!("strokes of {:.1} deg", -2.5e60),
+                "strokes of -2.500e60 deg",
+            ),
+            (
+                format!("r2_hat = {}, which", 1e-30),
+                "r2_hat = 1.000e-30, which",
+            ),
+            (format!("it is {:.0}. Then", 3e40), "it is 3.000e40. Then"),
+            (format!("{} steps", u64::MAX), "18446744073709551615 steps"),
+            (
+                "0.1234567890123456789 ... 1..2".to_owned(),
+                "0.1234567890123456789 ... 1..2",
+            ),
+        ] {
+            assert_eq!(readable(&text), expected);
+        }
+        let name = format!("points/a{}f.json and 1.5", "7".repeat(40));
+        assert_eq!(readable(&name), name);
     }
 
     #[test]

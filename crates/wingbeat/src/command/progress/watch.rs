@@ -1,5 +1,6 @@
 //! Progress of an analysis on the terminal, from the events of `wingbeat_analysis::progress`: what is
-//! being done, how much of it, and since when. Nothing is shown where nobody looks.
+//! being done, how much of it, and since when. Nothing is shown where nobody looks, but what takes
+//! its parts one after the other tells of each in a line.
 
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
@@ -7,6 +8,8 @@ use std::time::Duration;
 use indicatif::{ProgressBar, ProgressDrawTarget};
 use log::{LevelFilter, Log, Metadata, Record};
 use wingbeat::analysis::progress::{BEAT, STEP, TASK};
+
+use crate::command::terminal::tell;
 
 /// Time between two pictures while nothing happens.
 const TICK: Duration = Duration::from_millis(250);
@@ -46,6 +49,13 @@ impl Watch {
     pub(crate) fn part(&self, say: impl FnOnce()) {
         self.bar.suspend(say);
         self.bar.inc(1);
+    }
+
+    /// Tells how far the work is where nobody sees the bar: a line on the standard error.
+    pub(crate) fn told(&self, how_far: &str) {
+        if self.bar.is_hidden() {
+            tell!("{how_far}");
+        }
     }
 }
 

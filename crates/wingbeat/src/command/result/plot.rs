@@ -63,7 +63,6 @@ const KINDS: [(&str, Kind); Kind::ALL.len()] = {
 
 /// The whole command.
 pub(crate) fn plot(args: &PlotArgs) -> Result<(), Failure> {
-    let dir = ResultDir::read(&args.dir)?;
     let folder = args.out.clone().unwrap_or_else(|| match args.style {
         Style::Screen => args.dir.join("figures"),
         style => args.dir.join("figures").join(style.name()),
@@ -81,6 +80,10 @@ pub(crate) fn plot(args: &PlotArgs) -> Result<(), Failure> {
         folder,
         existing: Existing::kept_unless(args.overwrite),
     };
+    if let Some(problem) = order.contradiction() {
+        return Err(Failure::Option(problem));
+    }
+    let dir = ResultDir::read(&args.dir)?;
     let plotted = figures::plot(&dir, &order)?;
     for file in &plotted.files {
         say!("{}", file.display());
