@@ -29,7 +29,7 @@ pub struct Window {
 
 impl Window {
     /// Ends that contradict each other, whatever the flight; none where they do not.
-    pub(super) fn contradiction(self) -> Option<String> {
+    pub(crate) fn contradiction(self) -> Option<String> {
         match (self.from, self.to, self.beats) {
             (Some(_), Some(_), Some(_)) => Some(
                 "--beats says too much beside both --from and --to; leave one of them out"

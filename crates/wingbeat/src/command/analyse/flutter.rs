@@ -18,8 +18,8 @@ use crate::command::options::{self, CaseArgs};
 use crate::command::output::failure::{Failure, INTERRUPTED};
 use crate::command::output::report::{Report, ReportArgs, line};
 use crate::command::output::terminal::tell as announce;
-use crate::command::signals::stop_flag_after;
 use crate::command::progress::watch::watched;
+use crate::command::signals::stop_flag_after;
 
 /// Arguments of `wingbeat flutter`.
 #[derive(Args)]

@@ -15,8 +15,8 @@ use crate::command::output::failure::{FAILED, Failure, INTERRUPTED};
 use crate::command::output::report::{Report, line};
 use crate::command::output::target::Target;
 use crate::command::output::terminal::tell as announce;
-use crate::command::signals::stop_flag_after;
 use crate::command::progress::watch::Watch;
+use crate::command::signals::stop_flag_after;
 
 /// Trims from speed to speed, reports, and draws; Ctrl-C ends it after a speed, with what is done.
 pub(super) fn run(

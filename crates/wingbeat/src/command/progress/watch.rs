@@ -9,7 +9,7 @@ use indicatif::{ProgressBar, ProgressDrawTarget};
 use log::{LevelFilter, Log, Metadata, Record};
 use wingbeat::analysis::progress::{BEAT, STEP, TASK};
 
-use crate::command::terminal::tell;
+use crate::command::output::terminal::tell;
 
 /// Time between two pictures while nothing happens.
 const TICK: Duration = Duration::from_millis(250);
