@@ -93,6 +93,61 @@ fn agrees_growth_of_flown_hinges_with_the_roots_of_the_method() {
     }
 }
 
+/// Two links in line on a held body, with these dampers \[N m s/rad\] at their joints, the inner one let go at
+/// 100 deg/s.
+fn chain(dampers: [f64; 2]) -> FlightSetup {
+    let [inner, outer] = dampers.map(|c| format!("[{{ damping_newton_m_s_per_rad = {c:e} }}]"));
+    let link = "mass_kg = 0.5\ninertia_about_centre_kg_m2 = [0.04, 0.04, 0.04, 0, 0, 0]\n";
+    let joint =
+        "kind = \"revolute\"\naxis = [0, 1, 0]\nat_m = [0, 0, 0]\nat_child_m = [-0.3, 0, 0]\n";
+    let text = format!(
+        "format = 1\ngravity_m_s2 = [0, 0, 0]\ntime = {{ step_s = 1e-3, steps = 60 }}\nflight.mode = \"tethered\"\n\
+         air.model = \"none\"\ndynamics.integrator = \"hamming\"\n\
+         [body]\nmass_kg = 1\ninertia_about_centre_kg_m2 = [1, 1, 1, 0, 0, 0]\n\
+         [segment.inner]\n{link}[segment.outer]\n{link}\
+         [joint.one]\nchild = \"inner\"\n{joint}start_deg_s = [100]\nelement = {inner}\n\
+         [joint.two]\nparent = \"inner\"\nchild = \"outer\"\n{joint}element = {outer}\n"
+    );
+    let case = LoadedCase::from_text("chain", &text, Path::new(""), &[]);
+    case.unwrap_or_else(|e| panic!("{e}")).setup
+}
+
+/// Dampers of a chain take back the rates of its joints together: the fastest motion of two links by their
+/// matrix of masses, in which each damper by itself is carried and both are not.
+#[test]
+fn exact_dampers_of_a_chain_act_faster_than_each_by_itself() {
+    let (m, own, h): (f64, f64, f64) = (0.5 * 0.3 * 0.3, 0.04, 1e-3);
+    let [p, q, r] = [5.0 * m + 2.0 * own, 2.0 * m + own, m + own];
+    let det = p * r - q * q;
+    let outer = 25.0;
+    let c = [outer * p / r, outer]; // each is as fast
+    let [one, other] = [c[0] * r / det, c[1] * p / det];
+    let both = (c[0] * c[1]).sqrt() * q / det;
+    let fastest = 0.5 * (one + other) + (0.25 * (one - other).powi(2) + both * both).sqrt();
+    println!("{} {}", one * h, fastest * h);
+    for alone in [[c[0], 0.0], [0.0, c[1]]] {
+        assert_eq!(growing_joint(&chain(alone)), None, "{alone:?}");
+    }
+    let found = growing_joint(&chain(c)).expect("grows");
+    assert!(found.is_together, "{found:?}");
+    assert!(
+        (found.damping / (fastest * h) - 1.0).abs() < 1e-9,
+        "{found:?}"
+    ); // roundings of differences
+    let records = flown(chain(c)).expect("flown");
+    let rate = |k: usize| records[k].joints[0][1];
+    let bend = |k: usize| (rate(k + 1) - 2.0 * rate(k) + rate(k - 1)).abs();
+    let growth = (bend(50) / bend(30)).powf(0.05);
+    println!("{growth} {found:?}");
+    // The links turn by some degrees.
+    assert!(
+        (growth / found.growth - 1.0).abs() < 5e-3,
+        "{growth} {found:?}"
+    );
+    let said = found.said(&chain(c));
+    assert!(said.contains("and others together"), "{said}");
+}
+
 /// Flights that such a joint ends name it, its numbers and a method that carries it, and so does what is
 /// doubted beforehand; by that method they are flown.
 #[test]

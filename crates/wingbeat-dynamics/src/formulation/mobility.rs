@@ -4,9 +4,10 @@ use crate::mechanism::joint::{JointKinematics, kinematics};
 use crate::{DynamicsError, Formulation, Solution};
 use wingbeat_math::{BodyMotion, Wrench};
 
-/// Acceleration along each of `directions` (number of a hinge of the system, free direction of it) in the state `y`
-/// of a `form` at time `t` \[s\], per effort along that direction \[1/(kg m2) or 1/kg\]: one over the inertia that the
-/// effort moves, on both sides of the joint.
+/// Accelerations along `directions` (number of a hinge of the system, free direction of it) in the state `y` of
+/// a `form` at time `t` \[s\], per effort along each of them, effort by effort \[1/(kg m2), 1/(kg m) or 1/kg\]:
+/// along that direction itself one over the inertia that the effort moves, on both sides of the joint. A
+/// symmetric matrix.
 ///
 /// # Errors
 /// As [`Formulation::solve`].
@@ -14,7 +15,7 @@ pub fn mobilities(
     form: &dyn Formulation,
     (t, y): (f64, &[f64]),
     directions: &[(usize, usize)],
-) -> Result<Vec<f64>, DynamicsError> {
+) -> Result<Vec<Vec<f64>>, DynamicsError> {
     let system = form.system();
     let (mut ws, mut solution) = (form.workspace(), Solution::new(system));
     let mut motions = vec![BodyMotion::REST; system.bodies().len()];
@@ -46,9 +47,13 @@ pub fn mobilities(
                 ..motions[body]
             }
         };
-        let parent = joint.parent.map_or(BodyMotion::REST, gained);
-        let gained = JointKinematics::new(joint, t, &parent, &gained(joint.child));
-        Ok(gained.power(force, moment))
+        let along = |&(hinge, k): &(usize, usize)| {
+            let joint = &system.hinges()[hinge];
+            let [force, moment] = kinematics(joint, t, &motions).direction(k);
+            let parent = joint.parent.map_or(BodyMotion::REST, gained);
+            JointKinematics::new(joint, t, &parent, &gained(joint.child)).power(force, moment)
+        };
+        Ok(directions.iter().map(along).collect())
     };
     directions.iter().map(one).collect()
 }

@@ -8,9 +8,10 @@
 //! | w h | `vibration` | angular frequency `sqrt(k / I)` times the step | 1 |
 //! | | `growth` | largest root of the method there ([`EqualSteps::growth`]) | 1 |
 //!
-//! The inertia is what moves where the flight starts, rigid and in a vacuum, when the flyer and all of its joints give
-//! way: its fastest vibration is at least as fast. The air's mass and damping, which help, are left out, and so are
-//! stops: they act for a few steps.
+//! The inertia is what moves where the flight starts, rigid and in a vacuum, when the flyer and all of its
+//! joints give way. What acts on several joints of a chain or of one light body moves them together, faster
+//! than each by itself. The air's mass and damping, which help, are left out, and so are stops: they act for a
+//! few steps.
 
 use std::sync::Arc;
 
@@ -35,8 +36,10 @@ const MAX_FINER: u32 = 1000;
 /// A free direction of a joint in the steps of a flight.
 #[derive(Clone, Debug, PartialEq)]
 pub struct JointSteps {
-    /// Name of the joint.
+    /// Name of the joint; of joints that give way together, of that on which most acts.
     pub joint: String,
+    /// Whether what acts on other joints takes part.
+    pub is_together: bool,
     /// c h / I \[1\].
     pub damping: f64,
     /// w h \[1\].
@@ -51,8 +54,14 @@ impl JointSteps {
     /// What is said of it under the integrator of `setup`.
     pub fn said(&self, setup: &FlightSetup) -> String {
         format!(
-            "spring and damper of joint `{}` act faster than dynamics.integrator = \"{}\" carries: c h / I = {:.2}, w h = {:.2} (damping, angular frequency, and step; rigid and in a vacuum), where a disturbance becomes {:.2} times as large in every step",
-            self.joint,
+            "{} act faster than dynamics.integrator = \"{}\" carries: c h / I = {:.2}, w h = {:.2} (damping, angular frequency, and step; rigid and in a vacuum), where a disturbance becomes {:.2} times as large in every step",
+            match self.is_together {
+                true => format!(
+                    "springs and dampers of joint `{}` and others together",
+                    self.joint
+                ),
+                false => format!("spring and damper of joint `{}`", self.joint),
+            },
             setup.integrator.name(),
             self.damping,
             self.vibration,
@@ -71,12 +80,15 @@ pub fn growing_joint(setup: &FlightSetup) -> Option<JointSteps> {
     let acted = directions.filter(|(j, k)| j.model.damping_and_stiffness(*k) != [0.0; 2]);
     let acted: Vec<(&Joint, usize)> = acted.collect();
     let found = mobilities_of(setup, &acted)?;
-    let of = |(&(joint, k), mobility): (&(&Joint, usize), f64)| {
-        let [damping, stiffness] = joint.model.damping_and_stiffness(k);
-        let both = [damping * mobility, stiffness.max(0.0) * mobility];
+    let efforts: Vec<[f64; 2]> = acted
+        .iter()
+        .map(|(j, k)| j.model.damping_and_stiffness(*k).map(|x| x.max(0.0)))
+        .collect();
+    let steps = |joint: usize, both: [f64; 2], is_together: bool| {
         let growth = method.growth(both, h);
         let found = JointSteps {
-            joint: joint.name.clone(),
+            joint: acted[joint].0.name.clone(),
+            is_together,
             damping: both[0] * h,
             vibration: both[1].sqrt() * h,
             growth,
@@ -84,13 +96,60 @@ pub fn growing_joint(setup: &FlightSetup) -> Option<JointSteps> {
         };
         (growth > GROWS).then_some(found)
     };
-    let all = acted.iter().zip(found).filter_map(of);
-    all.max_by(|a, b| a.growth.total_cmp(&b.growth))
+    let one = |i: usize| steps(i, efforts[i].map(|x| x * found[i][i]), false);
+    let all = [0, 1].map(|of| together(&found, &efforts, of));
+    let all = all.into_iter().flatten();
+    let all = all.filter_map(|(joint, both)| steps(joint, both, true));
+    let faster = |a: &JointSteps, b: &JointSteps| a.growth.total_cmp(&b.growth);
+    let alone = (0..acted.len()).filter_map(one).max_by(faster);
+    let most = alone.as_ref().map_or(0.0, |a| a.growth) * (1.0 + SAME);
+    all.max_by(faster).filter(|a| a.growth > most).or(alone)
 }
 
-/// One over the inertia that is moved along free directions of joints \[1/(kg m2) or 1/kg\]; none where there are none,
-/// or where the flight cannot start.
-fn mobilities_of(setup: &FlightSetup, directions: &[(&Joint, usize)]) -> Option<Vec<f64>> {
+/// Growth that is the same, over itself \[1\].
+const SAME: f64 = 1e-6;
+
+/// Passes of the power method, whose error is then nothing beside what growth is judged by.
+const PASSES: usize = 200;
+
+/// What the dampers (`of` 0) or springs (1) of all joints do together in their fastest motion: c / I \[1/s\]
+/// and k / I \[1/s2\] of it, with the number of the joint that takes most part, by the `mobilities` M of joints
+/// that have these `efforts` c and k. The largest eigenvalue of `D M D`, D the roots of c or k, is no less than
+/// any of what each joint does by itself: joints of a chain give way together. None of one joint.
+fn together(mobilities: &[Vec<f64>], efforts: &[[f64; 2]], of: usize) -> Option<(usize, [f64; 2])> {
+    let roots: Vec<f64> = efforts.iter().map(|e| e[of].sqrt()).collect();
+    // Accelerations that efforts of these sizes in the directions make.
+    let moved = |v: &[f64]| -> Vec<f64> {
+        let row = |row: &Vec<f64>| {
+            let terms = row.iter().zip(&roots).zip(v);
+            terms.map(|((m, d), v)| m * d * v).sum()
+        };
+        mobilities.iter().map(row).collect()
+    };
+    // Parts that are unlike each other have a share in any motion.
+    let mut v: Vec<f64> = (0..roots.len()).map(|i| 1.0 / (1.5 + i as f64)).collect();
+    let mut fastest = 0.0;
+    for _ in 0..PASSES {
+        let next: Vec<f64> = moved(&v).iter().zip(&roots).map(|(a, d)| a * d).collect();
+        fastest = next.iter().map(|x| x * x).sum::<f64>().sqrt();
+        if fastest <= 0.0 || roots.len() < 2 {
+            return None;
+        }
+        v = next.iter().map(|x| x / fastest).collect();
+    }
+    let way = moved(&v);
+    let both = [0, 1].map(|of| {
+        let terms = way.iter().zip(efforts).map(|(a, e)| e[of] * a * a);
+        terms.sum::<f64>() / fastest
+    });
+    let part = |&i: &usize| v[i].abs();
+    let joint = (0..v.len()).max_by(|i, j| part(i).total_cmp(&part(j)))?;
+    Some((joint, both))
+}
+
+/// How readily joints give way along free directions ([`mobilities`]); none where there are none, or where the
+/// flight cannot start.
+fn mobilities_of(setup: &FlightSetup, directions: &[(&Joint, usize)]) -> Option<Vec<Vec<f64>>> {
     let system = system_of(setup).ok().filter(|_| !directions.is_empty())?;
     let hinge = |joint: &Joint| system.hinges().iter().position(|h| h.child == joint.child);
     let places = directions.iter().map(|&(j, k)| hinge(j).map(|h| (h, k)));

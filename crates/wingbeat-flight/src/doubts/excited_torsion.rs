@@ -8,11 +8,22 @@
 //! without the couple those grow whose elastic axis or mass lies behind a quarter of the chord: a wing of 0.3 x 0.08 m at
 //! 5 m/s by 15 1/s with the axis at 0.25 and the mass at 0.5, by 3 and 23 1/s with both at 0.3 and 0.4; with both at 0.25
 //! it decays.
+//!
+//! Damping of the wing's own takes `tau G J k^2 / 2 + alpha I / 2` over the inertia of the torsion of wave
+//! number k, a quarter of a wave from root to tip (rates of strain by the time tau, momentum at the rate
+//! alpha). Torsion by itself grows where the air gives more; what bending adds to that is not known of a wing
+//! that is damped.
 
-use wingbeat_blade::Rotation;
-use wingbeat_model::{Members, Wing};
+use std::f64::consts::PI;
+
+use wingbeat_blade::{AddedMassModel, BladeSettings, PlacedStrip, Rotation};
+use wingbeat_math::DVec3;
+use wingbeat_model::deformation::SpanLaw;
+use wingbeat_model::{Members, Wing, WingBeam};
+use wingbeat_structure::Damping;
 
 use super::said::names;
+use crate::air::strips;
 use crate::setup::{AirModel, FlightSetup};
 
 /// Elastic axis or mass behind the leading edge over the chord, behind which a wing is driven without the couple \[1\].
@@ -21,9 +32,15 @@ const DRIVEN: f64 = 0.251;
 /// Elastic axis from which on torsion is driven with the couple \[1\].
 const DRIVEN_WITH_COUPLE: f64 = 0.5;
 
+/// Instants of a beat at which speeds are looked at.
+const INSTANTS: usize = 50;
+
+/// Angle by which the slope of the lift is found \[rad\].
+const SMALL: f64 = 1e-6;
+
 impl FlightSetup {
-    /// Says which elastic wings have neither damping of their own nor, in quasi-steady blade elements, enough of the
-    /// moments of the air that damp torsion; none of other air.
+    /// Says which elastic wings have not enough damping of their own for what quasi-steady blade elements do to
+    /// their torsion; none of other air.
     pub fn excited_torsion(&self) -> Option<String> {
         let AirModel::BladeElement(air) = &self.air else {
             return None;
@@ -34,7 +51,7 @@ impl FlightSetup {
         }
         let has_couple = air.blade.damps_feathering();
         let wings = self.animal.wings.iter();
-        let driven = wings.filter(|w| is_driven(w, has_couple));
+        let driven = wings.filter(|w| self.is_driven(w, &air.blade));
         let wings: Vec<&str> = driven.map(|w| &w.name[..]).collect();
         let (why, remedy) = match has_couple {
             false => (
@@ -48,22 +65,84 @@ impl FlightSetup {
         };
         (!wings.is_empty()).then(|| {
             format!(
-                "quasi-steady blade elements {why} makes the torsion of elastic wings grow, whatever its stiffness and the steps (wings {}, which have no damping of their own): take {remedy}, or give structure.damping_s",
+                "quasi-steady blade elements {why} makes the torsion of elastic wings grow, in steps of any size (wings {}, whose own damping, if they have any, takes less): take {remedy}, or give more structure.damping_s",
                 names(wings, ", ")
             )
         })
     }
+
+    /// Whether the torsion of `wing` is driven by more than its own damping takes.
+    fn is_driven(&self, wing: &Wing, blade: &BladeSettings) -> bool {
+        wing.structure.as_ref().is_some_and(|made| {
+            let damping = made.damping;
+            let is_damped = damping.strain_rate > 0.0 || damping.mass > 0.0;
+            let has_couple = blade.damps_feathering();
+            match &made.members {
+                Members::Beam(beam) if is_damped => self.gains(wing, beam, (damping, blade)) > 0.0,
+                Members::Beam(beam) if has_couple => beam.axis_fraction >= DRIVEN_WITH_COUPLE,
+                Members::Beam(beam) => beam.axis_fraction.max(beam.mass_fraction) > DRIVEN,
+                Members::Shell(_) => !has_couple && !is_damped,
+            }
+        })
+    }
+
+    /// Power that the torsion of a wing gains, over the square of the rate of twist of its tip \[N m s\]: of
+    /// the air less what its damping takes.
+    fn gains(
+        &self,
+        wing: &Wing,
+        beam: &WingBeam,
+        (damping, blade): (Damping, &BladeSettings),
+    ) -> f64 {
+        let motion = wing.motion.impulsive();
+        let duration = self.round(motion.frequency);
+        let instants = (0..INSTANTS).map(|k| k as f64 / INSTANTS as f64 * duration);
+        let past: Vec<_> = instants.map(|t| self.air_past(wing, &motion, t)).collect();
+        let (strips, report) = (strips(wing), wing.report());
+        let [root, tip] = [wing.root() * report.length, report.length];
+        let rho = blade.density;
+        let of_strip = |s: &PlacedStrip| {
+            let (c, r) = (s.strip.chord, s.strip.y.abs());
+            let wave = 0.5 * PI / (tip - root);
+            let (twist, slope) = (wave * (r - root)).sin_cos();
+            let speed =
+                |past: &dyn Fn(DVec3) -> DVec3| (past(s.axis) * (DVec3::ONE - DVec3::Y)).length();
+            let speeds: f64 = past.iter().map(|p| speed(p)).sum();
+            let drive = drive(blade, beam.axis_fraction, s.strip.x_leading / c);
+            let viscous = blade.viscous.map_or(0.0, |v| PI / 16.0 * v.linear);
+            let value = |law: &SpanLaw| law.at(r / tip, root / tip);
+            let even = wing.mass.mass * c / report.area;
+            let mass = beam.mass.as_ref().map_or(even, value);
+            let own = beam.inertia.as_ref().map_or(mass * c * c / 12.0, value);
+            let behind = (beam.mass_fraction - beam.axis_fraction) * c;
+            let air = rho * c.powi(3) * (PI * speeds / INSTANTS as f64 * drive - viscous * c);
+            let by_rate = air - damping.mass * (own + mass * behind * behind);
+            let stiffness = value(&beam.torsion) * (wave * slope).powi(2);
+            s.strip.width * (by_rate * twist * twist - damping.strain_rate * stiffness)
+        };
+        strips.iter().map(of_strip).sum()
+    }
 }
 
-/// Whether the torsion of `wing` has no damping and is driven.
-fn is_driven(wing: &Wing, has_couple: bool) -> bool {
-    wing.structure.as_ref().is_some_and(|made| {
-        let is_behind = match &made.members {
-            Members::Beam(beam) if has_couple => beam.axis_fraction >= DRIVEN_WITH_COUPLE,
-            Members::Beam(beam) => beam.axis_fraction.max(beam.mass_fraction) > DRIVEN,
-            Members::Shell(_) => !has_couple,
-        };
-        let damping = made.damping;
-        is_behind && damping.strain_rate == 0.0 && damping.mass == 0.0
-    })
+/// The moment of the air about an elastic axis a c behind the leading edge of a section that feathers about
+/// another one, `feathering` chords behind, by the rate of twist and over `pi rho c^3 U` \[1\]: drives where it
+/// is positive.
+fn drive(blade: &BladeSettings, a: f64, feathering: f64) -> f64 {
+    let [lift, more] = [0.0, SMALL].map(|alpha| blade.translation.at(alpha)[0]);
+    let slope = (more - lift) / (2.0 * PI * SMALL);
+    let circulation = match blade.rotation {
+        Rotation::None => 0.0,
+        Rotation::Coefficient(c) => c / PI,
+        _ => 0.75 - feathering,
+    };
+    let mass = match blade.added_mass {
+        AddedMassModel::None => 0.0,
+        _ => 0.25 * (0.5 - a),
+    };
+    let couple = if blade.damps_feathering() {
+        1.0 / 16.0
+    } else {
+        0.0
+    };
+    (a - 0.25) * (slope * (feathering - a) + circulation) - mass - couple
 }

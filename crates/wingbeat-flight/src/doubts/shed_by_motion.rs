@@ -201,7 +201,7 @@ impl FlightSetup {
     }
 
     /// What a wing of this beat [Hz] goes through again and again, or all of the flight [s].
-    fn round(&self, beat: f64) -> f64 {
+    pub(super) fn round(&self, beat: f64) -> f64 {
         let whole = self.time.steps as f64 * self.time.step;
         let of_root = match &self.mode {
             MotionMode::Tethered(motion) => motion.period(),

@@ -63,6 +63,7 @@ pub fn stages(setup: &FlightSetup, law: &WingLaw<'_>) -> Result<Vec<Stage>, Flig
     let at_once = is_carried || moves_joints || is_light_in_fluid;
     let accelerated_from = accelerated_from(setup, at_once);
     let stage = |from_step: usize, core: Box<dyn Formulation>| {
+        let is_tethered = core.is_supported();
         let step = setup.time.step;
         let mirror = mirror
             .clone()
@@ -81,7 +82,7 @@ pub fn stages(setup: &FlightSetup, law: &WingLaw<'_>) -> Result<Vec<Stage>, Flig
                 mirror,
                 step: setup.time.step,
                 accelerated_from,
-                is_tethered: matches!(setup.mode, MotionMode::Tethered(_)),
+                is_tethered,
             },
         }
     };

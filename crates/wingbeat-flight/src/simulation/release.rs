@@ -5,7 +5,8 @@ use wingbeat_math::DVec3;
 use wingbeat_math::ode::StepReport;
 
 use crate::bodies::carry;
-use crate::equations::quadratures::QUADRATURES;
+use crate::equations::quadratures::{QUADRATURES, Quadratures};
+use crate::equations::towed::Towed;
 use crate::error::FlightError;
 use crate::setup::MotionMode;
 use crate::simulation::Simulation;
@@ -21,7 +22,8 @@ impl Simulation {
             .is_some_and(|s| s.from_step == self.state.step);
         if enters {
             let past = &self.state.past.y[self.newest()];
-            let quadratures = past[past.len() - QUADRATURES..].to_vec();
+            let quadratures = Quadratures::from_state(past);
+            let quadratures = self.without_support(quadratures);
             let (root, jumps) = self.released();
             let core = &self.stages[next].equations.core;
             let mut motions = self.scratch.motions.clone();
@@ -29,7 +31,8 @@ impl Simulation {
             let elastic = &self.stages[next].equations.elastic;
             let shapes: Vec<_> = elastic.shape_masses(&self.scratch.elastic).collect();
             let mut y0 = core.initial_shaped(self.time(self.state.step), &motions, &shapes)?;
-            y0.extend(quadratures);
+            y0.resize(y0.len() + QUADRATURES, 0.0);
+            quadratures.write(&mut y0);
             self.state.stage = next;
             let before = jumps.then(|| Ledger::open(&self.scratch));
             self.begin_wings();
@@ -40,6 +43,21 @@ impl Simulation {
             }
         }
         self.finish_arrival(report, enters)
+    }
+
+    /// Works and impulses where a hold ends: from here on the root is one of the bodies that the quadratures
+    /// are of, and what the support did to it alone, known in closed form, joins them.
+    fn without_support(&mut self, quadratures: Quadratures) -> Quadratures {
+        let (held, ledger) = (&mut self.scratch.towed, &mut self.state.ledger.towed);
+        let (energy, momentum, spin) = held.gained(ledger);
+        (*held, *ledger) = (Towed::default(), Towed::default());
+        Quadratures {
+            applied_work: quadratures.applied_work + energy,
+            impulse: quadratures.impulse + momentum,
+            impulse_of_works: quadratures.impulse_of_works + momentum,
+            angular_impulse: quadratures.angular_impulse + spin,
+            ..quadratures
+        }
     }
 
     /// Elastic wings where a hold ends: they have the places and velocities of the last step, and their accelerations jump

@@ -13,7 +13,8 @@
 //! own frame: less the power of what is missing in force and moment of the support, `v . dR_P + w . dR_L` with
 //! the residual R_L of the angular momentum. The body moves as it is made to whatever its mass: only what moves
 //! beside it counts, neither its weight nor what a tether does against that. Works of tether and air count each
-//! by itself: where a tether drives wings through the air, their sum is nothing.
+//! by itself: where a tether drives wings through the air, their sum is nothing. What a hold did to the body by
+//! the time of its release counts no more afterwards.
 
 use serde::{Deserialize, Serialize};
 use wingbeat_dynamics::{inertia_wrench, kinetic_energy};
@@ -42,14 +43,16 @@ struct Carrier {
     angular_momentum: DVec3,
 }
 
-/// What a tether has done in C beside speeding the body up and lifting it: time \[s\], power \[W\] and work
-/// \[J\] up to the last step, and the energy of the body at the start \[J\].
+/// What a tether, or the hold before a release, has done in C beside speeding the body up and lifting it: time
+/// \[s\], power \[W\] and work \[J\] up to the last step, the energy of the body at the start, and what it has
+/// gained up to the last step or the release \[J\].
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 struct Tether {
     time: f64,
     power: f64,
     work: f64,
     body: f64,
+    gained: f64,
 }
 
 /// Gathered step by step; energies and works \[J\] in C.
@@ -59,7 +62,8 @@ pub(super) struct InPlay {
     kinetic: Extent,
     /// On a tether without that of the body.
     potential: Extent,
-    /// Kinetic energy beside that of the mass centre, and strain energy of elastic wings.
+    /// Kinetic energy beside that of the mass centre, while a support has the body that of what moves beside
+    /// it, and strain energy of elastic wings.
     inner: Extent,
     works: Extent,
     tether: Option<Tether>,
@@ -89,15 +93,28 @@ impl InPlay {
             MotionMode::Free(_) => 0.0,
         };
         self.potential.take(potential - body);
-        self.inner.take(inner_energy(r, mass));
+        let is_supported = setup.mode.is_supported_at(r.step);
+        self.inner.take(match is_supported {
+            true => moving(r, setup, u).0 + strain_energy(r),
+            false => inner_energy(r, mass),
+        });
         // Of air, loads and tether together: what they do to a frame is known of their sum.
         let external = r.momentum - start.momentum - r.momentum_residual_of_works - weight;
         let external = r.air_work + r.applied_work - u.dot(external);
         self.works.take(r.hinge_work);
         self.works.take(r.deformation_work);
-        match setup.mode {
-            MotionMode::Tethered(_) => self.take_tether(r, setup, external),
-            MotionMode::Free(_) => self.works.take(external),
+        match (is_supported, self.tether) {
+            (true, _) => self.take_tether(r, setup, external),
+            (false, None) => self.works.take(external),
+            (false, Some(held)) => {
+                let ends = self.carrier.is_some_and(|c| c.is_supported);
+                let gained = match ends {
+                    true => self.body_energy(r, setup) - held.body,
+                    false => held.gained,
+                };
+                self.tether = Some(Tether { gained, ..held });
+                self.works.take(external - gained);
+            }
         }
         self.carry(carrier(r, setup, u));
         self.residual.take(r.energy_residual - self.due);
@@ -121,24 +138,34 @@ impl InPlay {
             tether.moment -= inertia.moment;
         }
         let power = tether.power(&motion);
-        let energy = kinetic_energy(body, &motion) + self.body_potential(r, setup);
+        let energy = self.body_energy(r, setup);
         let before = self.tether.unwrap_or(Tether {
             time: r.time,
             power,
             work: 0.0,
             body: energy,
+            gained: 0.0,
         });
         let work = before.work + 0.5 * (before.power + power) * (r.time - before.time);
+        let gained = energy - before.body;
         self.tether = Some(Tether {
             time: r.time,
             power,
             work,
+            gained,
             ..before
         });
-        let beside = external - (energy - before.body);
+        let beside = external - gained;
         for work in [work, beside - work, beside] {
             self.works.take(work);
         }
+    }
+
+    /// Kinetic and potential energy of the body in C \[J\].
+    fn body_energy(&self, r: &Record, setup: &FlightSetup) -> f64 {
+        let mut motion = body_motion(r);
+        motion.v -= self.start.map_or(DVec3::ZERO, |start| start.velocity);
+        kinetic_energy(&setup.animal.body, &motion) + self.body_potential(r, setup)
     }
 
     /// Potential energy of the body in C, as a frame that moves past the origin of N \[J\].
@@ -216,6 +243,10 @@ fn carrier(r: &Record, setup: &FlightSetup, u: DVec3) -> Carrier {
 
 /// Energy that the parts of a flyer turn over among themselves \[J\].
 fn inner_energy(r: &Record, mass: f64) -> f64 {
-    let strain: f64 = r.elastic.iter().map(|w| w.strain_energy).sum();
-    r.kinetic_energy - r.momentum.length_squared() / (2.0 * mass) + strain
+    r.kinetic_energy - r.momentum.length_squared() / (2.0 * mass) + strain_energy(r)
+}
+
+/// Elastic energy of all wings \[J\].
+fn strain_energy(r: &Record) -> f64 {
+    r.elastic.iter().map(|w| w.strain_energy).sum()
 }
