@@ -177,3 +177,22 @@ fn behaves_outlines_that_are_flown_wider_than_they_are_drawn_are_named() {
     let kept = format!("{pointed}, least_chord=0.02");
     assert_eq!(fly(here, &kept).unwrap().doubtful_measurements(), [""; 0]);
 }
+
+/// Ends of two edges that differ in the last digit of a number.
+#[test]
+fn agrees_outlines_whose_ends_differ_by_rounding() {
+    let edges = |end: &str| {
+        format!(
+            "leading_m=[[1e-4, 2e-4], [{end}, 2e-4]], trailing_m=[[1e-4, -5e-4], [2.5e-3, -5e-4]]"
+        )
+    };
+    let at = Path::new("");
+    let [exact, rounded] =
+        ["2.5e-3", "2.4999999999999996e-3"].map(|end| report(&fly(at, &edges(end)).unwrap()));
+    assert!((rounded.area / exact.area - 1.0).abs() < 1e-14);
+    assert!(
+        fly(at, &edges("2.4999e-3"))
+            .expect_err("shorter")
+            .contains("same part of the span")
+    );
+}

@@ -36,6 +36,7 @@ mod presets;
 mod remedies;
 mod shedding;
 mod slips;
+mod soft_wings;
 mod spacing;
 mod starts_of_loops;
 mod stiff_joints;

@@ -44,3 +44,31 @@ fn behaves_what_the_flight_is_too_short_for_is_doubted() {
         "{tether:?}"
     );
 }
+
+/// Commands that begin to act after the end, and a controller that looks only at the release.
+#[test]
+fn behaves_controllers_that_never_act_are_doubted() {
+    let said = |set: &[&str]| {
+        let set: Vec<&str> = [&["air.model=blade_element", "control.hold=start"], set].concat();
+        preset("fruit-fly-controlled", &set)
+            .setup
+            .commands_too_late()
+    };
+    let flight = "time.beats=7"; // two held
+    assert_eq!(said(&[flight, "control.latency_beats=4"]), None);
+    let late = said(&[flight, "control.latency_beats=5"]).unwrap();
+    assert!(late.contains("control.latency_beats"), "{late}");
+    let held = said(&[flight, "control.latency_beats=4", "flight.held_beats=3"]).unwrap();
+    assert!(held.contains("control.latency_beats"), "{held}");
+    let looks = |set: &[&str]| {
+        let set: Vec<&str> = [
+            &[flight, "air.model=blade_element", "control.latency_beats=0"],
+            set,
+        ]
+        .concat();
+        preset("fruit-fly-controlled", &set).single_look()
+    };
+    let once = looks(&["control.every_beats=5"]).unwrap();
+    assert!(once.contains("control.every_beats"), "{once}");
+    assert_eq!(looks(&["control.every_beats=4"]), None);
+}

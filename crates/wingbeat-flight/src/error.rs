@@ -77,7 +77,7 @@ pub enum FlightError {
     /// The surface of a wing that changes its shape has folded over.
     #[error(
         "t = {time:.6e} s: the surface of wing `{wing}` has folded over: at panel {panel} its sides cross or have no length; {}",
-        if *elastic { "it is too soft for its loads or its steps: take smaller steps (time.steps_per_beat), more damping (structure.damping_s), or a stiffer or thicker wing (wing.NAME.structure); of a membrane look at its tension at rest (shell.prestress_newton_per_m) and at what holds its edges" }
+        if *elastic { "it is too soft for its loads or its steps: take smaller steps (time.steps_per_beat, or time.step_s), more damping (structure.damping_s), or a stiffer or thicker wing (wing.NAME.structure); of a membrane look at its tension at rest (shell.prestress_newton_per_m) and at what holds its edges" }
         else { "its prescribed shape does so: look at units and size of wing.NAME.deformation" }
     )]
     Folded {

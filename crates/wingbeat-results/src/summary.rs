@@ -86,6 +86,9 @@ impl Summary {
             if let Some(said) = case.late_waypoints() {
                 list.note(format!("A way that is not flown to its end: {said}."));
             }
+            if let Some(said) = case.single_look() {
+                list.limit(format!("A controller without effect: {said}."));
+            }
             thinning(case, knows_all, list);
         };
         Ok(Self::from_statistics(

@@ -84,6 +84,11 @@ fn behaves_summaries_say_what_is_doubted_of_the_setup() {
         (gust, DoubtKind::LateGusts, false),
         ("motion.start=smooth", DoubtKind::LongStart, false),
         (
+            "control={controller=\"regulator\", hold=\"start\", latency_beats=20}",
+            DoubtKind::LateCommands,
+            true,
+        ),
+        (
             "air.blade.rotation=\"sane_dickinson\"",
             DoubtKind::JumpingRotation,
             false,

@@ -265,6 +265,8 @@ fn behaves_modes_of_wings_on_hinges_say_that_these_are_held() {
     );
     assert!(said(&hinged).contains("its hinge is held"));
     assert!(!said(FILM).contains("its hinge is held"));
+    let welded = hinged.replace("kind = \"revolute\"\naxis = [0, 1, 0]\n", "");
+    assert!(!said(&welded).contains("its hinge is held"));
 }
 
 #[test]

@@ -41,9 +41,23 @@ const THICKNESS: Limit = Limit::at_most(0.25, "no sheet; is it in m?");
 
 const OFFSET: Limit = Limit::at_most(2.0, "it lies far outside the wing; is offset_m in m?");
 
+/// Damping that is mostly of strain rates.
 const DAMPING: Limit = Limit::at_most(
     1.0,
-    "the wing creeps back and does not vibrate; damping_s is twice the damping ratio over the angular frequency",
+    "the wing creeps back and does not vibrate; structure.damping_s is twice the damping ratio over the angular frequency",
+);
+
+/// Damping that is mostly of momentum.
+const MASS_DAMPING: Limit = Limit::at_most(
+    1.0,
+    "the wing creeps back and does not vibrate; structure.mass_damping_per_s is twice the damping ratio times the angular frequency",
+);
+
+/// Tension at rest over modulus times thickness: the strain of a sheet of that modulus. Membranes of wings are of latex,
+/// stretched by less than 1; it tears at 5 to 8.
+const TENSION: Limit = Limit::at_most(
+    2.0,
+    "no membrane of a wing is stretched so far; is prestress_newton_per_m in N/m (a stress times the thickness), and are moduli in Pa?",
 );
 
 /// Panels of a sheet up to which its first frequency takes less than half a second, the elastic body built again.
@@ -130,11 +144,20 @@ pub(super) fn doubts(wing: &Wing, w: &WingEstimate, gravity: f64, list: &mut Dou
     list.see(&WEIGHT, what, bent, "");
     let ratio = "first frequency in vacuum over the wingbeat frequency";
     let before = list.0.len();
-    list.see(&RATIO, ratio, w.frequency_ratio, "");
+    let tightens =
+        matches!(&structure.members, Members::Shell(shell) if tightens_under_load(shell));
+    let mut is_slack = false;
+    let mut see = |limit: &Limit, what: &str, x: Option<f64>| match x
+        .is_some_and(|x| tightens && x < limit.low)
+    {
+        true => is_slack = true,
+        false => list.see(limit, what, x, ""),
+    };
+    see(&RATIO, ratio, w.frequency_ratio);
     if w.frequency_ratio.is_none() && w.speed > 0.0 {
         let in_stream = w.first_frequency.map(|f| f * w.report.mean_chord / w.speed);
         let what = "first frequency in vacuum times chord over speed";
-        list.see(&IN_STREAM, what, in_stream, "");
+        see(&IN_STREAM, what, in_stream);
     }
     if let (Members::Beam(beam), true) = (&structure.members, list.0.len() == before) {
         each_way(wing, beam, w, list);
@@ -142,7 +165,9 @@ pub(super) fn doubts(wing: &Wing, w: &WingEstimate, gravity: f64, list: &mut Dou
     if w.hides_frequency {
         list.0.push("its stiffnesses differ by more than numbers of 16 digits hold: steps will find no solution; are EI and GJ in N m2, EA and GA in N, moduli in Pa?".to_owned());
     }
-    damping(structure, w, list);
+    if !is_slack {
+        damping(structure, w, list);
+    }
     let chord = w.report.mean_chord;
     match &structure.members {
         Members::Beam(beam) => masses(beam, chord, list),
@@ -172,8 +197,21 @@ fn damping(structure: &WingStructure, w: &WingEstimate, list: &mut Doubts) {
         return;
     };
     let d = structure.damping;
-    let damped = 0.5 * (d.strain_rate * omega + d.mass / omega);
-    list.see(&DAMPING, "damping ratio of the first mode", damped, "");
+    let parts = [0.5 * d.strain_rate * omega, 0.5 * d.mass / omega];
+    let limit = match parts[1] > parts[0] {
+        true => MASS_DAMPING,
+        false => DAMPING,
+    };
+    let what = "damping ratio of the first mode";
+    list.see(&limit, what, parts[0] + parts[1], "");
+}
+
+/// Whether a sheet is held all round without tension: loads stretch it and make it stiff, however little it resists
+/// bending, from which its first frequency at rest is.
+fn tightens_under_load(shell: &WingShell) -> bool {
+    let regions = shell.regions.iter().filter_map(|g| g.prestress);
+    let mut tensions = regions.chain([shell.prestress]).flatten();
+    shell.clamps_perimeter && tensions.all(|n| n <= 0.0)
 }
 
 fn masses(beam: &WingBeam, chord: f64, list: &mut Doubts) {
@@ -195,6 +233,12 @@ fn sizes(shell: &WingShell, chord: f64, list: &mut Doubts) {
         largest / chord,
         unit,
     );
+    let stiff = shell
+        .young
+        .map(|young| shell.stretching.unwrap_or(young) * largest);
+    let strain = (shell.prestress.iter().zip(stiff)).map(|(n, k)| n / k);
+    let what = "structure.shell.prestress over modulus times thickness";
+    list.see(&TENSION, what, strain.fold(0.0, f64::max), "");
     for (k, region) in shell.regions.iter().enumerate() {
         let what = format!("structure.region[{k}].thickness_m");
         list.see(&THICKNESS, &what, region.thickness.map(|h| h / chord), unit);

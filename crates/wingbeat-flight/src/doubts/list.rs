@@ -16,6 +16,8 @@ pub enum DoubtKind {
     StartsApart,
     /// A smooth start that is not over when the flight is.
     LongStart,
+    /// Commands of a controller that the flight is too short for.
+    LateCommands,
     /// Blade elements whose force of feathering jumps.
     JumpingRotation,
     /// Blade elements that excite the torsion of elastic wings.
@@ -96,6 +98,7 @@ impl FlightSetup {
         add(RevolvesBackwards, one(self.revolves_backwards()));
         add(StartsApart, one(self.starts_apart()));
         add(LongStart, self.starts_that_do_not_end());
+        add(LateCommands, one(self.commands_too_late()));
         add(LateGusts, self.gusts_that_never_arrive());
         add(ShortGusts, self.gusts_between_steps());
         add(PressedAir, self.gusts_that_press_air());

@@ -8,6 +8,7 @@
 //! | roots on parts of the body, or a little off them | `on_bodies` |
 //! | tethers that start otherwise than the wings | `starts_apart` |
 //! | smooth starts that last longer than the flight | `long_starts` |
+//! | commands that would act after its end | `late_commands` |
 //! | angles that scatter, jump or have gaps | `scattered` |
 //! | trailing edges ahead, wings that stroke broadside | `edge_ahead` |
 //! | wings that revolve with their body, trailing edge ahead | `revolving` |
@@ -36,6 +37,7 @@ mod excited_torsion;
 mod fluid;
 mod impossible;
 mod jumps;
+mod late_commands;
 mod late_gusts;
 mod list;
 mod long_starts;

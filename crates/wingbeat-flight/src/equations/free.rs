@@ -93,7 +93,7 @@ impl FreeFlight {
             return Err(FlightError::setup(
                 key,
                 value,
-                "a map of one wingbeat (averaged models, control derivatives, feedback that is laid out) needs air that depends on the present motion alone: blade_element without air.blade.unsteady, or none",
+                "a map of one wingbeat (averaged models, control derivatives, feedback that is laid out) needs air that depends on the present motion alone: blade_element without air.blade.unsteady",
             ));
         }
         Ok(Self::in_air(setup, form, air, step))

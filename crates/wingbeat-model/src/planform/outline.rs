@@ -8,6 +8,9 @@ use crate::planform::contour;
 use crate::planform::edges::{Curve, Edges};
 use wingbeat_math::interpolate_pairs;
 
+/// Part of the span by which the ends of two edges may differ as numbers of 16 digits do \[1\].
+const ROUNDING: f64 = 1e-9;
+
 /// The outline of a wing.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Planform {
@@ -115,7 +118,8 @@ fn outline_edges(
         "in (0, 1)",
     )?;
     let [root, tip] = [leading[0].0, leading[leading.len() - 1].0];
-    let same = trailing[0].0 == root && trailing[trailing.len() - 1].0 == tip;
+    let is_near = |a: f64, b: f64| (a - b).abs() <= ROUNDING * (tip - root);
+    let same = is_near(trailing[0].0, root) && is_near(trailing[trailing.len() - 1].0, tip);
     if !same || root < 0.0 {
         return Err(ModelError::Planform(format!(
             "leading edge (r = {root} to {tip} m) and trailing edge (r = {} to {} m) must cover the same part of the span, r >= 0",

@@ -198,7 +198,7 @@ impl InPlay {
         self.carrier = Some(now);
     }
 
-    /// Largest residual of the energy over the largest of what is in play \[1\]: of tethered flyers kinetic energy,
+    /// Largest residual of the energy over the energy turned over \[1\]: of tethered flyers kinetic energy,
     /// change of potential energy and works. Those that fly freely gain or lose energy of their own, however much a
     /// fall has: there works count, and what the parts turn over among themselves.
     pub fn energy_residual(&self, setup: &FlightSetup) -> f64 {

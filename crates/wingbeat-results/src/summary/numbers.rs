@@ -51,13 +51,13 @@ pub struct Summary {
     pub displacement_m: [f64; 3],
     /// Change of pitch, yaw, roll from start to end \[deg\].
     pub turn_deg: [f64; 3],
-    /// Largest energy residual over the largest energy or work in play \[1\].
+    /// Largest energy residual over the energy turned over \[1\].
     pub energy_residual_relative: f64,
     /// What passive joints lose or gain beside their springs, dampers and stops, over the same \[1\]; 0 where
     /// there are none.
     #[serde(default)]
     pub joint_residual_relative: f64,
-    /// Largest momentum residual over the largest impulse or momentum in play \[1\].
+    /// Largest momentum residual over the impulse in play \[1\].
     pub momentum_residual_relative: f64,
     /// Largest violation of a connection constraint \[m\].
     pub violation_position_m: f64,

@@ -235,8 +235,12 @@ fn feedback(setup: &FlightSetup, summary: &Summary, list: &mut Warnings) {
         true => "that of trim",
         false => "that of the release",
     };
+    let unheard = match setup.commands_too_late() {
+        Some(_) => ", and none of them acted",
+        None => "",
+    };
     let text = format!(
-        "commands stood at their limits at {limited:.0} % of the looks; at these it was {place}{:.0} deg from the attitude that it is to hold ({held}, turned by the heading of waypoints) at most and {:.0} in the end.",
+        "commands stood at their limits at {limited:.0} % of the looks{unheard}; at these it was {place}{:.0} deg from the attitude that it is to hold ({held}, turned by the heading of waypoints) at most and {:.0} in the end.",
         turn.largest, turn.last
     );
     let [over, near] = TURNED;
@@ -311,7 +315,7 @@ fn is_free_and_elastic_by_momenta(setup: &FlightSetup) -> bool {
 fn passive_joints(summary: &Summary, list: &mut Warnings) {
     let residual = summary.joint_residual_relative;
     let text = format!(
-        "Free joints gain or lose {:.1} % of the energy in play beside what acts on them: the steps do not resolve how they vibrate; take smaller ones.",
+        "Free joints gain or lose {:.1} % of the energy turned over beside what acts on them: the steps do not resolve how they move; take smaller ones.",
         100.0 * residual
     );
     match residual {

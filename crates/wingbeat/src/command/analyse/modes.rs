@@ -63,8 +63,12 @@ pub(crate) fn run(args: &ModesArgs) -> Result<(), Failure> {
         }
         let found = watched("modes", || wing_modes(&case.setup, about, args.count))?;
         let wings = &case.setup.animal.wings;
-        let joints = case.setup.joints.iter();
-        let hinged: Vec<usize> = joints.map(|j| j.child).collect();
+        let free = case
+            .setup
+            .joints
+            .iter()
+            .filter(|j| j.model.kind.directions() > 0);
+        let hinged: Vec<usize> = free.map(|j| j.child).collect();
         tell(report, (&case.name, args.steady), wings, &hinged, &found);
         let value = |w: &WingModes| values(&wings[w.wing], w);
         report.value("case", case.name.as_str());
@@ -77,7 +81,7 @@ pub(crate) fn run(args: &ModesArgs) -> Result<(), Failure> {
     })
 }
 
-/// `hinged`: bodies that hang on joints.
+/// `hinged`: bodies that turn or slide on free joints.
 fn tell(
     report: &mut Report,
     (name, steady): (&str, bool),
