@@ -19,6 +19,7 @@ mod momentum_balance;
 mod numbers;
 mod per_beat;
 mod statistics;
+mod still_air;
 mod trust;
 mod verdict;
 mod words;
@@ -154,6 +155,7 @@ impl Summary {
         let mut warnings = trust::warnings(setup, &doubts, &summary, momentum);
         bent::warnings(setup, &s.each.bent, &mut warnings);
         turned_over(setup, &s.each, &mut warnings);
+        still_air::warn(setup, [&s.first, &s.last], &mut warnings);
         trust::flown_crossings(
             setup,
             &doubts,
