@@ -34,7 +34,8 @@ pub(super) fn build_all(case: &Case) -> Built<Vec<Wing>> {
     // Wings that stand still beside those that beat are tails, and stay as they are.
     let any_beats = wings.iter().any(|w| !w.is_still());
     for wing in &mut wings {
-        if !rides_on_wing(case, &wing.name) && !(any_beats && wing.is_still()) {
+        let is_held = any_beats && wing.is_still();
+        if !is_held && !rides_on_wing(case, &wing.name) {
             wing.motion = motion::adjusted(case, &wing.motion, wing.side);
         }
     }
