@@ -15,7 +15,7 @@
 //!
 //! | symbol | name in code | meaning | unit |
 //! |---|---|---|---|
-//! | w | `drive` | downwash of the strip's motion, `w + C_rot / pi c q u / sqrt(u^2 + w^2)`: at 3/4 of the chord from the edge in front in the theory | m/s |
+//! | w | `drive` | downwash of the strip's motion, `w + c q ((1/2 - x0) + u / (4 sqrt(u^2 + w^2)))`: at 3/4 of the chord from the edge in front where it is edge-on; with one coefficient `w + C_rot / pi c q u / sqrt(u^2 + w^2)` | m/s |
 //! | lambda | `downwash` | downwash of the wake, and what is still missing of the wind's | m/s |
 //! | s | `way` | way through the air in half chords | 1 |
 //! | z | `wake`, `gust` | states of the wake | m/s |

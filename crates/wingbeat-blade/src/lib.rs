@@ -27,8 +27,10 @@
 //! | x0 | `x0` | feathering axis behind the leading edge over the chord | 1 |
 //! | Gamma_rot | - | `C_rot c^2 q` | m2/s |
 //!
-//! A section is taken as symmetric fore and aft: air from the trailing edge (u < 0) gives the mirrored force,
-//! but for the circulation of feathering, which hangs on the feathering axis alone, as in the sources.
+//! A section is taken as symmetric fore and aft: air from the trailing edge (u < 0) gives the mirrored force. The
+//! circulation of feathering does so where theory has it ([`Rotation::CirculationAndCouple`], [`Unsteady`]); by the
+//! published laws it is reckoned from the leading edge whatever edge meets the air, as in the sources, and then feathering
+//! in air from behind can take work out of air at rest.
 //! Velocities along the span are ignored, as in all the sources, but by the moment of the added momentum.
 //! Strips of wings that are not flat have frames of their own ([`PlacedStrip`]). Twist and bending of a wing
 //! place and move its strips ([`SectionMotion`] where they are prescribed, [`MeshSection`] where loads bend the
@@ -43,6 +45,7 @@ pub mod coefficients;
 mod deforming;
 mod derivatives;
 mod error;
+mod feathering;
 mod indicial;
 mod lag;
 mod pair;

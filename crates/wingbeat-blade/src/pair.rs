@@ -5,6 +5,7 @@ use std::f64::consts::PI;
 use wingbeat_math::DVec2;
 
 use crate::coefficients::Translation;
+use crate::feathering::RotationCoefficient;
 use crate::settings::{BladeSettings, CentreOfPressure, Rotation};
 use crate::strip::Strip;
 
@@ -17,12 +18,13 @@ pub(crate) struct StripPair {
     chord: DVec2,
     /// `rho/2 c dr` [kg/m].
     pressure: DVec2,
-    /// `rho C_rot c^2 dr` \[kg\].
-    circulation: DVec2,
+    /// `rho C_rot c^2 dr` of a section that meets the air broadside on \[kg\], and what of it goes with the cosine.
+    circulation: [DVec2; 2],
     /// `pi/16 rho c^4 dr` [kg m].
     viscous: DVec2,
-    /// `C_rot c / pi`: how far behind the feathering axis the downwash is that the circulation follows \[m\].
-    lever: DVec2,
+    /// How far behind the feathering axis the downwash is that the circulation follows \[m\], as
+    /// [`RotationCoefficient::lever`] has it: part without the cosine, part with it.
+    lever: [DVec2; 2],
     /// `pi/16 rho c^3 dr` \[kg\].
     couple: DVec2,
     /// Mid chord ahead of the feathering axis \[m\].
@@ -61,16 +63,17 @@ impl StripPair {
         let rho = settings.density;
         let lanes =
             |f: &dyn Fn(&Strip) -> f64| DVec2::from_array([0, 1].map(|k| f(&strip(pair, k))));
+        let rotation = |s: &Strip| RotationCoefficient::of(settings, s);
         Self {
             y: lanes(&|s| s.y),
             x_leading: lanes(&|s| s.x_leading),
             chord: lanes(&|s| s.chord),
             pressure: lanes(&|s| 0.5 * rho * s.chord * s.width),
-            circulation: lanes(&|s| {
-                rho * circulation(settings.rotation, s) * s.chord * s.chord * s.width
+            circulation: [0, 1].map(|part| {
+                lanes(&|s| rho * rotation(s).parts()[part] * s.chord * s.chord * s.width)
             }),
             viscous: lanes(&|s| PI / 16.0 * rho * s.chord.powi(4) * s.width),
-            lever: lanes(&|s| circulation(settings.rotation, s) * s.chord / PI),
+            lever: [0, 1].map(|part| lanes(&|s| rotation(s).lever()[part] * s.chord)),
             couple: lanes(&|s| PI / 16.0 * rho * s.chord.powi(3) * s.width),
             x_mid: lanes(&Strip::x_mid),
             chordwise: lanes(&|s| match settings.added_mass.acts_along_chord() {
@@ -80,9 +83,10 @@ impl StripPair {
         }
     }
 
-    /// How far behind the feathering axis the downwash is that the circulation follows \[m\].
-    pub fn lever(&self) -> DVec2 {
-        self.lever
+    /// How far behind the feathering axis the downwash is that the circulation of strip `lane` follows \[m\], where
+    /// the air is met at `front` (cosine of the angle of attack, negative from behind).
+    pub fn lever(&self, lane: usize, front: f64) -> f64 {
+        self.lever[0][lane] + self.lever[1][lane] * front
     }
 
     /// What leading-edge suction lacks of Kutta and Joukowski's force at the feathering axis, over the rate of
@@ -112,17 +116,6 @@ fn strip(pair: &[Strip], k: usize) -> Strip {
         ..pair[0]
     };
     pair.get(k).copied().unwrap_or(none)
-}
-
-/// Circulation of feathering over `c^2 q`.
-fn circulation(rotation: Rotation, s: &Strip) -> f64 {
-    match rotation {
-        Rotation::None => 0.0,
-        Rotation::SaneDickinson | Rotation::Circulation | Rotation::CirculationAndCouple => {
-            PI * (0.75 - s.x0())
-        }
-        Rotation::Coefficient(c) => c,
-    }
 }
 
 /// Translation, rotation and viscous moment of all `pairs`: `motion(k, pair)` says how pair k moves,
@@ -180,7 +173,7 @@ fn with_law(
         // Lift across the velocity and against w; drag against the velocity.
         let along = pressure * (lift * sin.abs() * cos.signum() - drag * cos);
         let normal = -pressure * (lift * cos.abs() * sin.signum() + drag * sin);
-        let strength = pair.circulation * q;
+        let strength = (pair.circulation[0] + pair.circulation[1] * cos) * q;
         let [r1, r3] = match across {
             true => [DVec2::ZERO, -strength * speed * u.signum()],
             false => [strength * w, -strength * u],

@@ -56,8 +56,9 @@ pub enum Rotation {
     /// The same circulation by Kutta and Joukowski: `rho Gamma` across the velocity. Its normal
     /// part is Sane & Dickinson's force times cos alpha; smooth for every motion.
     Circulation,
-    /// The same with the moment of thin-airfoil theory against feathering, `-(pi/16) rho c^3 abs(u) q dr`
-    /// [Theodorsen 1935], which every [`Unsteady`] law has.
+    /// Kutta-Joukowski with thin-airfoil theory for both edges: `C_rot = pi (1/4 + (1/2 - x0) cos alpha)`, the cosine
+    /// negative where the air comes from behind, and the moment against feathering, `-(pi/16) rho c^3 abs(u) q dr`
+    /// [Theodorsen 1935]. Every [`Unsteady`] law has both.
     CirculationAndCouple,
     /// Kutta-Joukowski with one coefficient for all strips, `Gamma = coefficient c^2 q`:
     /// `C_R/2` in [Berman & Wang 2007] (its C_R = pi is not checked against the paper).

@@ -44,8 +44,7 @@ impl Slowed<'_, '_> {
                     let (u, w, q) = (m.u[lane], m.w[lane], m.q[lane]);
                     let ahead = front(u, w);
                     let wind = (self.gust)(strip, ahead);
-                    // The circulation of feathering goes with u: it makes the force of that, `-rho C c^2 q u`.
-                    let feathers = pair.lever()[lane] * q * ahead;
+                    let feathers = pair.lever(lane, ahead) * q;
                     let own = [w + wind.at_axis + feathers, u.hypot(w)];
                     let at = (*memory, strip, *time);
                     let here = self.lags.downwash(at, pair.chord()[lane], own, wind);

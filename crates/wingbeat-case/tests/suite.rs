@@ -44,6 +44,7 @@ mod strips_with_wakes;
 mod stroke_planes;
 mod table1;
 mod tables;
+mod tails;
 mod times;
 mod too_short;
 mod turns;

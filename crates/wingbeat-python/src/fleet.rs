@@ -103,6 +103,17 @@ impl Cell {
         self.regulator.iter().flat_map(Regulator::memory).collect()
     }
 
+    /// The regulator hears which `action` acts from now on, in fractions of the limits: its own or another one.
+    fn remember(&mut self, action: &[f64; CONTROLS]) {
+        if let Some(regulator) = &mut self.regulator {
+            let limits = &self.shared.course.limits;
+            let sizes = limits.sizes();
+            let u = limits.applied(std::array::from_fn(|i| action[i] * sizes[i]));
+            let seen = self.episode.seen_on_the_way();
+            regulator.remember(&seen, u, limits.reached(&u));
+        }
+    }
+
     fn observe(&self, out: &mut [f32]) {
         let mut seen = [0.0; OBSERVED];
         self.episode.observe(&mut seen);
@@ -187,6 +198,7 @@ impl<'a> Rows<'a> {
             false => {
                 let action = &self.actions[CONTROLS * k..CONTROLS * (k + 1)];
                 let action = std::array::from_fn(|i| f64::from(action[i]));
+                cell.remember(&action);
                 let outcome = cell.episode.step(&action);
                 cell.is_done = outcome.is_lost || outcome.is_over;
                 let over = outcome.is_over && !outcome.is_lost;
@@ -336,21 +348,19 @@ impl Fleet {
         Ok(terminated.iter().chain(truncated.iter()).any(|x| *x))
     }
 
-    /// What the linear-quadratic regulator would do now, into `actions`; it remembers, so once per step. Zeros
+    /// What the linear-quadratic regulator would do now, after the actions that acted until now, into `actions`. Zeros
     /// where it does not fit.
     fn regulate(&self, mut actions: PyReadwriteArray2<'_, f32>) -> PyResult<()> {
-        let mut cells = self.cells.lock().unwrap_or_else(PoisonError::into_inner);
+        let cells = self.cells.lock().unwrap_or_else(PoisonError::into_inner);
         let rows = actions.as_slice_mut()?.as_chunks_mut::<CONTROLS>().0;
-        for (cell, row) in cells.iter_mut().zip(rows) {
-            let Some(regulator) = &mut cell.regulator else {
+        for (cell, row) in cells.iter().zip(rows) {
+            let Some(regulator) = &cell.regulator else {
                 row.fill(0.0);
                 continue;
             };
             let limits = &cell.shared.course.limits;
             let sizes = limits.sizes();
-            let d = cell.episode.seen_on_the_way();
-            let u = limits.applied(regulator.controls(&d));
-            regulator.remember(&d, u, limits.reached(&u));
+            let u = limits.applied(regulator.controls(&cell.episode.seen_on_the_way()));
             *row = std::array::from_fn(|i| (u[i] / sizes[i]) as f32);
         }
         Ok(())

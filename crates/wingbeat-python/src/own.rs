@@ -243,8 +243,8 @@ impl ControlModel for PythonController {
             function: self.function.clone(),
             air: None,
             wings: setup.animal.wings.clone(),
-            ride: (0..setup.animal.wings.len())
-                .map(|w| setup.rides_on_wing(w))
+            steered: (0..setup.animal.wings.len())
+                .map(|w| setup.is_adjusted(w))
                 .collect(),
         }))
     }
@@ -256,8 +256,8 @@ struct Steered {
     /// At the look that follows.
     air: Option<AirProbe>,
     wings: Vec<Wing>,
-    /// Whether they ride on other wings.
-    ride: Vec<bool>,
+    /// Whether a command to all wings acts on them.
+    steered: Vec<bool>,
 }
 
 impl Controller for Steered {
@@ -280,7 +280,7 @@ impl Controller for Steered {
         let numbers = self.function.pending.keep(answer)?;
         let command: Vec<Adjustment> = numbers.into_iter().map(Adjustment::of_numbers).collect();
         if let [one] = &command[..] {
-            return for_all(&self.wings, &self.ride, one);
+            return for_all(&self.wings, &self.steered, one);
         }
         check_heeded(&self.wings, &command)?;
         Ok(command)

@@ -19,6 +19,7 @@ mod momentum_balance;
 mod numbers;
 mod per_beat;
 mod statistics;
+mod still_air;
 mod trust;
 mod verdict;
 mod words;
@@ -158,6 +159,7 @@ impl Summary {
         bent::warnings(setup, &s.each.bent, &mut warnings);
         turned_over(setup, &s.each, &mut warnings);
         trust::starting_steps(setup, s.corrector_residual, &mut warnings);
+        still_air::warn(setup, [&s.first, &s.last], &mut warnings);
         trust::flown_crossings(
             setup,
             &doubts,

@@ -7,6 +7,7 @@ mod impulse;
 mod in_play;
 mod mutations;
 mod passive_joints;
+mod still_air;
 mod summary;
 mod told;
 mod turned_over;

@@ -57,6 +57,11 @@ fn refuses_to_write_over_a_file_unasked() {
         &["stabilise", "--beats", "90000", "--figure", "mine.txt"],
         exists,
     );
+    // Nobody writes there, root neither.
+    if cfg!(target_os = "linux") {
+        let there = ["trim", "hawkmoth-blade", "--write", "/proc/trimmed.toml"];
+        refused(dir, &there, "cannot write `/proc/trimmed.toml`");
+    }
     refused(dir, &["new", "benchmark-1", "mine.txt"], exists);
     refused(dir, &["trim", "--overwrite"], "replaces nothing");
     // Asked, it is replaced.

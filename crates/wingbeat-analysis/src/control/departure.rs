@@ -201,10 +201,10 @@ impl Limits {
     }
 }
 
-/// Side of every wing, right +1, left -1; none of a wing that another one carries, and takes along.
+/// Side of every wing, right +1, left -1; none of a wing that is not steered ([`FlightSetup::is_adjusted`]).
 pub fn sides(setup: &FlightSetup) -> Vec<Option<f64>> {
     let wings = setup.animal.wings.iter().enumerate();
-    let side = |(w, wing): (usize, &Wing)| (!setup.rides_on_wing(w)).then(|| wing.side.sign());
+    let side = |(w, wing): (usize, &Wing)| setup.is_adjusted(w).then(|| wing.side.sign());
     wings.map(side).collect()
 }
 

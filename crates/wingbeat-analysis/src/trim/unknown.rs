@@ -276,12 +276,12 @@ pub(crate) fn adjusted(
     }
     let mut setup = setup.clone();
     shift *= setup.animal.wing_length();
-    let rides: Vec<bool> = (0..setup.animal.wings.len())
-        .map(|w| setup.rides_on_wing(w))
+    let adjusted: Vec<bool> = (0..setup.animal.wings.len())
+        .map(|w| setup.is_adjusted(w))
         .collect();
-    for (wing, rides) in setup.animal.wings.iter_mut().zip(rides) {
+    for (wing, is_adjusted) in setup.animal.wings.iter_mut().zip(adjusted) {
         let own = a.on(wing.side, &d);
-        let own = if rides { own.on_wing() } else { own };
+        let own = if is_adjusted { own } else { own.on_wing() };
         wing.motion = wing.motion.adjusted(wing.side, &own);
         wing.hinge_b.x -= shift;
     }

@@ -36,6 +36,14 @@ impl CampaignFile {
     /// # Errors
     /// The first thing in it that cannot be read or contradicts itself, with its line.
     pub fn read(path: &Path) -> Result<Self, IoError> {
+        if path == Path::new("-") {
+            return Err(IoError::File {
+                action: "read",
+                path: path.to_owned(),
+                source: std::io::Error::other("workers read the file of a campaign again"),
+                remedy: "write it to a file and name that, `./-` for one of this name",
+            });
+        }
         let document = Document::read(path, REMEDY)?;
         checks::shape(&document)?;
         let raw: RawCampaign = document.decode()?;

@@ -104,8 +104,9 @@ pub enum RotationCase {
     None,
     /// Kutta and Joukowski's force of the circulation of feathering: smooth.
     Circulation,
-    /// The same with the moment of thin-airfoil theory against feathering, which `unsteady` laws always have. Without it
-    /// quasi-steady strips excite the torsion of elastic wings.
+    /// The same by thin-airfoil theory for whichever edge meets the air, with its moment against feathering, as
+    /// `unsteady` laws always have it. Without it quasi-steady strips excite the torsion of elastic wings, and wings that
+    /// feather while they fly backwards take work out of air at rest.
     CirculationAndCouple,
     /// The same, normal to the wing (Sane & Dickinson 2002). It jumps where the air along a chord reverses while it
     /// meets the wing broadside: flights are as good as their steps, derivatives and modes of flight are none.

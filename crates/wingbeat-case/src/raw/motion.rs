@@ -49,7 +49,7 @@ pub struct MotionCase {
     /// Change it to start at another instant of the beat.
     pub phase: f64,
     /// Adjustments of all wings on the body on top of their angles, as trim finds them; wings that other wings carry
-    /// go along.
+    /// go along, and a wing that stands still beside wings that beat (a tail) stays as it is.
     pub adjust: AdjustCase,
     /// By how much these adjustments are larger of right wings than of left ones: half to either side.
     pub difference: AdjustCase,

@@ -59,6 +59,24 @@ const GAP: char = '\0';
 /// # Errors
 /// A result that cannot be read or a page that cannot be written.
 pub fn write(dir: &ResultDir, outcome: &Outcome, most_bytes: usize) -> Result<PathBuf, IoError> {
+    let page = text(dir, outcome, most_bytes)?;
+    dir.write(FILE, page.as_bytes())?;
+    Ok(dir.join(FILE))
+}
+
+/// The page of a result directory that was written after its run ended, if it has one.
+pub fn finished(dir: &ResultDir) -> Option<PathBuf> {
+    let written = |name: &str| std::fs::metadata(dir.join(name)).ok()?.modified().ok();
+    let is_newer = written(FILE)? >= written("history.csv")?;
+    let page = dir.join(FILE);
+    (is_newer && page.is_file()).then_some(page)
+}
+
+/// The page of a result directory as [`write`] writes it.
+///
+/// # Errors
+/// A result that cannot be read.
+pub fn text(dir: &ResultDir, outcome: &Outcome, most_bytes: usize) -> Result<String, IoError> {
     let name = dir.case()?.name;
     let data = data::gather(
         (dir, &name),
@@ -66,9 +84,7 @@ pub fn write(dir: &ResultDir, outcome: &Outcome, most_bytes: usize) -> Result<Pa
         most_bytes.saturating_sub(program_bytes()),
     )?;
     let [before, after] = program(&name);
-    let page = [before, data, after].concat();
-    dir.write(FILE, page.as_bytes())?;
-    Ok(dir.join(FILE))
+    Ok([before, data, after].concat())
 }
 
 /// Two flights beside each other as one page of at most `most_bytes`, which keeps their times and

@@ -110,17 +110,21 @@ pub fn check_heeded(wings: &[Wing], command: &[Adjustment]) -> Result<(), String
     }
 }
 
-/// One command for all wings: each has of it what has an effect there; those that `ride` on a wing
-/// ([`FlightSetup::rides_on_wing`](crate::FlightSetup::rides_on_wing)) move with it, and have the frequency alone.
+/// One command for all wings: each has of it what has an effect there; those that are not `adjusted`
+/// ([`FlightSetup::is_adjusted`](crate::FlightSetup::is_adjusted)) have the frequency alone.
 ///
 /// # Errors
 /// As [`check_heeded`], for a part that has an effect on no wing.
-pub fn for_all(wings: &[Wing], ride: &[bool], by: &Adjustment) -> Result<Vec<Adjustment>, String> {
-    let own = |(wing, rides): (&Wing, &bool)| match rides {
-        true => by.on_wing(),
-        false => wing.motion.heeded(by),
+pub fn for_all(
+    wings: &[Wing],
+    adjusted: &[bool],
+    by: &Adjustment,
+) -> Result<Vec<Adjustment>, String> {
+    let own = |(wing, is_adjusted): (&Wing, &bool)| match is_adjusted {
+        true => wing.motion.heeded(by),
+        false => by.on_wing(),
     };
-    let heeded: Vec<_> = wings.iter().zip(ride).map(own).collect();
+    let heeded: Vec<_> = wings.iter().zip(adjusted).map(own).collect();
     let parts = by.numbers().into_iter().enumerate();
     let mut lost =
         parts.filter(|(k, (_, x))| *x != 0.0 && heeded.iter().all(|a| a.numbers()[*k].1 == 0.0));

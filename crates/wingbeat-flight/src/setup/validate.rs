@@ -60,6 +60,12 @@ impl FlightSetup {
         self.wing_on_body(w) != w
     }
 
+    /// Whether what changes all strokes of the flyer (the controls of trim, commands to all wings) acts on wing `w`: not
+    /// on one that rides on another wing, nor on one that stands still beside wings that beat, as a tail does.
+    pub fn is_adjusted(&self, w: usize) -> bool {
+        !self.rides_on_wing(w) && !self.animal.is_held(w)
+    }
+
     /// Pitch of the stroke plane of wing `w` in the body \[rad\]: that of the wing on the body on which it rides.
     pub fn stroke_plane_pitch(&self, w: usize) -> f64 {
         let wing = &self.animal.wings[self.wing_on_body(w)];

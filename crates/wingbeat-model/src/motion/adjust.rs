@@ -142,7 +142,7 @@ impl Adjustment {
         self.with(difference, |a, d| a + half * d)
     }
 
-    /// What of it acts on a wing that another wing carries, and takes along: the frequency.
+    /// What of it acts on a wing that another wing carries, or that stands still beside wings that beat: the frequency.
     pub fn on_wing(&self) -> Self {
         Self {
             frequency: self.frequency,

@@ -191,7 +191,7 @@ class Environment(Uncopied, gymnasium.Env[Any, Any]):
 
     def regulated(self) -> NDArray[np.float32]:
         """What the linear-quadratic regulator would do now, shape (4,): a baseline, with ``controls_per_beat=1`` and ``delay=0``.
-        It remembers: once per step.
+        It goes by what is observed and by the actions that acted, whoever chose them.
         """
         actions: NDArray[np.float32] = self._fleet.regulated()[0]
         return actions
@@ -293,7 +293,7 @@ class VectorEnvironment(Uncopied, gymnasium.vector.VectorEnv[Any, Any, Any]):
 
     def regulated(self) -> NDArray[np.float32]:
         """What the linear-quadratic regulator would do now, shape (num_envs, 4): a baseline, with ``controls_per_beat=1`` and
-        ``delay=0``. It remembers: once per step.
+        ``delay=0``. It goes by what is observed and by the actions that acted, whoever chose them.
         """
         return self._fleet.regulated()
 

@@ -81,10 +81,12 @@ impl NewFile {
             _ => {}
         }
         remove_left_beside(path);
-        Ok(Self {
+        let claimed = Self {
             path: path.to_owned(),
             existing,
-        })
+        };
+        claimed.part()?; // a folder that cannot be written to is found now
+        Ok(claimed)
     }
 
     /// Where it is going to be.

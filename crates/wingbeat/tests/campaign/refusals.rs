@@ -373,6 +373,21 @@ fn refuses_keys_that_vary_twice_and_options_without_effect() {
 }
 
 #[test]
+fn refuses_a_campaign_from_the_standard_input() {
+    let scratch = Scratch::new("campaign-input");
+    for command in ["check", "plan", "run", "status", "numbers"] {
+        let out = wingbeat(&scratch.0, &["campaign", command, "-"]);
+        let report = String::from_utf8(out.stderr).unwrap();
+        assert_eq!(out.status.code(), Some(2), "{command}: {report}");
+        assert!(
+            report.contains("workers read the file of a campaign again"),
+            "{report}"
+        );
+        assert!(report.contains("write it to a file"), "{report}");
+    }
+}
+
+#[test]
 fn refuses_a_directory_that_holds_something_else() {
     let scratch = Scratch::new("campaign-elsewhere");
     let dir = &scratch.0;

@@ -28,6 +28,35 @@ fn behaves_show_and_view_take_the_latest_run() {
     assert!(wrote.contains("benchmark-2-2"), "{wrote}");
 }
 
+/// Where the page of a run cannot be written, the one that lies there is the page, else a new one elsewhere.
+#[test]
+fn behaves_view_needs_no_place_in_the_folder_of_the_run() {
+    let scratch = Scratch::new("view-elsewhere");
+    let run = ["run", "benchmark-2", "--out", "r", "--quiet", "--set"];
+    flown(&scratch.0, &[&run[..], &["time.steps=4"]].concat());
+    let there = scratch.0.join("r/flight.html");
+    flown(&scratch.0, &["view", "r", "--no-open"]);
+    let page = fs::read_to_string(&there).unwrap();
+    // A folder in its place: it cannot be written, whoever asks.
+    fs::remove_file(&there).unwrap();
+    fs::create_dir(&there).unwrap();
+    fs::write(there.join("mine.txt"), "mine").unwrap();
+    let out = wingbeat(&scratch.0, &["view", "r", "--no-open"]);
+    let said = String::from_utf8_lossy(&out.stdout).into_owned();
+    assert!(
+        out.status.success(),
+        "{}",
+        String::from_utf8_lossy(&out.stderr)
+    );
+    let path = said
+        .trim()
+        .strip_prefix("wrote ")
+        .unwrap_or_else(|| panic!("{said}"));
+    assert_eq!(fs::read_to_string(path).unwrap(), page);
+    fs::remove_file(path).unwrap();
+    assert!(there.join("mine.txt").is_file());
+}
+
 #[test]
 fn exact_show_and_compare_say_what_the_summary_says() {
     let scratch = Scratch::new("show");

@@ -31,8 +31,11 @@ pub(crate) fn build_all(case: &Case) -> Built<Vec<Wing>> {
             wings.push(wings[wings.len() - 1].mirrored(&other));
         }
     }
+    // Wings that stand still beside those that beat are tails, and stay as they are.
+    let any_beats = wings.iter().any(|w| !w.is_still());
     for wing in &mut wings {
-        if !rides_on_wing(case, &wing.name) {
+        let is_held = any_beats && wing.is_still();
+        if !is_held && !rides_on_wing(case, &wing.name) {
             wing.motion = motion::adjusted(case, &wing.motion, wing.side);
         }
     }

@@ -237,6 +237,7 @@ fn motion(case: &Case, animal: &Animal, source: &CaseSource) -> Built<()> {
 /// Changes of what does not vary on any wing.
 fn adjustments(case: &Case, setup: &FlightSetup) -> Built<()> {
     let wings = &setup.animal.wings;
+    let any_beats = wings.iter().any(|w| !w.is_still());
     let motion = &case.motion;
     for (table, by) in [
         ("adjust", &motion.adjust),
@@ -245,7 +246,9 @@ fn adjustments(case: &Case, setup: &FlightSetup) -> Built<()> {
         let by = Adjustment::from(by);
         let mut parts = by.numbers().into_iter();
         let lost_on = |wing: &Wing, part: &(&str, f64)| {
-            rides_on_wing(case, &wing.name) || wing.motion.idle(&by).any(|i| i == *part)
+            rides_on_wing(case, &wing.name)
+                || any_beats && wing.is_still()
+                || wing.motion.idle(&by).any(|i| i == *part)
         };
         let lost = parts.find(|part| !wings.is_empty() && wings.iter().all(|w| lost_on(w, part)));
         if let Some((part, _)) = lost {

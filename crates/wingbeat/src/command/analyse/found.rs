@@ -10,6 +10,7 @@ use wingbeat::flight::{FlightSetup, MotionMode};
 use wingbeat::math::{DVec3, larger};
 use wingbeat::results::fixed::signed;
 
+use crate::command::case::expectation::tell_held;
 use crate::command::output::report::{Report, line};
 use crate::command::output::terminal::tell;
 
@@ -45,6 +46,7 @@ fn heading(report: &mut Report, case: &LoadedCase, problem: &TrimProblem) {
         );
     }
     report.value("airspeed_m_s", airspeed);
+    tell_held(report, &case.setup);
     let has_control = case.raw.control.is_some();
     if has_control {
         line!(report, "of the open loop: [control] is left out");

@@ -52,6 +52,7 @@ fn look(args: &CheckArgs, report: &mut Report) -> Result<(), IoError> {
     report.value("case", case.name.as_str());
     describe(report, &case.setup);
     feedback(report, &case.setup);
+    expectation::tell_held(report, &case.setup);
     let panels = case.setup.panels();
     entry!(report, "lattice", "{panels} panels");
     report.value("panels", panels);

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use clap::Args;
+use wingbeat::case::IoError;
 use wingbeat::draw::figures::{self, Format, Kind, Order, Style, Window};
 use wingbeat::results::ResultDir;
 use wingbeat::results::file::Existing;
@@ -61,6 +62,24 @@ const KINDS: [(&str, Kind); Kind::ALL.len()] = {
     kinds
 };
 
+/// What to do where the folder of the run cannot be written to.
+fn elsewhere(e: IoError, args: &PlotArgs) -> IoError {
+    match e {
+        IoError::File {
+            action: action @ ("write" | "create"),
+            path,
+            source,
+            ..
+        } if args.out.is_none() => IoError::File {
+            action,
+            path,
+            source,
+            remedy: "name another folder for the figures with --out FOLDER, or free some space",
+        },
+        other => other,
+    }
+}
+
 /// The whole command.
 pub(crate) fn plot(args: &PlotArgs) -> Result<(), Failure> {
     let folder = args.out.clone().unwrap_or_else(|| match args.style {
@@ -84,7 +103,7 @@ pub(crate) fn plot(args: &PlotArgs) -> Result<(), Failure> {
         return Err(Failure::Option(problem));
     }
     let dir = ResultDir::read(&args.dir)?;
-    let plotted = figures::plot(&dir, &order)?;
+    let plotted = figures::plot(&dir, &order).map_err(|e| elsewhere(e, args))?;
     for file in &plotted.files {
         say!("{}", file.display());
     }

@@ -4,8 +4,10 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
 use clap::Args;
+use wingbeat::case::IoError;
 use wingbeat::draw::page;
-use wingbeat::results::{RESULTS, ResultDir, latest_run};
+use wingbeat::results::file::{Existing, NewFile};
+use wingbeat::results::{Outcome, RESULTS, ResultDir, latest_run};
 
 use crate::command::options;
 use crate::command::output::failure::Failure;
@@ -43,8 +45,18 @@ pub(crate) fn chosen(dir: Option<&Path>) -> Result<PathBuf, Failure> {
 pub(crate) fn view(args: &ViewArgs) -> Result<(), Failure> {
     let dir = ResultDir::read(&chosen(args.dir.as_deref())?)?;
     let outcome = dir.manifest()?.outcome;
-    let page = page::write(&dir, &outcome, (args.size * 1e6) as usize)?;
-    say!("wrote {}", page.display());
+    let bytes = (args.size * 1e6) as usize;
+    let page = match page::write(&dir, &outcome, bytes) {
+        Ok(page) => {
+            say!("wrote {}", page.display());
+            page
+        }
+        Err(IoError::File { path, source, .. }) if path == dir.join(page::FILE) => {
+            tell!("{} stays as it is: {source}", dir.path().display());
+            elsewhere(&dir, &outcome, bytes)?
+        }
+        Err(e) => return Err(e.into()),
+    };
     let bytes = std::fs::metadata(&page).map_or(0, |m| m.len()) as f64;
     if bytes > args.size * 1e6 {
         say!(
@@ -57,6 +69,20 @@ pub(crate) fn view(args: &ViewArgs) -> Result<(), Failure> {
         say!("No browser could be started: open this file in one.");
     }
     Ok(())
+}
+
+/// The page of a run whose folder cannot be written to: the one that lies there if it shows the whole flight, else a
+/// new one in the folder for temporary files.
+fn elsewhere(dir: &ResultDir, outcome: &Outcome, bytes: usize) -> Result<PathBuf, IoError> {
+    if let Some(page) = page::finished(dir) {
+        say!("the page of the run is {}", page.display());
+        return Ok(page);
+    }
+    let name = format!("wingbeat-{}-{}.html", dir.case()?.name, std::process::id());
+    let file = NewFile::claim(&std::env::temp_dir().join(name), Existing::Kept)?;
+    file.write(page::text(dir, outcome, bytes)?.as_bytes())?;
+    say!("wrote {}", file.path().display());
+    Ok(file.path().to_owned())
 }
 
 /// Hands a file to the browser the system prefers.
