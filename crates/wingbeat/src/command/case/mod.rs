@@ -1,6 +1,6 @@
 //! The commands about cases: what there is to start from, whether it can be flown, what that costs.
 
 pub(crate) mod check;
-mod expectation;
+pub(crate) mod expectation;
 pub(crate) mod new;
 pub(crate) mod programs;
