@@ -21,6 +21,7 @@ mod joints;
 mod lift;
 mod limit;
 mod numbers;
+mod revolution;
 mod sides;
 mod sizes;
 mod wake;

@@ -100,3 +100,100 @@ fn exact_a_wake_cut_in_mean_chords_reads_back_in_mean_chords() {
     let exact = (0.25 * 0.08 + 0.09 * 0.05) / (0.25 + 0.09);
     assert!((chord.unwrap() - exact).abs() < 1e-12);
 }
+
+/// Two blades of 1 m x 0.25 m, 0.25 m from the axis, which go round once in a second for ten seconds.
+const ROTOR: &str = r#"
+format = 1
+[time]
+step_s = 0.05
+steps = 200
+[flight]
+mode = "tethered"
+[air]
+body = false
+shed = ["trailing"]
+[body]
+mass_kg = 1
+inertia_about_centre_kg_m2 = [1, 1, 1, 0, 0, 0]
+[wing.right]
+hinge_m = [0, 0, 0]
+mass_kg = 0.1
+motion.phi.constant_deg = 0
+motion.psi.constant_deg = 10
+planform.rectangle = { span_m = 1, chord_m = 0.25, root_offset_m = 0.25 }
+mesh = { chordwise = 2, spanwise = 4 }
+"#;
+
+/// On joints of a hub that is free to turn.
+const HUB: &str = r#"
+[segment.hub]
+mass_kg = 1
+inertia_about_centre_kg_m2 = [1, 1, 1, 0, 0, 0]
+[joint.hub]
+kind = "revolute"
+child = "hub"
+at_m = [0, 0, 0]
+axis = [0, 0, 1]
+start_deg_s = [-360]
+[joint.right]
+parent = "hub"
+child = "right"
+at_m = [0, 0, 0]
+[joint.left]
+parent = "hub"
+child = "left"
+at_m = [0, 0, 0]
+"#;
+
+/// Blades that a tether, a free joint or the start of a free flight takes round ask for eight turns of wake in
+/// air at rest, or for one that their way through the air carries off by 1.5 times the 1.25 m from the axis to
+/// the tip.
+#[test]
+fn behaves_cut_wakes_of_blades_that_go_round_are_named() {
+    let turning = ROTOR.replace(
+        "mode = \"tethered\"",
+        "mode = \"tethered\"\ntether.yaw = { rate_deg_s = -360 }",
+    );
+    let beating = turning.replace("format = 1", "format = 1\nmotion.frequency_hz = 3");
+    let spinning = ROTOR.replace(
+        "mode = \"tethered\"",
+        "mode = \"free\"\nangular_velocity_deg_s = [0, 0, -360]",
+    );
+    let on_hub = [ROTOR, HUB].concat();
+    let short = |text: &str, keys: &str| {
+        let text = text.replace("shed =", &format!("{keys}\nshed ="));
+        kept_wake(&glider(&[&text], "name=\"rotor\"").setup)
+            .unwrap()
+            .is_short
+    };
+    for text in [&turning, &beating, &spinning, &on_hub] {
+        for (rows, climb, is_named) in [
+            (30, 0.0, true),
+            (159, 0.0, true),
+            (161, 0.0, false),
+            (30, 1.2, true),
+            (30, 1.3, false),
+        ] {
+            let keys = format!("max_wake_rows = {rows}\nstream_m_s = [0, 0, {climb}]");
+            let said = short(text, &keys);
+            let what = format!("{rows} rows, {climb} m/s: {said:?}\n{text}");
+            assert_eq!(said.is_some(), is_named, "{what}");
+            assert!(
+                said.is_none_or(|s| s.contains("blades that go round")),
+                "{what}"
+            );
+        }
+    }
+}
+
+/// A turn of 20 m radius, ten of them: the wings are 0.25 m long and leave their wakes behind.
+#[test]
+fn behaves_wings_that_circle_are_no_rotor() {
+    let circle = WINGS.replace(
+        "velocity_m_s = [6, 0, 0]",
+        "tether.yaw = { rate_deg_s = 17.2 }\ntether.x = { frequency_hz = 0.0478, sine_m = [20] }\ntether.y = { frequency_hz = 0.0478, cosine_m = [-20] }",
+    );
+    let circle = circle.replace("steps = 300", "steps = 35000");
+    let kept = kept_wake(&glider(&[&circle], "air.max_wake_distance_m=2").setup).unwrap();
+    assert_eq!(kept.is_short, None, "{}", kept.said);
+}

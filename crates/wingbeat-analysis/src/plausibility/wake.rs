@@ -6,6 +6,7 @@ use wingbeat_flight::FlightSetup;
 use super::behind::way_to_wings_behind;
 use super::limit::rounded;
 use super::numbers::{Estimate, WingEstimate};
+use super::revolution::Revolution;
 use super::sizes::sizes;
 use wingbeat_math::{DVec3, RotationLaw};
 use wingbeat_model::Wing;
@@ -49,37 +50,57 @@ pub fn kept_wake(setup: &FlightSetup) -> Option<KeptWake> {
     let flown = setup.time.steps as f64 * setup.time.step;
     let cuts = Cut::of(setup, lattice);
     let wings = estimate.wings.iter().enumerate();
-    let cut = wings
-        .filter(|(_, w)| w.speed > 0.0)
-        .filter_map(|(w, wing)| {
-            let (time, key) = cuts.time_behind(wing)?;
-            (time < flown).then_some((w, wing, time, key))
-        });
-    let cut: Vec<(usize, &WingEstimate, f64, String)> = cut.collect();
-    let by_itself = cut
-        .iter()
-        .filter_map(|(_, wing, time, _)| felt(setup, &estimate, wing, *time));
+    let cut = wings.filter_map(|(w, wing)| {
+        let revolution = Revolution::of(setup, w);
+        let speed = revolution.map_or(0.0, |r| r.tip_speed()).max(wing.speed);
+        let (time, key) = cuts.time_behind(speed)?;
+        let is_cut = speed > 0.0 && time < flown;
+        is_cut.then_some(CutWake {
+            w,
+            wing,
+            revolution,
+            speed,
+            time,
+            key,
+        })
+    });
+    let cut: Vec<CutWake> = cut.collect();
+    let by_itself = cut.iter().filter_map(|wake| felt(setup, &estimate, wake));
     let left = cut
         .iter()
-        .filter(|(_, wing, ..)| Wakes::of(setup, &estimate, wing).are_left);
-    let behind =
-        left.filter_map(|(w, ..)| felt_behind(setup, *w, cuts.reach(estimate.flight_speed)?));
+        .filter(|c| Wakes::of(setup, &estimate, c.wing).are_left);
+    let behind = left.filter_map(|c| felt_behind(setup, c.w, cuts.reach(estimate.flight_speed)?));
     let worst = by_itself.chain(behind).max_by(|a, b| a.0.total_cmp(&b.0));
-    let soonest = cut.iter().min_by(|a, b| a.2.total_cmp(&b.2));
-    let (_, wing, time, key) = soonest?;
-    let chords = time * wing.speed / setup.animal.mean_chord()?;
-    let beats = setup.time.period.map(|p| time / p);
+    let soonest = cut.iter().min_by(|a, b| a.time.total_cmp(&b.time))?;
+    let chords = soonest.time * soonest.speed / setup.animal.mean_chord()?;
+    let beats = setup.time.period.map(|p| soonest.time / p);
     let in_beats = beats.map_or(String::new(), |b| format!("{} wingbeats, ", rounded(b)));
+    let turns = soonest.revolution.map(|r| soonest.time / r.period());
+    let in_turns = turns.map_or(String::new(), |n| format!("{} turns, ", rounded(n)));
     Some(KeptWake {
-        time: *time,
+        time: soonest.time,
         chords,
         beats,
         said: format!(
-            "the wake is cut ({key}): {in_beats}{} mean chords of the way of the wings are kept",
+            "the wake is cut ({}): {in_beats}{in_turns}{} mean chords of the way of the wings are kept",
+            soonest.key,
             rounded(chords)
         ),
         is_short: worst.map(|(times, measured)| short(times, measured)),
     })
+}
+
+/// The wake of a wing that is cut within the flight.
+struct CutWake<'a> {
+    w: usize,
+    wing: &'a WingEstimate,
+    revolution: Option<Revolution>,
+    /// The speed at which the wing goes through the air [m/s].
+    speed: f64,
+    /// Time for which a row is kept \[s\].
+    time: f64,
+    /// What cuts it, with its value.
+    key: String,
 }
 
 /// What cuts wakes.
@@ -100,8 +121,9 @@ impl Cut {
         }
     }
 
-    /// Time for which a row behind `wing` is kept \[s\], and the key that cuts it with its value.
-    fn time_behind(&self, wing: &WingEstimate) -> Option<(f64, String)> {
+    /// Time for which a row behind a wing of that `speed` [m/s] is kept \[s\], and the key that cuts it with its
+    /// value.
+    fn time_behind(&self, speed: f64) -> Option<(f64, String)> {
         let of_rows =
             (self.rows).map(|n| (n as f64 * self.step, format!("air.max_wake_rows = {n}")));
         let of_age = self
@@ -109,7 +131,7 @@ impl Cut {
             .map(|age| (age, format!("air.max_wake_age_s = {}", rounded(age))));
         let of_way = self.distance.map(|way| {
             let said = format!("air.max_wake_distance_m = {}", rounded(way));
-            (way / wing.speed, said)
+            (way / speed, said)
         });
         let all = [of_rows, of_age, of_way].into_iter().flatten();
         all.min_by(|a, b| a.0.total_cmp(&b.0))
@@ -132,24 +154,22 @@ fn felt_behind(setup: &FlightSetup, w: usize, reach: f64) -> Option<(f64, &'stat
     (reach < way).then_some((way / reach, BEHIND))
 }
 
-/// By what factor the wake of `wing`, of which rows are kept for `time` \[s\], is too short \[1\], and what was measured
-/// of such wakes; none where what is left out is felt little.
-fn felt(
-    setup: &FlightSetup,
-    estimate: &Estimate,
-    wing: &WingEstimate,
-    time: f64,
-) -> Option<(f64, &'static str)> {
+/// By what factor the `wake` of a wing is too short for the wing itself \[1\], and what was measured of such wakes;
+/// none where what is left out is felt little.
+fn felt(setup: &FlightSetup, estimate: &Estimate, wake: &CutWake) -> Option<(f64, &'static str)> {
+    let (wing, time) = (wake.wing, wake.time);
     let sides = setup.animal.wings.len().min(2) as f64;
-    let roots = time * wing.speed / (sides * wing.report.area).sqrt();
+    let roots = time * wake.speed / (sides * wing.report.area).sqrt();
     let wakes = Wakes::of(setup, estimate, wing);
+    let in_turns = (wake.revolution).and_then(|r| r.felt(time, estimate.flight_speed));
     let beats = setup.time.period.map(|p| time / p);
-    let in_hover = beats.filter(|b| wakes.are_met && *b < BEATS);
+    let flaps = wake.revolution.is_none() || wing.tip_speed > 0.0;
+    let in_hover = beats.filter(|b| flaps && wakes.are_met && *b < BEATS);
     let in_hover = in_hover.map(|b| (BEATS / b, IN_HOVER));
     let in_a_stream = wakes.are_left && roots < ROOTS;
     let in_a_stream = in_a_stream.then_some((ROOTS / roots, IN_A_STREAM));
-    let both = [in_hover, in_a_stream].into_iter().flatten();
-    both.max_by(|a, b| a.0.total_cmp(&b.0))
+    let all = [in_turns, in_hover, in_a_stream].into_iter().flatten();
+    all.max_by(|a, b| a.0.total_cmp(&b.0))
 }
 
 /// What was measured of short wakes.

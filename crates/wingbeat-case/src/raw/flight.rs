@@ -137,9 +137,11 @@ pub struct PathOscillation {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct AngleOscillation {
-    /// Steady rate.
+    /// Steady rate. In a stream sideslip or incidence then change with the heading: a rate of yaw measures
+    /// `C_r - C_betadot`, one of pitch `C_q + C_alphadot`. A steady turn needs a circle by `x` and `y`, too
+    /// (docs/flight-mechanics.md).
     ///
-    /// Change it for turns.
+    /// Change it to revolve wings, or to roll, or with a circle for turns.
     #[serde(default)]
     pub rate_deg_s: f64,
     /// Frequency f.
