@@ -7,6 +7,7 @@ pub(crate) mod jacobian;
 pub(crate) mod modes;
 pub(crate) mod rigid_body;
 pub(crate) mod table;
+mod welded;
 
 use wingbeat_math::six_by_six::from_entries;
 use wingbeat_math::{DMat3, DVec3, SixBySix, r3, six};
