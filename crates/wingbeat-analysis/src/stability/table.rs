@@ -82,7 +82,6 @@ fn rigid_body(setup: &FlightSetup, table: &DerivativeTable, welded: &Welded) -> 
         inertia: table.to_body.transpose() * inertia * table.to_body,
         gravity: DVec3::Z * setup.gravity.length(),
         weights: welded.weights.iter().map(weight).collect(),
-        stream: DVec3::ZERO, // velocities are those through the air
         momentum: DVec3::ZERO,
         added_mass: table.added_mass,
         length: (inertia.col(0).length() / body.mass).sqrt(),
