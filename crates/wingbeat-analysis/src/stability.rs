@@ -7,6 +7,7 @@ pub(crate) mod jacobian;
 pub(crate) mod modes;
 pub(crate) mod rigid_body;
 pub(crate) mod table;
+mod welded;
 
 use wingbeat_math::six_by_six::from_entries;
 use wingbeat_math::{DMat3, DVec3, SixBySix, r3, six};
@@ -41,7 +42,7 @@ pub struct LinearModel {
     /// and the wing length \[1\]. The free wingbeat is in balance; where this is not small, so much moves
     /// within a beat that averages say little.
     pub imbalance: [f64; 2],
-    /// Modes.
+    /// Modes, their velocities those through the air: in a stream they are those of still air.
     pub modes: ModeSet,
 }
 
@@ -77,16 +78,20 @@ pub fn linear_model(beat: &Beat, state: &State) -> Result<LinearModel, AnalysisE
     let (level, reference) = reference(beat, state)?;
     let size = scales(beat);
     let body = RigidBody::of(beat, &level, &reference)?;
+    let stream = beat.stream();
     let f = |x: &[f64]| -> Result<Vec<f64>, AnalysisError> {
-        let rates = body.rates(x, |state| {
-            beat.changing_load(&level, state, [DVec3::ZERO; 2])
+        let rates = body.rates(x, |through| {
+            let state = through.moved(&level, stream);
+            beat.changing_load(&level, &state, [DVec3::ZERO; 2])
         })?;
         Ok(rates.to_vec())
     };
     // Mean loads are smooth: steps of 1e-3 of the natural sizes, error of the formula 1e-12.
     let steps = size.array().map(|s| 1e-3 * s);
-    let matrix = jacobian(f, &reference.to_array(), &steps)?;
+    let through = reference.relative_to(&level, stream);
+    let matrix = jacobian(f, &through.to_array(), &steps)?;
     let modes = ModeSet::of_exponents(eigen(&matrix, 9)?, &size);
+    let matrix = over_ground(matrix, level.to_n.transpose() * stream);
     let load = beat.changing_load(&level, &reference, [DVec3::ZERO; 2])?;
     let weight = body.mass * body.gravity;
     let (size, weights) = (weight.length(), body.weights(DMat3::IDENTITY));
@@ -101,6 +106,29 @@ pub fn linear_model(beat: &Beat, state: &State) -> Result<LinearModel, AnalysisE
         matrix,
         modes,
     })
+}
+
+/// The matrix of a linear map of perturbations and more numbers, velocities over the ground, from that in which they are
+/// those through the air: a body tilted in a `stream`, level frame \[m/s\], that goes on through the air as it did, goes
+/// on by `stream x tilt` faster over the ground, seen from its axes.
+fn over_ground(mut m: Vec<f64>, stream: DVec3) -> Vec<f64> {
+    if stream == DVec3::ZERO {
+        return m; // to the bit
+    }
+    let n = m.len().isqrt();
+    for j in 0..3 {
+        let by_tilt = stream.cross(DVec3::AXES[j]).to_array();
+        for (i, by) in by_tilt.into_iter().enumerate() {
+            (0..n).for_each(|k| m[n * i + k] += by * m[n * (6 + j) + k]);
+        }
+    }
+    for j in 0..3 {
+        let by_tilt = stream.cross(DVec3::AXES[j]).to_array();
+        for (i, by) in by_tilt.into_iter().enumerate() {
+            (0..n).for_each(|k| m[n * k + 6 + j] -= m[n * k + i] * by);
+        }
+    }
+    m
 }
 
 /// Control derivatives about the steady flight with the mean attitude and velocity of a trimmed one.
@@ -167,10 +195,13 @@ fn load_derivatives(
 /// # Errors
 /// Numbers that are not finite.
 pub fn orbit_monodromy(beat: &Beat, state: &State) -> Result<Vec<f64>, AnalysisError> {
-    turning_monodromy(beat, state, 0.0)
+    let through = turning_monodromy(beat, state, 0.0)?;
+    let stream = Level::of(beat, state).to_n.transpose() * beat.stream();
+    Ok(over_ground(through, stream))
 }
 
-/// The same of an orbit that has turned by `turned` \[rad\] about n3 after a beat, seen from axes that turn with it.
+/// The same with velocities through the air, of an orbit that has turned by `turned` \[rad\] about n3 after a beat, seen
+/// from axes that turn with it.
 fn turning_monodromy(beat: &Beat, state: &State, turned: f64) -> Result<Vec<f64>, AnalysisError> {
     let level = Level::of(beat, state);
     let ahead = Level {
@@ -178,12 +209,14 @@ fn turning_monodromy(beat: &Beat, state: &State, turned: f64) -> Result<Vec<f64>
         ..level
     };
     let seen = |level: &Level, y: &[f64]| {
-        let mut x = Perturbation::of(beat, level, y).to_array().to_vec();
+        let through = Perturbation::of(beat, level, y).relative_to(level, beat.stream());
+        let mut x = through.to_array().to_vec();
         x.extend_from_slice(&y[JOINTS..]);
         x
     };
     let map = |x: &[f64]| -> Result<Vec<f64>, AnalysisError> {
         let start = Perturbation::from_array(x[..9].try_into().expect("nine components"));
+        let start = start.moved(&level, beat.stream());
         let end = beat.advance(&start.state(beat, &level, &x[9..]))?;
         Ok(seen(&ahead, &end))
     };
@@ -200,12 +233,12 @@ fn orbit_scales(beat: &Beat) -> Vec<f64> {
 }
 
 /// Floquet's modes of the periodic orbit through `state`: exponents `ln(multiplier) / T` (principal
-/// branch: periods below two wingbeats cannot be told from slower ones).
+/// branch: periods below two wingbeats cannot be told from slower ones). Velocities in them are those through the air.
 ///
 /// # Errors
 /// Numbers that are not finite.
 pub fn floquet(beat: &Beat, state: &State) -> Result<ModeSet, AnalysisError> {
-    multiplied(beat, &orbit_monodromy(beat, state)?)
+    multiplied(beat, &turning_monodromy(beat, state, 0.0)?)
 }
 
 /// Floquet's modes of a trimmed flight, straight or in a steady turn: that is periodic in axes that turn with it.

@@ -18,7 +18,7 @@ use wingbeat_math::DVec3;
 use crate::AnalysisError;
 use crate::power::{Power, power_of_trim};
 use crate::progress;
-use crate::sweep::continuation::{Path, first_stroke};
+use crate::sweep::continuation::{Path, largest_stroke};
 use crate::trim::Trim;
 use crate::trim::lost::Lost;
 use crate::trim::problem::TrimProblem;
@@ -32,7 +32,7 @@ pub struct Swept {
     pub trim: Trim,
     /// What it costs over the free wingbeat.
     pub power: Power,
-    /// Stroke angle of the first wing from end to end \[rad\]; 0 where it does not flap by itself.
+    /// Largest stroke angle of all wings from end to end \[rad\]; 0 where none flaps by itself.
     pub stroke_amplitude: f64,
 }
 
@@ -220,7 +220,7 @@ fn flight_at(path: &mut Path, velocity: DVec3) -> Result<Result<Swept, Lost>, An
         Ok(trim) => trim,
         Err(residual) => return Ok(Err(Lost::NotTrimmed(residual))),
     };
-    let stroke_amplitude = first_stroke(&trim);
+    let stroke_amplitude = largest_stroke(&trim);
     if stroke_amplitude > PI {
         return Ok(Err(Lost::Stroke(stroke_amplitude)));
     }

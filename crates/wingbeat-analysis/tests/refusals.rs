@@ -17,6 +17,20 @@ fn refuses_a_trim_without_weight_by_name() {
     assert!(said.contains("gravity_m_s2"), "{said}");
 }
 
+/// Forward, right and up are those of n1, n2 and -n3.
+#[test]
+fn refuses_a_trim_whose_gravity_is_not_down_along_n3() {
+    for gravity in [-9.81 * DVec3::Z, 9.81 * DVec3::X] {
+        let mut setup = common::fly();
+        setup.gravity = gravity;
+        let said = trim(&setup, &common::hover(20)).unwrap_err().to_string();
+        assert!(
+            said.contains("gravity_m_s2") && said.contains("-n3 is up"),
+            "{said}"
+        );
+    }
+}
+
 #[test]
 fn refuses_a_beat_of_a_case_without_wings_in_words_that_fit() {
     let mut setup = common::fly();

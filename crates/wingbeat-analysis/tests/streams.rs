@@ -9,6 +9,7 @@ use wingbeat_analysis::control::{
 };
 use wingbeat_analysis::episode::{Draw, Recovery, Start, Task, Tumbles};
 use wingbeat_analysis::*;
+use wingbeat_blade::BodyDrag;
 use wingbeat_flight::AirModel;
 use wingbeat_math::DVec3;
 
@@ -119,5 +120,61 @@ fn exact_a_tilt_leaves_the_flight_its_velocity() {
         let sway = [velocity - by.velocity, steady].map(|v| (v - trim.velocity).length());
         assert!((sway[0] - sway[1]).abs() < 1e-12, "{sway:?}");
         assert!(sway[1] < 0.05 * trim.velocity.length(), "{sway:?}");
+    }
+}
+
+/// Modes of flight at the same speed through the air, in still air and in streams, with a body whose drag grows with the
+/// square of the speed: exponents, names and shapes.
+#[test]
+fn invariant_modes_of_flight_in_streams() {
+    let of = |forward: f64, stream: f64| {
+        let mut setup = fly();
+        if let AirModel::BladeElement(air) = &mut setup.air {
+            air.blade.free_stream = DVec3::new(stream, 0.0, 0.0);
+            air.body_drag = Some(BodyDrag {
+                area: 1.8e-6,
+                along: 0.6,
+                across: 1.3,
+                centre: None,
+            });
+        }
+        let mut problem = hover(STEPS);
+        problem.velocity = DVec3::new(forward + stream, 0.0, 0.0);
+        let found = trim(&setup, &problem).expect("a trim");
+        assert!(found.solution.converged);
+        let model = linear_model(&found.beat, &found.state).expect("modes");
+        // The matrix over the ground has the exponents of that through the air.
+        let pairs = eigen(&model.matrix, 9).expect("numbers");
+        let of_matrix = ModeSet::of_exponents(
+            pairs,
+            &Scales::new(found.beat.wing_length(), found.beat.period()),
+        );
+        let apart = of_matrix.modes.iter().zip(&model.modes.modes);
+        let apart = apart.map(|(a, b)| (a.growth - b.growth).abs() * a.wingbeat);
+        assert!(apart.fold(0.0, f64::max) < 1e-7);
+        [
+            model.modes,
+            floquet(&found.beat, &found.state).expect("modes"),
+        ]
+    };
+    for forward in [0.0, 0.5] {
+        let still = of(forward, 0.0);
+        for stream in [-forward, 3.0, 10.0] {
+            for (a, b) in still.iter().zip(&of(forward, stream)) {
+                for (a, b) in a.modes.iter().zip(&b.modes) {
+                    assert_eq!((&a.name, a.plane), (&b.name, b.plane), "{stream}");
+                    // Trims to 1e-9, their slopes by differences over steps of 1e-4 from numbers up to 20 times as
+                    // large: 1e-16 x 20 / 1e-4.
+                    const NEAR: f64 = 1e-7;
+                    let apart = [a.growth - b.growth, a.frequency - b.frequency];
+                    let apart = apart.map(|x| x * a.wingbeat);
+                    assert!(apart.iter().all(|x| x.abs() < NEAR), "{stream}: {apart:?}");
+                    for (a, b) in a.vector.iter().zip(&b.vector) {
+                        // Neighbouring exponents are hundredths apart.
+                        assert!((a.1 - b.1).abs() < 1e-5, "{stream}: {a:?} {b:?}");
+                    }
+                }
+            }
+        }
     }
 }

@@ -7,6 +7,7 @@ use crate::common;
 use common::*;
 use wingbeat_analysis::*;
 use wingbeat_math::DVec3;
+use wingbeat_model::{AngleLaw, AngleLaws};
 
 fn forward(speeds: &[f64]) -> Vec<DVec3> {
     speeds.iter().map(|v| DVec3::new(*v, 0.0, 0.0)).collect()
@@ -85,6 +86,38 @@ fn limit_strokes_of_more_than_half_a_circle_are_no_flight() {
     assert_eq!(found.missed.len(), 2);
     let too_far = |why: &Lost| matches!(why, Lost::Stroke(s) if *s > std::f64::consts::PI);
     assert!(found.missed.iter().all(|(_, why)| too_far(why)));
+}
+
+/// Fins that stand still do not hide the strokes of the wings, whichever come first.
+#[test]
+fn invariant_strokes_of_more_than_half_a_circle_whatever_the_order_of_wings() {
+    let mut heavy = fly();
+    heavy.gravity *= 3.0;
+    let small = heavy.animal.scaled(1e-3).unwrap().wings;
+    let fins = small.into_iter().map(|mut fin| {
+        fin.name = format!("a-fin-{}", fin.name);
+        fin.motion.angles = AngleLaws {
+            phi: AngleLaw::Constant(0.0),
+            theta: AngleLaw::Constant(0.0),
+            psi: AngleLaw::Constant(0.0),
+        };
+        fin
+    });
+    let wings = heavy.animal.wings.clone();
+    heavy.animal.wings = fins.chain(wings).collect();
+    let found = sweep(&heavy, &hover(40), &forward(&[0.0])).unwrap();
+    assert!(
+        matches!(found.missed[..], [(_, Lost::Stroke(_))]),
+        "{:?}",
+        found.missed
+    );
+    // Of normal weight they fly, and the stroke is that of the wings.
+    heavy.gravity /= 3.0;
+    let found = sweep(&heavy, &hover(40), &forward(&[0.0])).unwrap();
+    let alone = sweep(&fly(), &hover(40), &forward(&[0.0])).unwrap();
+    let strokes = [&found, &alone].map(|f| f.flights[0].stroke_amplitude);
+    // The fins have a millionth of the area, and 1e-9 of the mass.
+    assert!((strokes[0] / strokes[1] - 1.0).abs() < 1e-4, "{strokes:?}");
 }
 
 /// From the controls of its hover Newton's method finds no flight of a hawkmoth at 3 m/s; by way of a slower one it is

@@ -8,7 +8,7 @@
 //! the mass centre, as flight dynamicists write them. Measured, from computed flow, or from the
 //! cycle means of this program: the table does not say. It knows neither wings nor wingbeats.
 
-use wingbeat_math::six_by_six::{from_entries, symmetric_part, unit};
+use wingbeat_math::six_by_six::{from_entries, product, symmetric_part, times, transpose, unit};
 use wingbeat_math::{BodyMotion, DMat3, DVec3, Six, SixBySix, Wrench, six};
 
 /// A table of stability derivatives, SI.
@@ -43,17 +43,39 @@ impl DerivativeTable {
         // Where the origin does not accelerate, its velocity through the air turns against the axes.
         let turning = -w.cross(self.to_body.transpose() * air);
         let turning = turning.to_array();
-        let times =
+        let along =
             |row: &[f64; 6], x: &[f64]| -> f64 { row.iter().zip(x).map(|(d, x)| d * x).sum() };
         let row = |i: usize| -> f64 {
-            let sum = times(&self.derivatives[i], &x);
-            self.reference[i] + sum - times(&self.added_mass[i], &turning)
+            let sum = along(&self.derivatives[i], &x);
+            self.reference[i] + sum - along(&self.added_mass[i], &turning)
         };
         let force = self.to_body * DVec3::new(row(0), row(1), row(2));
         let moment = self.to_body * DVec3::new(row(3), row(4), row(5));
         Wrench {
             force,
             moment: moment + self.point.cross(force),
+        }
+    }
+
+    /// The same air by a table about another point of the body, body components from the body's origin \[m\]: the
+    /// velocity at the old point is `v + w x d` of that at the new one, d from the new point to the old.
+    pub fn about(&self, point: DVec3) -> Self {
+        if point == self.point {
+            return *self; // to the bit
+        }
+        let d = self.to_body.transpose() * (self.point - point);
+        let columns: SixBySix = std::array::from_fn(|k| {
+            let [linear, angular] = unit(k);
+            six(linear + angular.cross(d), angular)
+        });
+        // Loads do the same work: they are carried over by the transpose.
+        let carried = |m: &SixBySix| product(&columns, &product(m, &transpose(&columns)));
+        Self {
+            point,
+            reference: times(&columns, &self.reference),
+            derivatives: carried(&self.derivatives),
+            added_mass: symmetric_part(&carried(&self.added_mass)),
+            ..*self
         }
     }
 
@@ -147,6 +169,36 @@ mod tests {
         let close = |a: DVec3, b: DVec3| (a - b).length() < 1e-14;
         assert!(close(load.force, DVec3::new(1.0, 0.0, 3.5)), "{load:?}");
         assert!(close(load.moment, DVec3::new(0.0, -12.0, 0.0)), "{load:?}");
+    }
+
+    /// Loads on a moving body are the same by a table about another point, those of the air's inertia among them.
+    #[test]
+    fn invariant_loads_by_a_table_about_another_point() {
+        let number = |k: usize| ((7 * k + 3) % 11) as f64 - 5.0;
+        let table = DerivativeTable {
+            to_body: wingbeat_math::r2(0.4),
+            point: DVec3::new(2.0, -0.5, 1.0),
+            velocity: DVec3::new(1.0, 0.2, 0.0),
+            reference: std::array::from_fn(number),
+            derivatives: from_entries(|i, j| number(6 * i + j)),
+            added_mass: symmetric_part(&from_entries(|i, j| number(5 * i + j))),
+            stream: DVec3::new(0.3, 0.0, 0.1),
+        };
+        let moved = table.about(DVec3::new(-1.0, 0.7, 0.3));
+        let body = BodyMotion {
+            r: wingbeat_math::r2(0.9),
+            v: DVec3::new(0.4, -1.0, 2.0),
+            w: DVec3::new(0.3, 0.5, -0.2),
+            ..BodyMotion::REST
+        };
+        let [a, b] = [table.load(&body), moved.load(&body)];
+        // Rounding of sums of some tens of numbers of size ten.
+        assert!((a.force - b.force).length() < 1e-12, "{a:?} {b:?}");
+        assert!((a.moment - b.moment).length() < 1e-12, "{a:?} {b:?}");
+        let [a, b] = [&table, &moved].map(|t| t.added_mass_of_body().unwrap());
+        for (a, b) in a.as_flattened().iter().zip(b.as_flattened()) {
+            assert!((a - b).abs() < 1e-12, "{a} {b}");
+        }
     }
 
     /// Three kilograms down, felt 2 m ahead of the origin: a pitch that quickens lifts them by the lever.

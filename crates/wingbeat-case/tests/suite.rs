@@ -11,6 +11,7 @@ mod cut_wakes;
 mod data_sets;
 mod defaults;
 mod differences;
+mod facing;
 mod far_hinges;
 mod fluids;
 mod hand_wings;

@@ -131,3 +131,49 @@ fn refuses_rows_of_elastic_wings_by_their_key() {
         assert!(!said.contains("beam.flap.table"), "{said}");
     }
 }
+
+/// A body and its segment of the same mass [kg], welded this far ahead [m], in air that brakes the body alone, across;
+/// `more` set besides.
+const BALLAST: f64 = 0.0018;
+const AHEAD: f64 = 0.01;
+
+fn braked(more: &[&str]) -> LoadedCase {
+    let braking =
+        "air.derivatives={force_by_velocity_newton_s_m=[[0,0,0],[0,0,0],[0,0,-1e-3]]}".to_owned();
+    let inertia = format!("inertia_about_centre_kg_m2=[{J},{J},{J},0,0,0]");
+    let own = [
+        braking,
+        format!("body.mass_kg={BALLAST}"),
+        format!("body.{inertia}"),
+        format!("segment.ballast={{mass_kg={BALLAST},centre_m=[{AHEAD},0,0],{inertia}}}"),
+        "joint.neck={child=\"ballast\",kind=\"weld\",at_m=[0.005,0,0]}".to_owned(),
+    ];
+    let own: Vec<&str> = own.iter().map(String::as_str).collect();
+    preset("table1-taylor-thomas-2003", &[&own[..], more].concat())
+}
+
+/// `w' = Z (1 / 2 m + d^2 / 4 I) w` of the body's own velocity across, with the inertia I of both about the common mass
+/// centre half way between them.
+#[test]
+fn exact_mode_of_a_body_with_a_welded_segment() {
+    let inertia = 2.0 * J + 2.0 * BALLAST * (0.5 * AHEAD).powi(2);
+    let wanted = -1e-3 * (0.5 / BALLAST + 0.25 * AHEAD * AHEAD / inertia);
+    let modes = table_model(&braked(&[]).setup).unwrap().modes;
+    let found = modes.modes.last().unwrap().growth;
+    assert!((found / wanted - 1.0).abs() < 1e-8, "{found} {wanted}");
+}
+
+/// What moves against the body is not of a rigid one.
+#[test]
+fn refuses_modes_of_a_table_with_segments_that_move() {
+    let said = |more: &str| {
+        let case = braked(&[more]);
+        table_model(&case.setup).unwrap_err().to_string()
+    };
+    let free = said("joint.neck={child=\"ballast\",kind=\"revolute\",axis=[0,1,0],at_m=[0,0,0]}");
+    assert!(free.contains("joint `neck` leaves a motion free"), "{free}");
+    let driven = said(
+        "joint.neck={child=\"ballast\",kind=\"weld\",at_m=[0,0,0],turn={axis=[0,1,0],sine_deg=[5.0]}}",
+    );
+    assert!(driven.contains("segment `ballast` moves"), "{driven}");
+}

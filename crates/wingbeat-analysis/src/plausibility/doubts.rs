@@ -3,7 +3,7 @@
 use wingbeat_blade::SETS;
 use wingbeat_flight::{AirModel, AirOptions, DoubtKind, FlightSetup, MotionMode};
 use wingbeat_math::DVec3;
-use wingbeat_model::{DeformingMesh, Wing};
+use wingbeat_model::{Animal, BodyPart, DeformingMesh, Wing};
 
 use super::air::stream;
 use super::limit::{Doubts, Limit, rounded};
@@ -11,6 +11,7 @@ use super::numbers::{Estimate, WingEstimate};
 use super::sides::{against_each_other, strokes_against_each_other};
 use super::wake::kept_wake;
 use super::{elastic, joints};
+use crate::beat::level::Level;
 
 const FREQUENCY: Limit = Limit {
     low: 0.05,
@@ -54,6 +55,11 @@ const REDUCED_FREQUENCY: Limit = Limit::at_most(
 );
 
 const STROKE: Limit = Limit::at_most(190.0, "left and right wing pass through each other");
+
+const STROKE_OF_ONE_SIDE: Limit = Limit::at_most(
+    190.0,
+    "more than any animal's; is the stroke in degrees, and the amplitude half of it?",
+);
 
 const GYRATION: Limit = Limit {
     low: 0.03,
@@ -182,11 +188,18 @@ fn air_from_behind(setup: &FlightSetup, e: &Estimate) -> Option<String> {
     const COUNTS: f64 = 0.3;
     // Of nothing at all beside nothing: a micrometre a second is no flight.
     const ROUNDING: f64 = 1e-6;
+    // Horizontal part of the nose of a body that is pitched within 6 degrees of the vertical.
+    const ON_END: f64 = 0.1;
     if matches!(setup.air, AirModel::None) {
         return None;
     }
     let root = setup.root_at_start();
-    let forward = root.r.x_axis.with_z(0.0).normalize_or_zero();
+    let (nose, level) = (root.r.x_axis, Level::new(root.r, setup.gravity));
+    // Of a body that stands on end rounding would say which way it faces.
+    if nose.reject_from(level.to_n.z_axis).length() < ON_END {
+        return None;
+    }
+    let forward = level.to_n.x_axis;
     let speed = (root.v - stream(&setup.air)).dot(forward);
     let tips = e.wings.iter().map(|w| w.tip_speed).fold(0.0, f64::max);
     let fall = setup.gravity.length() * setup.time.period.unwrap_or(1.0);
@@ -336,7 +349,13 @@ fn wing_doubts(setup: &FlightSetup, wing: &Wing, w: &WingEstimate) -> Vec<String
     let flaps = Some(w.tip_speed).filter(|u| *u > 0.0 && !w.hangs_free);
     list.see(&TIP_SPEED, "mean tip speed", flaps, " m/s");
     let stroke = w.stroke_amplitude.to_degrees();
-    list.see(&STROKE, "stroke amplitude", stroke, " deg");
+    let is_opposed = setup.animal.wings.iter().any(|w| w.side != wing.side);
+    let of_stroke = if is_opposed {
+        &STROKE
+    } else {
+        &STROKE_OF_ONE_SIDE
+    };
+    list.see(of_stroke, "stroke amplitude", stroke, " deg");
     see_reynolds(&setup.air, w, &mut list);
     let frequency = w.reduced_frequency;
     list.see(&REDUCED_FREQUENCY, "reduced frequency", frequency, "");
@@ -414,13 +433,21 @@ fn lattice_sizes(air: &AirOptions, wing: &Wing, chord: f64, list: &mut Doubts) {
     list.see(&BOUND_CORE_ACROSS, what, across, " columns of panels");
 }
 
-/// Bound core over the mean width of the panels of parts of the body.
+/// All parts, those of the central body and of the segments.
+fn parts(animal: &Animal) -> impl Iterator<Item = &BodyPart> {
+    let of_segments = animal.segments.iter().flat_map(|s| &s.parts);
+    animal.parts.iter().chain(of_segments)
+}
+
+/// Bound core over the mean width of the panels of parts of body and segments.
 fn bodies(setup: &FlightSetup, list: &mut Doubts) {
     let AirModel::VortexLattice(air) = &setup.air else {
         return;
     };
-    let parts = setup.animal.parts.iter().filter(|_| air.body_surfaces);
-    for part in parts {
+    if !air.body_surfaces {
+        return;
+    }
+    for part in parts(&setup.animal) {
         let width = part.mesh.mean_width();
         let core = air.lattice.bound_core.radius().map(|r| r / width);
         let what = format!("vortex core of the surfaces on the part `{}`", part.name);

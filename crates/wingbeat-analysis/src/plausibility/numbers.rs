@@ -16,7 +16,7 @@ pub struct WingEstimate {
     /// Whether joints that leave anything free move it, as it rides on another wing or has no stroke of its own:
     /// its motion is not known beforehand, and speeds are those of its own stroke.
     pub hangs_free: bool,
-    /// The larger of tip speed and flight speed [m/s].
+    /// The largest of tip speed, flight speed and the speed at which a tether moves the tip [m/s].
     pub speed: f64,
     /// Reynolds number of the mean chord; none where the viscosity or the motion is not known \[1\].
     pub reynolds: Option<f64>,

@@ -19,8 +19,6 @@ pub(crate) struct RigidBody {
     /// Buoyancy and other constant loads along gravity: of each the point from the mass centre \[m\], and the force in the
     /// reference attitude \[N\].
     pub(crate) weights: Vec<[DVec3; 2]>,
-    /// Velocity of the undisturbed air in the reference attitude.
-    pub(crate) stream: DVec3,
     /// Mean angular momentum of the wings seen from the body [kg m2/s].
     pub(crate) momentum: DVec3,
     /// Force and moment that the air takes for rates of the velocity through it and of the angular velocity,
@@ -49,15 +47,14 @@ impl RigidBody {
             inertia: to_level * beat.mean_inertia() * level.to_root,
             gravity: level.to_n.transpose() * beat.gravity(),
             weights: beat.mean_weights().into_iter().map(weight).collect(),
-            stream: level.to_n.transpose() * beat.stream(),
             momentum: to_level * beat.mean_momentum(),
             added_mass: added_mass(beat, level, reference)?,
             length: beat.wing_length(),
         })
     }
 
-    /// Rates of the nine components of [`Perturbation`] under the air's `load(state)`, that of a velocity
-    /// through the air and a rate which do not change.
+    /// Rates of the nine components of [`Perturbation`], its velocity that through the air, under the air's
+    /// `load(state)`, that of a velocity through the air and a rate which do not change.
     pub(crate) fn rates(
         &self,
         x: &[f64],
@@ -66,18 +63,16 @@ impl RigidBody {
         let state = Perturbation::from_array(x.try_into().expect("nine components"));
         let (w, j) = (state.rate, self.inertia);
         let back = DMat3::from_quat(DQuat::from_scaled_axis(state.tilt)).transpose();
-        // What changes is the velocity through the air; the stream turns against the body.
-        let stream = back * self.stream;
         let (load, weights) = (load(&state)?, self.weights(back));
-        let [through, rate] = self.accelerations(&Wrench {
+        let [velocity, rate] = self.accelerations(&Wrench {
             force: load.force
                 + weights.force
-                + self.mass * (back * self.gravity - w.cross(state.velocity - stream)),
+                + self.mass * (back * self.gravity - w.cross(state.velocity)),
             moment: load.moment + weights.moment - w.cross(j * w + self.momentum),
         })?;
         // To first order in tilt and rate the rotation vector changes at the rate w.
         let rates = Perturbation {
-            velocity: through - w.cross(stream),
+            velocity,
             rate,
             tilt: w,
         };

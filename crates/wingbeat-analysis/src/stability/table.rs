@@ -2,7 +2,7 @@
 //! from the cycle means of a flapping one.
 
 use wingbeat_blade::DerivativeTable;
-use wingbeat_flight::{AirModel, AppliedLoad, FlightSetup};
+use wingbeat_flight::{AirModel, FlightSetup};
 use wingbeat_math::{BodyMotion, DMat3, DVec3, Wrench, six_by_six, tilde};
 
 use crate::AnalysisError;
@@ -11,14 +11,16 @@ use crate::stability::eigen::eigen;
 use crate::stability::jacobian::jacobian;
 use crate::stability::modes::{ModeSet, Scales};
 use crate::stability::rigid_body::RigidBody;
+use crate::stability::welded::Welded;
 use crate::stability::{LinearModel, reference};
 use crate::trim::Trim;
 
-/// The linear model of a rigid animal under its table of derivatives about the table's reference
-/// flight, level. Times in wingbeats refer to the setup's period, else to a second.
+/// The linear model of a rigid animal, its welded segments with it, under its table of derivatives about the table's
+/// reference flight, level. Times in wingbeats refer to the setup's period, else to a second.
 ///
 /// # Errors
-/// Other air; wings with mass, for the table is that of a rigid body; numbers not finite.
+/// Other air; wings with mass, joints that leave anything free and segments that move, for the table is that of a
+/// rigid body; numbers not finite.
 pub fn table_model(setup: &FlightSetup) -> Result<LinearModel, AnalysisError> {
     let AirModel::Derivatives(table) = setup.air else {
         return Err(AnalysisError::not_covered(
@@ -33,7 +35,9 @@ pub fn table_model(setup: &FlightSetup) -> Result<LinearModel, AnalysisError> {
         ));
     }
     check_weights(setup)?;
-    let body = rigid_body(setup, &table);
+    let welded = Welded::of(setup)?;
+    let table = table.about(welded.mass.centre());
+    let body = rigid_body(setup, &table, &welded);
     let mut reference = [0.0; 9];
     table.velocity.write_to_slice(&mut reference);
     let rates = |x: &[f64]| -> Result<Vec<f64>, AnalysisError> {
@@ -64,23 +68,20 @@ pub fn table_model(setup: &FlightSetup) -> Result<LinearModel, AnalysisError> {
 }
 
 /// The body and the weights on it in the axes of the table.
-fn rigid_body(setup: &FlightSetup, table: &DerivativeTable) -> RigidBody {
-    let body = &setup.animal.body;
-    let inertia = body.inertia_about_centre();
-    let (along, centre) = (setup.gravity.normalize_or_zero(), body.centre());
-    let weight = |load: &AppliedLoad| {
-        let force = load.wrench(0.0, &BodyMotion::REST).force.dot(along);
+fn rigid_body(setup: &FlightSetup, table: &DerivativeTable, welded: &Welded) -> RigidBody {
+    let (body, along) = (&welded.mass, setup.gravity.normalize_or_zero());
+    let (inertia, centre) = (body.inertia_about_centre(), body.centre());
+    let weight = |[point, force]: &[DVec3; 2]| {
         [
-            table.to_body.transpose() * (load.point - centre),
-            force * DVec3::Z,
+            table.to_body.transpose() * (*point - centre),
+            force.dot(along) * DVec3::Z,
         ]
     };
     RigidBody {
         mass: body.mass,
         inertia: table.to_body.transpose() * inertia * table.to_body,
         gravity: DVec3::Z * setup.gravity.length(),
-        weights: setup.loads.iter().map(weight).collect(),
-        stream: DVec3::ZERO, // velocities are those through the air
+        weights: welded.weights.iter().map(weight).collect(),
         momentum: DVec3::ZERO,
         added_mass: table.added_mass,
         length: (inertia.col(0).length() / body.mass).sqrt(),

@@ -15,10 +15,10 @@ use crate::trim::lost::{Lost, Way};
 use crate::trim::problem::TrimProblem;
 use crate::trim::{Trim, trim, trim_from};
 
-/// Stroke angle of the first wing from end to end \[rad\]; 0 without wings.
-pub(crate) fn first_stroke(trim: &Trim) -> f64 {
-    let wing = trim.setup.animal.wings.first();
-    wing.map_or(0.0, stroke_amplitude)
+/// Largest stroke angle of all wings from end to end \[rad\]; 0 without wings.
+pub(crate) fn largest_stroke(trim: &Trim) -> f64 {
+    let strokes = trim.setup.animal.wings.iter().map(stroke_amplitude);
+    strokes.fold(0.0, f64::max)
 }
 
 /// Parts of the velocity through the air from which the way to it begins where it is not trimmed from the controls of
@@ -29,7 +29,7 @@ const SLOWER: [f64; 4] = [0.75, 0.5, 0.25, 0.0];
 const HALVINGS: usize = 4;
 
 /// The trim of `problem` from the controls of the case; where that finds nothing, by way of the fastest of some slower
-/// flights that it finds, unless the first wing strokes over more than `widest` \[rad\] there.
+/// flights that it finds, unless a wing strokes over more than `widest` \[rad\] there.
 ///
 /// # Errors
 /// As [`trim`].
@@ -55,8 +55,8 @@ pub(crate) fn trim_by_continuation(
         };
         path.push(&first);
         let ended = match path.reach(problem.velocity)? {
-            Ok(found) if first_stroke(&found) <= widest => return Ok(found),
-            Ok(found) => Lost::Stroke(first_stroke(&found)),
+            Ok(found) if largest_stroke(&found) <= widest => return Ok(found),
+            Ok(found) => Lost::Stroke(largest_stroke(&found)),
             Err(residual) => Lost::NotTrimmed(residual),
         };
         let last = path.last_within_half_a_circle();
@@ -75,7 +75,7 @@ struct Passed {
     velocity: DVec3,
     /// As [`Trim::point`].
     point: Vec<f64>,
-    /// Of the first wing, from end to end \[rad\].
+    /// Largest of all wings, from end to end \[rad\].
     stroke: f64,
 }
 
@@ -146,7 +146,7 @@ impl<'a> Path<'a> {
         self.points.push(Passed {
             velocity: trim.velocity,
             point: trim.point.clone(),
-            stroke: first_stroke(trim),
+            stroke: largest_stroke(trim),
         });
     }
 

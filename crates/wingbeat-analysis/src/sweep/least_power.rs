@@ -13,7 +13,7 @@ use wingbeat_flight::FlightSetup;
 use crate::AnalysisError;
 use crate::power::power_of_trim;
 use crate::progress;
-use crate::sweep::continuation::{first_stroke, trim_by_continuation};
+use crate::sweep::continuation::{largest_stroke, trim_by_continuation};
 use crate::trim::preconditions::check;
 use crate::trim::problem::TrimProblem;
 use crate::trim::residuals::Residuals;
@@ -260,7 +260,7 @@ impl<'a> Search<'a> {
         let power = power_of_trim(&trim).ok()?.perfect_storage;
         let inside = |b: &Bound| trim.solution.value(b.unknown).map_or(-1.0, |x| b.room(x));
         let mut room: Vec<f64> = self.determined.iter().map(inside).collect();
-        room.push(PI - first_stroke(&trim));
+        room.push(PI - largest_stroke(&trim));
         let finite = power.is_finite() && room.iter().all(|r| r.is_finite());
         finite.then_some(Outcome { power, room })
     }

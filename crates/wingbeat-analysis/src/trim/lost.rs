@@ -9,7 +9,7 @@ pub enum Lost {
     NotTrimmed(Option<f64>),
     /// This unknown would lie outside the bounds of the problem.
     Bound(Unknown),
-    /// The first wing would stroke over more than half a circle \[rad\]: right and left wings pass through each other.
+    /// A wing would stroke over more than half a circle \[rad\]: right and left wings pass through each other.
     Stroke(f64),
     /// It was not tried: the flights end at a lower speed.
     Beyond,

@@ -38,6 +38,7 @@ pub(crate) fn check(setup: &FlightSetup, problem: &TrimProblem) -> Result<(), An
             "leave gravity_m_s2 out, or give the animal a weight to carry",
         ));
     }
+    check_upright(setup.gravity)?;
     check_numbers(setup, problem)?;
     let all = problem.with_given(&[]).0;
     check_unknowns(setup, &all)?;
@@ -63,6 +64,20 @@ pub(crate) fn check(setup: &FlightSetup, problem: &TrimProblem) -> Result<(), An
         0.0 => Ok(()),
         _ => check_turn(setup),
     }
+}
+
+/// An error if gravity is nearer to another direction than to n3: forward, right and up are those of n1, n2 and -n3.
+fn check_upright(gravity: DVec3) -> Result<(), AnalysisError> {
+    if gravity.z > gravity.truncate().length() {
+        return Ok(());
+    }
+    let [x, y, z] = gravity.to_array();
+    Err(AnalysisError::not_covered(
+        format!(
+            "gravity is not along n3 (gravity_m_s2 = [{x}, {y}, {z}]), and of a trim -n3 is up"
+        ),
+        "take inertial axes of which n3 points down: gravity_m_s2 = [0, 0, 9.81]; at most 45 degrees off are allowed",
+    ))
 }
 
 /// An error if speeds, turn or steps are out of range.

@@ -64,19 +64,20 @@ impl Vein {
     fn section(&self, s: f64) -> BeamSection {
         let r = between(self.radius, s);
         let second = 0.25 * PI * r.powi(4);
-        let [bending, torsion] = match self.stiffness {
+        let [bending, torsion, ratio] = match self.stiffness {
             VeinStiffness::Solid { young, shear } => [
                 young * second,
                 shear.unwrap_or(SHEAR * young) * 2.0 * second,
+                shear.map_or(SHEAR, |shear| shear / young),
             ],
             VeinStiffness::Given { bending, torsion } => {
-                [bending, torsion].map(|pair| between(pair, s))
+                [between(bending, s), between(torsion, s), SHEAR]
             }
         };
         let axial = 4.0 * bending / (r * r);
         let stiffness = Stiffness {
             axial,
-            shear: [ROUND * SHEAR * axial; 2],
+            shear: [ROUND * ratio * axial; 2],
             torsion,
             bending: [bending; 2],
         };
@@ -215,4 +216,33 @@ fn nearest(grid: &GridMesh, [r, x]: [f64; 2]) -> [usize; 2] {
     };
     let j = closest(grid.cols, &|j| (column(grid, j).0 / tip - r).abs());
     [closest(grid.rows, &|i| (behind(grid, i, j) - x).abs()), j]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// `G A` times the shear correction, G being given or that of a Poisson's ratio of 0.3.
+    #[test]
+    fn exact_transverse_shear_of_a_round_bar_follows_its_shear_modulus() {
+        let (young, radius) = (1.2e11, 3e-4);
+        for (shear, modulus) in [(Some(5e9), 5e9), (Some(1e9), 1e9), (None, young / 2.6)] {
+            let vein = Vein {
+                from: [0.0, 0.0],
+                to: [1.0, 0.0],
+                radius: [radius; 2],
+                stiffness: VeinStiffness::Solid { young, shear },
+                density: None,
+                is_clamped: false,
+            };
+            let stiffness = vein.section(0.5).stiffness;
+            let area = PI * radius * radius;
+            let wanted = [young * area, 0.9 * modulus * area, 0.9 * modulus * area];
+            for (k, wanted) in wanted.into_iter().enumerate() {
+                // Rounding of a few products.
+                let apart = stiffness[k][k] / wanted - 1.0;
+                assert!(apart.abs() < 1e-14, "{k}: {apart}");
+            }
+        }
+    }
 }
