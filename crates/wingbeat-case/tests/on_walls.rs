@@ -79,12 +79,32 @@ fn exact_joining_the_roots_of_elastic_wings_that_stay_together_takes_no_power() 
         );
         // Roots that are held do not move at all but for roundings of their places.
         assert!(
-            bending > 1e-3 && joining < 1e-15 * bending,
+            bending > 1e-3 && joining < 1e-16 * bending,
             "{keys:?}: {joining:e}"
         );
         // The flow past free roots makes 1.4e-2; twice the bending would be 5 times as much.
         assert!((driving / parted - 1.0).abs() < 0.05, "{driving} {parted}");
     }
+}
+
+/// Where roots that are joined part, moving their edges takes of elastic wings that hardly bend what it takes of rigid
+/// ones.
+#[test]
+fn limit_joining_stiff_elastic_wings_takes_what_joining_rigid_ones_takes() {
+    let stiff = "wing.right.structure.beam={ axis_fraction = 0.25, flap_newton_m2 = [4000, 3000], torsion_newton_m2 = [600, 500], mass_fraction = 0.3 }";
+    let unlike = "motion.difference.feathering_amplitude=0.2";
+    let [rigid, bent] = [&ELASTIC[..6], &[&ELASTIC[..6], &[stiff]].concat()].map(|keys| {
+        let keys = [keys, &WHOLE, &[ELASTIC[8], unlike]].concat();
+        common::fly(setup(&keys))
+    });
+    let most = rigid.iter().flat_map(|r| &r.deformation_power);
+    let most = most.fold(0.0, |m, p| p.abs().max(m));
+    let both = rigid.iter().zip(&bent);
+    let off = both.flat_map(|(a, b)| a.deformation_power.iter().zip(&b.deformation_power));
+    let off = off.fold(0.0, |m, (a, b)| (a - b).abs().max(m));
+    println!("joining {most:e} W, of stiff wings off by {off:e} W");
+    // What is left of bending.
+    assert!(most > 1e-6 && off < 1e-4 * most, "{off:e} of {most:e}");
 }
 
 /// What is said of half a model is said of the whole, too.

@@ -310,8 +310,8 @@ impl SurfaceMap {
     }
 
     /// Power that joining its edges takes against the air \[W\], of surface `s` that loads bend: that of its nodal
-    /// `forces` \[N\], N components, on what its nodes there move otherwise than it does by itself, with the opposite
-    /// sign. What it moves by itself is the work of the air on it.
+    /// `forces` \[N\], N components, on what its nodes there move otherwise than its frame and its bending carry them, with
+    /// the opposite sign. The power on its bending is that of the air on the wing.
     pub fn joining_power(
         &self,
         s: usize,
@@ -321,6 +321,7 @@ impl SurfaceMap {
     ) -> f64 {
         let Some(shape) = bent(at, s) else { return 0.0 };
         let (b, own) = (&at.motions[self.body[s]], &self.nodes[s]);
+        let w = b.r * b.w;
         let shared = self
             .joined
             .iter()
@@ -328,8 +329,8 @@ impl SurfaceMap {
         let on_planes = self.on_planes.iter().flat_map(OnPlane::nodes);
         let of_surface = shared.chain(on_planes).filter(|n| own.contains(n));
         let power = of_surface.map(|&n| {
-            let k = n - own.start;
-            let by_itself = b.v + b.r * (b.w.cross(shape.position[k]) + shape.velocity[k]);
+            let (k, arm) = (n - own.start, nodes.position[n] - b.p);
+            let by_itself = b.v + w.cross(arm) + b.r * shape.velocity[k];
             forces[k].dot(nodes.velocity[n] - by_itself)
         });
         -power.sum::<f64>()
