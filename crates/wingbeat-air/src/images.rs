@@ -28,8 +28,8 @@ impl Plane {
         (x - self.point).dot(self.normal) / self.normal.length()
     }
 
-    /// On which side of it these points lie, N components [m]: 1 on that of the normal, -1 on the other, as the one of
-    /// them that is farthest from it \[1\].
+    /// On which side of it these points lie, N components [m]: 1 on that of the normal, -1 on the other, as the
+    /// one of them that is farthest from it \[1\].
     pub fn side(&self, points: &[DVec3]) -> f64 {
         let most = |sign: f64| largest(points.iter().map(|x| sign * self.height(*x)));
         if most(1.0) < most(-1.0) { -1.0 } else { 1.0 }

@@ -148,7 +148,8 @@ impl Lattice {
         Ok(self.with_suction_strips())
     }
 
-    /// Checks that all surfaces lie on that side of each plane of symmetry or ground on which they were `before`.
+    /// Checks that all surfaces lie on that side of each plane of symmetry or ground on which they were
+    /// `before`.
     ///
     /// # Errors
     /// [`AirError::ThroughPlane`] names the node that is farthest behind one of them.

@@ -1,5 +1,5 @@
-//! Half a model on a wall, and its counterpart of two wings with joined roots: what is said of them and what they
-//! spend.
+//! Half a model on a wall, and its counterpart of two wings with joined roots: what is said of them and what
+//! they spend.
 
 use crate::common;
 use wingbeat_flight::{FlightSetup, Record, Simulation};
@@ -56,8 +56,9 @@ fn setup(keys: &[&str]) -> FlightSetup {
     case.setup
 }
 
-/// Bending is no deformation that anything drives: wings whose roots stay together, by a joint edge or by a wall, need
-/// no power for that, and drive themselves with what wings need whose roots nothing joins, but for the flow past these.
+/// Bending is no deformation that anything drives: wings whose roots stay together, by a joint edge or by a
+/// wall, need no power for that, and drive themselves with what wings need whose roots nothing joins, but for
+/// the flow past these.
 #[test]
 fn exact_joining_the_roots_of_elastic_wings_that_stay_together_takes_no_power() {
     let flown = |keys: &[&str]| common::fly(setup(&[&ELASTIC, keys].concat()));
@@ -87,8 +88,8 @@ fn exact_joining_the_roots_of_elastic_wings_that_stay_together_takes_no_power() 
     }
 }
 
-/// Where roots that are joined part, moving their edges takes of elastic wings that hardly bend what it takes of rigid
-/// ones.
+/// Where roots that are joined part, moving their edges takes of elastic wings that hardly bend what it takes
+/// of rigid ones.
 #[test]
 fn limit_joining_stiff_elastic_wings_takes_what_joining_rigid_ones_takes() {
     let stiff = "wing.right.structure.beam={ axis_fraction = 0.25, flap_newton_m2 = [4000, 3000], torsion_newton_m2 = [600, 500], mass_fraction = 0.3 }";

@@ -78,8 +78,8 @@ impl<'a> MoveStep<'a> {
         }
     }
 
-    /// Keeps the ends of `paths` off surfaces and on the surfaces' side of planes; returns how many were changed, all and
-    /// those that have `strength`, of nodes on planes when they come there.
+    /// Keeps the ends of `paths` off surfaces and on the surfaces' side of planes; returns how many were
+    /// changed, all and those that have `strength`, of nodes on planes when they come there.
     pub(crate) fn keep_clear(
         &self,
         (from, to): (&[DVec3], &mut [DVec3]),
@@ -102,8 +102,9 @@ pub(crate) fn sum(a: [u64; 2], b: [u64; 2]) -> [u64; 2] {
     [a[0] + b[0], a[1] + b[1]]
 }
 
-/// Nodes that would go to the other side of a plane of symmetry or a ground than this one end on it; returns how many
-/// that changes, and how many that have `strength` come there from elsewhere. There they and their images cancel.
+/// Nodes that would go to the other side of a plane of symmetry or a ground than this one end on it; returns
+/// how many that changes, and how many that have `strength` come there from elsewhere. There they and their
+/// images cancel.
 fn keep_on_side(
     (plane, side): (&Plane, f64),
     from: &[DVec3],

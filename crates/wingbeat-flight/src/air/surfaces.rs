@@ -274,8 +274,8 @@ impl SurfaceMap {
     }
 
     /// Power that is needed to deform the wings against the air [W], body by body: that of the air
-    /// on what the surfaces move beside their bodies, with the opposite sign. Those that loads bend are left out:
-    /// of them only [`Self::joining_power`] is asked for.
+    /// on what the surfaces move beside their bodies, with the opposite sign. Those that loads bend are left
+    /// out: of them only [`Self::joining_power`] is asked for.
     pub fn deformation_power(
         &self,
         loads: &AirLoads,
@@ -309,9 +309,9 @@ impl SurfaceMap {
         (0..self.surfaces.len()).filter(|&s| self.is_joined(s) && bent(at, s).is_some())
     }
 
-    /// Power that joining its edges takes against the air \[W\], of surface `s` that loads bend: that of its nodal
-    /// `forces` \[N\], N components, on what its nodes there move otherwise than its frame and its bending carry them, with
-    /// the opposite sign. The power on its bending is that of the air on the wing.
+    /// Power that joining its edges takes against the air \[W\], of surface `s` that loads bend: that of its
+    /// nodal `forces` \[N\], N components, on what its nodes there move otherwise than its frame and its
+    /// bending carry them, with the opposite sign. The power on its bending is that of the air on the wing.
     pub fn joining_power(
         &self,
         s: usize,

@@ -127,8 +127,8 @@ impl FlightSetup {
         }
     }
 
-    /// What trailing vortices leave of the incidence of wing `w`, joined to others, to its mirror image in a plane of
-    /// images, or to nothing \[1\].
+    /// What trailing vortices leave of the incidence of wing `w`, joined to others, to its mirror image in a
+    /// plane of images, or to nothing \[1\].
     fn remains_of_incidence(&self, w: usize) -> f64 {
         let Some(air) = self.air.lattice() else {
             return 1.0;

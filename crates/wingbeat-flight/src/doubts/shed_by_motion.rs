@@ -82,8 +82,8 @@ impl FlightSetup {
     /// Says which wings shed vorticity of one sign from their leading edges in their prescribed motion
     /// ([`Self::one_sided_part`]) where roots or tips hold, or where leading edges shed by the suction of the step
     /// before, and what to do about it. Wings with joints of their own, whose motion is not known beforehand,
-    /// are left out; edges that are joined to others or to their mirror images, and roots whose circulation goes
-    /// on through a body, do not hold, and plane flow has neither roots nor tips.
+    /// are left out; edges that are joined to others or to their mirror images, and roots whose circulation
+    /// goes on through a body, do not hold, and plane flow has neither roots nor tips.
     pub fn one_sided_leading_edges(&self) -> Option<String> {
         let air = self.air.lattice()?;
         let shedding = air.lattice.shedding;
