@@ -6,7 +6,7 @@
 //! targets and its result reflected back.
 
 use crate::error::AirError;
-use wingbeat_math::{DMat3, DVec3, outer};
+use wingbeat_math::{DMat3, DVec3, largest, outer};
 
 /// What directions and places that are the same in exact arithmetic may differ by, relative to their size: far above
 /// round-off, far below what anyone means.
@@ -26,6 +26,13 @@ impl Plane {
     /// Distance of `x` [m], positive on the side of the normal [m].
     pub fn height(&self, x: DVec3) -> f64 {
         (x - self.point).dot(self.normal) / self.normal.length()
+    }
+
+    /// On which side of it these points lie, N components [m]: 1 on that of the normal, -1 on the other, as the
+    /// one of them that is farthest from it \[1\].
+    pub fn side(&self, points: &[DVec3]) -> f64 {
+        let most = |sign: f64| largest(points.iter().map(|x| sign * self.height(*x)));
+        if most(1.0) < most(-1.0) { -1.0 } else { 1.0 }
     }
 
     /// Whether this is the same plane as `other`, but for rounding.

@@ -148,15 +148,20 @@ impl Lattice {
         Ok(self.with_suction_strips())
     }
 
-    /// Checks that all surfaces lie on one side of each plane of symmetry or ground.
+    /// Checks that all surfaces lie on that side of each plane of symmetry or ground on which they were
+    /// `before`.
     ///
     /// # Errors
     /// [`AirError::ThroughPlane`] names the node that is farthest behind one of them.
-    pub(crate) fn check_sides(&self, position: &[DVec3], step: u64) -> Result<(), AirError> {
+    pub(crate) fn check_sides(
+        &self,
+        [before, position]: [&[DVec3]; 2],
+        step: u64,
+    ) -> Result<(), AirError> {
         for plane in &self.settings.images {
             let heights = || position.iter().map(|x| plane.height(*x));
             let most = |sign: f64| largest(heights().map(|h| sign * h));
-            let side = if most(1.0) < most(-1.0) { -1.0 } else { 1.0 };
+            let side = plane.side(before);
             let [far, depth] = [side, -side].map(most);
             if depth <= TOUCHING * far {
                 continue;

@@ -85,7 +85,7 @@ impl Lattice {
         (out.panels).update(lattice, &ws.rings, state.step)?;
         motion.check_joined(self.topology(), out.panels.size(), state.step)?;
         self.check_on_planes(&motion.position, out.panels.size(), state.step)?;
-        self.check_sides(&motion.position, state.step)?;
+        self.check_sides([&state.position, &motion.position], state.step)?;
         match self.symmetry() {
             Some(symmetry) => symmetry.check(&motion.position, state.step),
             None => Ok(()),

@@ -31,6 +31,7 @@ mod measured;
 mod meshes;
 mod mirrored_joints;
 mod named;
+mod on_walls;
 mod outlines;
 mod passive_work;
 mod presets;

@@ -15,7 +15,7 @@ use wingbeat_math::DVec3;
 
 use crate::error::FlightError;
 use crate::interface::memory::AirMemory;
-use crate::interface::record::Snapshot;
+use crate::interface::record::{Snapshot, SurfaceSnapshot};
 
 /// What is said of models of the air in which no wing can bend.
 pub(crate) const NO_BENDING: &str = "it gives no loads along the wings, so no wing can bend in it: take vortex_lattice, blade_element or none, or leave out [wing.NAME.structure]";
@@ -98,6 +98,8 @@ pub struct AirScratch {
     pub(crate) workspace: AirWorkspace,
     pub(crate) nodes_done: NodeMotion,
     pub(crate) is_current: bool,
+    /// Forces on the nodes of a wing \[N\], N components.
+    pub(crate) nodal: Vec<DVec3>,
     pub(crate) bent: BentScratch,
     pub(crate) strips: StripScratch,
 }
@@ -310,9 +312,14 @@ pub trait Air: fmt::Debug + Send + Sync {
         &self,
         _at: &Instant<'_>,
         _accelerations: &[BodyAcceleration],
-        _scratch: &AirScratch,
+        _scratch: &mut AirScratch,
         _out: &mut [f64],
     ) {
+    }
+
+    /// Wings, then body parts, as surfaces at the instant last asked for; none where the model has none.
+    fn surfaces(&self, _scratch: &AirScratch) -> Vec<SurfaceSnapshot> {
+        Vec::new()
     }
 
     /// Surfaces and wakes at the instant last asked for; none where there are none.

@@ -21,6 +21,8 @@ pub(crate) struct MoveStep<'a> {
     pub limit: f64,
     /// Whether the step after it asks for the velocities of this one.
     pub looks_back: bool,
+    /// Side of each plane of images on which the surfaces are \[1\], see [`Plane::side`].
+    sides: [f64; 2],
     /// Weight of the change of velocity since the step before \[1\].
     pub change: f64,
 }
@@ -42,6 +44,10 @@ impl<'a> MoveStep<'a> {
             dt,
             limit: lattice.settings().max_displacement.unwrap_or(f64::INFINITY),
             looks_back,
+            sides: [0, 1].map(|k| {
+                let plane = lattice.settings().images.get(k);
+                plane.map_or(1.0, |plane| plane.side(&state.position))
+            }),
             change: if looks_back && state.dt_wake > 0.0 {
                 0.5 * dt / state.dt_wake
             } else {
@@ -72,8 +78,8 @@ impl<'a> MoveStep<'a> {
         }
     }
 
-    /// Keeps the ends of `paths` off surfaces and on their side of planes; returns how many were changed, all and
-    /// those that have `strength`.
+    /// Keeps the ends of `paths` off surfaces and on the surfaces' side of planes; returns how many were
+    /// changed, all and those that have `strength`, of nodes on planes when they come there.
     pub(crate) fn keep_clear(
         &self,
         (from, to): (&[DVec3], &mut [DVec3]),
@@ -84,7 +90,8 @@ impl<'a> MoveStep<'a> {
             true => self.obstacles.keep_rows_off(from, to, &strength),
             false => self.obstacles.keep_off(from, to, &strength),
         };
-        settings.images.iter().fold(off_surfaces, |count, plane| {
+        let planes = settings.images.iter().zip(self.sides);
+        planes.fold(off_surfaces, |count, plane| {
             sum(count, keep_on_side(plane, from, to, &strength))
         })
     }
@@ -95,21 +102,24 @@ pub(crate) fn sum(a: [u64; 2], b: [u64; 2]) -> [u64; 2] {
     [a[0] + b[0], a[1] + b[1]]
 }
 
-/// Nodes that would go through a plane of symmetry or a ground end on it; returns how many, all and those that have
-/// `strength`. There they and their images cancel.
+/// Nodes that would go to the other side of a plane of symmetry or a ground than this one end on it; returns
+/// how many that changes, and how many that have `strength` come there from elsewhere. There they and their
+/// images cancel.
 fn keep_on_side(
-    plane: &Plane,
+    (plane, side): (&Plane, f64),
     from: &[DVec3],
     to: &mut [DVec3],
     strength: impl Fn(usize) -> bool,
 ) -> [u64; 2] {
     let mut count = [0; 2];
     for (i, (a, b)) in from.iter().zip(to).enumerate() {
-        if plane.height(*a) * plane.height(*b) < 0.0 {
+        let [before, after] = [*a, *b].map(|x| side * plane.height(x));
+        if after < 0.0 {
             // What moves along the plane lies now on one side of it, now on the other, by roundings.
-            let changed = plane.height(*b).abs() > ROUNDING * a.distance(*b);
+            let way = ROUNDING * a.distance(*b);
+            let is_changed = after < -way;
             *b = plane.foot(*b);
-            let of = [changed, changed && strength(i)].map(u64::from);
+            let of = [is_changed, is_changed && before > way && strength(i)].map(u64::from);
             count = sum(count, of);
         }
     }

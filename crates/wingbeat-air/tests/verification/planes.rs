@@ -1,8 +1,8 @@
 //! Planes of symmetry and grounds: what air and which surfaces may be beside them, and two of them at once.
 
-use crate::common::{Run, fly, rectangle, translating};
+use crate::common::{Run, fly, rectangle, total_force, translating};
 use wingbeat_air::{
-    AirError, AirSettings, Gust, GustShape, JoinedEdge, Lattice, LeadingEdge, LoadMethod,
+    AirError, AirSettings, AirState, Gust, GustShape, JoinedEdge, Lattice, LeadingEdge, LoadMethod,
     MirrorPairs, NodeMotion, Plane, SheddingKinds, Surface, VortexStreet, Wind,
 };
 use wingbeat_math::{DMat3, DVec3};
@@ -255,4 +255,107 @@ fn agrees_two_planes_with_four_wings_flown_together() {
         "{:e}",
         one.distance(first) / one.length()
     );
+}
+
+/// Wings that beat close above a ground and shed from all edges, their wakes free: steps of 0.05 s.
+fn beating_above(
+    ground: Plane,
+    turn: DMat3,
+    mut see: impl FnMut(&AirState),
+) -> Result<Run, AirError> {
+    let core = |radius| CoreModel::Algebraic {
+        radius,
+        viscosity: 0.0,
+    };
+    let settings = AirSettings {
+        shedding: SheddingKinds {
+            leading: true,
+            tip: true,
+            root: true,
+            ..SheddingKinds::TRAILING
+        },
+        bound_core: core(0.05),
+        wake_core: core(0.1),
+        loads: LoadMethod::Joukowski,
+        leading: LeadingEdge::Always,
+        images: vec![ground],
+        summation: Method::Direct,
+        ..AirSettings::accurate(1.2, DVec3::ZERO)
+    };
+    let lattice = Lattice::new(vec![Surface::grid("wing", 3, 4)], settings).unwrap();
+    let flat = rectangle(3, 4, DVec3::X, 2.0 * DVec3::Y);
+    let motion = |t: f64| {
+        let (sine, cosine) = (2.0 * t).sin_cos();
+        let at = DVec3::new(0.0, 0.0, 0.25 + 0.2 * cosine);
+        let positions = flat.iter().map(|x| turn * (*x + at)).collect();
+        translating(positions, turn * DVec3::new(0.0, 0.0, -0.4 * sine))
+    };
+    fly(&lattice, motion, 0.05, 60, |_, state, _, _| see(state))
+}
+
+/// How far wakes go beyond a ground [m], and how many of their nodes lie on it.
+fn beyond(ground: &Plane, state: &AirState) -> (f64, usize) {
+    let sheets = state.sheets.iter().map(|s| &s.nodes);
+    let nodes = sheets.flat_map(|x| (0..x.len()).map(|i| x.get(i)));
+    let heights: Vec<f64> = nodes.map(|x| ground.height(x)).collect();
+    let most = heights.iter().fold(0.0, |m: f64, h| m.max(-h));
+    let on = heights.iter().filter(|h| h.abs() < 1e-12).count();
+    (most, on)
+}
+
+#[test]
+fn invariant_wakes_stay_on_their_side_of_a_ground() {
+    let ground = plane(DVec3::Z, DVec3::ZERO);
+    let (mut most, mut on) = (0.0_f64, 0);
+    beating_above(ground, DMat3::IDENTITY, |state| {
+        let (depth, count) = beyond(&ground, state);
+        (most, on) = (most.max(depth), on.max(count));
+    })
+    .unwrap();
+    println!("beyond {most:e} m, {on} nodes on the ground");
+    // A foot is as good as its rounding.
+    assert!(on > 0 && most < 1e-15, "{on} {most:e}");
+}
+
+/// A ground turned with all that is above it: there feet on it are rounded.
+#[test]
+fn invariant_wakes_on_a_ground_turn_with_it() {
+    let ground = plane(DVec3::Z, DVec3::ZERO);
+    let turn = DMat3::from_rotation_y(0.5) * DMat3::from_rotation_x(0.3);
+    let turned = plane(turn * DVec3::Z, DVec3::ZERO);
+    let (mut most, mut on) = (0.0_f64, 0);
+    let one = beating_above(ground, DMat3::IDENTITY, |_| {}).unwrap();
+    let other = beating_above(turned, turn, |state| {
+        let (depth, count) = beyond(&turned, state);
+        (most, on) = (most.max(depth), on.max(count));
+    });
+    let other = other.unwrap();
+    let force = turn * total_force(&one.loads);
+    let apart = force.distance(total_force(&other.loads)) / force.length();
+    println!("beyond {most:e} m, {on} nodes on the ground, forces apart {apart:e}");
+    assert!(on > 0 && most < 1e-15, "{on} {most:e}");
+    // Roundings, which free wakes amplify.
+    assert!(apart < 1e-11, "{apart:e}");
+}
+
+/// A wing that comes down through a ground between two steps has all of its nodes on one side of it again.
+#[test]
+fn refuses_to_go_through_a_ground_between_two_steps() {
+    let settings = AirSettings {
+        images: vec![plane(DVec3::Z, DVec3::ZERO)],
+        ..AirSettings::accurate(1.2, DVec3::X)
+    };
+    let lattice = Lattice::new(vec![Surface::grid("wing", 2, 2)], settings).unwrap();
+    let flat = rectangle(2, 2, DVec3::X, DVec3::Y);
+    for side in [1.0, -1.0] {
+        let sinking = |t: f64| {
+            let at = side * (0.25 - t) * DVec3::Z;
+            translating(flat.iter().map(|x| *x + at).collect(), -side * DVec3::Z)
+        };
+        let error = fly(&lattice, sinking, 0.1, 5, |_, _, _, _| {}).map(|_| ());
+        let Err(AirError::ThroughPlane { step, depth, .. }) = error else {
+            panic!("{error:?}");
+        };
+        assert!(step == 3 && (depth - 0.05).abs() < 1e-15, "{step} {depth}"); // rounding
+    }
 }

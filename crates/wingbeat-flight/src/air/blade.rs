@@ -317,7 +317,7 @@ impl Air for BladeAir {
         &self,
         at: &Instant<'_>,
         accelerations: &[BodyAcceleration],
-        scratch: &AirScratch,
+        scratch: &mut AirScratch,
         out: &mut [f64],
     ) {
         out.fill(0.0);

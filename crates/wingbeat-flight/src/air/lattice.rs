@@ -427,21 +427,36 @@ impl Air for LatticeAir {
         &self,
         at: &Instant<'_>,
         _accelerations: &[BodyAcceleration],
-        s: &AirScratch,
+        s: &mut AirScratch,
         out: &mut [f64],
     ) {
-        (self.map).deformation_power(&s.loads, &s.nodes, at.motions, out);
+        (self.map).deformation_power(&s.loads, &s.nodes, at, out);
+        for wing in self.map.joined_bent(at) {
+            let AirScratch {
+                loads,
+                nodes,
+                rings,
+                nodal,
+                ..
+            } = s;
+            (self.lattice).nodal_forces(wing, loads, nodes, rings, nodal);
+            out[wing + 1] += self.map.joining_power(wing, nodal, nodes, at);
+        }
+    }
+
+    fn surfaces(&self, s: &AirScratch) -> Vec<SurfaceSnapshot> {
+        let all = self.lattice.surfaces().iter().enumerate();
+        let surfaces = all.filter(|(_, s)| !s.carry_through).map(|(k, _)| k);
+        surfaces.map(|k| self.surface_snapshot(s, k)).collect()
     }
 
     fn snapshot(&self, memory: Option<&AirMemory>, s: &AirScratch) -> Snapshot {
         let Some(air) = wakes_of(memory) else {
             return Snapshot::default();
         };
-        let all = self.lattice.surfaces().iter().enumerate();
-        let surfaces = all.filter(|(_, s)| !s.carry_through).map(|(k, _)| k);
         let wakes = 0..air.sheets.len();
         Snapshot {
-            surfaces: surfaces.map(|k| self.surface_snapshot(s, k)).collect(),
+            surfaces: self.surfaces(s),
             wakes: wakes.map(|k| self.wake_snapshot(air, s, k)).collect(),
             ..Snapshot::default()
         }

@@ -72,6 +72,11 @@ impl OnPlane {
         }
     }
 
+    /// Its nodes among all nodes.
+    pub fn nodes(&self) -> &[usize] {
+        &self.nodes
+    }
+
     /// The same in the words of the lattice; `first` is the first node of the wing.
     pub fn joined_edge(&self, first: usize) -> JoinedEdge {
         JoinedEdge::on_plane(self.wing, self.nodes.iter().map(|n| n - first))

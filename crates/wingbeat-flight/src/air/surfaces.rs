@@ -11,7 +11,7 @@ use wingbeat_model::{
 use super::on_plane::{EdgeOnPlane, OnPlane, columns_of};
 use super::shared_edge::SharedEdge;
 use crate::error::FlightError;
-use crate::interface::Instant;
+use crate::interface::{BentShape, Instant};
 
 /// Which lattice nodes and panels belong to which rigid body.
 #[derive(Clone, Debug)]
@@ -232,8 +232,7 @@ impl SurfaceMap {
                 out.position[k] = b.p + b.r * r;
                 out.velocity[k] = b.v + b.r * (b.w.cross(r) + u);
             };
-            let bent = at.shapes.get(surface).and_then(Option::as_ref);
-            match (bent, &self.deforming[surface]) {
+            match (bent(at, surface), &self.deforming[surface]) {
                 (Some(shape), _) => {
                     let moving = shape.position.iter().zip(&shape.velocity);
                     (nodes.clone().zip(moving)).for_each(|(k, (r, u))| put(k, *r, *u));
@@ -275,23 +274,23 @@ impl SurfaceMap {
     }
 
     /// Power that is needed to deform the wings against the air [W], body by body: that of the air
-    /// on what the surfaces move beside their bodies, with the opposite sign.
+    /// on what the surfaces move beside their bodies, with the opposite sign. Those that loads bend are left
+    /// out: of them only [`Self::joining_power`] is asked for.
     pub fn deformation_power(
         &self,
         loads: &AirLoads,
         nodes: &NodeMotion,
-        bodies: &[BodyMotion],
+        at: &Instant<'_>,
         out: &mut [f64],
     ) {
         out.fill(0.0);
         for (s, panels) in self.panels.iter().enumerate() {
-            let joined = self.joined.iter().any(|edge| edge.wings.contains(&s))
-                || self.on_planes.iter().any(|edge| edge.wing == s);
-            if self.deforming[s].is_none() && !joined {
+            let moves = self.deforming[s].is_some() || self.is_joined(s);
+            if !moves || bent(at, s).is_some() {
                 continue;
             }
             let (body, first) = (self.body[s], self.nodes[s].start);
-            let b = &bodies[body];
+            let b = &at.motions[body];
             let w = b.r * b.w;
             for (k, corners) in panels.clone().zip(&self.surfaces[s].panels) {
                 let rigid = b.v + w.cross(loads.panels.point[k] - b.p);
@@ -303,6 +302,44 @@ impl SurfaceMap {
                 out[body] -= power;
             }
         }
+    }
+
+    /// Surfaces with joined edges that loads bend.
+    pub fn joined_bent<'a>(&'a self, at: &'a Instant<'_>) -> impl Iterator<Item = usize> + 'a {
+        (0..self.surfaces.len()).filter(|&s| self.is_joined(s) && bent(at, s).is_some())
+    }
+
+    /// Power that joining its edges takes against the air \[W\], of surface `s` that loads bend: that of its
+    /// nodal `forces` \[N\], N components, on what its nodes there move otherwise than its frame and its
+    /// bending carry them, with the opposite sign. The power on its bending is that of the air on the wing.
+    pub fn joining_power(
+        &self,
+        s: usize,
+        forces: &[DVec3],
+        nodes: &NodeMotion,
+        at: &Instant<'_>,
+    ) -> f64 {
+        let Some(shape) = bent(at, s) else { return 0.0 };
+        let (b, own) = (&at.motions[self.body[s]], &self.nodes[s]);
+        let w = b.r * b.w;
+        let shared = self
+            .joined
+            .iter()
+            .flat_map(|edge| edge.nodes.iter().flatten());
+        let on_planes = self.on_planes.iter().flat_map(OnPlane::nodes);
+        let of_surface = shared.chain(on_planes).filter(|n| own.contains(n));
+        let power = of_surface.map(|&n| {
+            let (k, arm) = (n - own.start, nodes.position[n] - b.p);
+            let by_itself = b.v + w.cross(arm) + b.r * shape.velocity[k];
+            forces[k].dot(nodes.velocity[n] - by_itself)
+        });
+        -power.sum::<f64>()
+    }
+
+    /// Whether an edge of this surface is joined to another one, or to its mirror image.
+    fn is_joined(&self, s: usize) -> bool {
+        self.joined.iter().any(|edge| edge.wings.contains(&s))
+            || self.on_planes.iter().any(|edge| edge.wing == s)
     }
 
     /// Whether any surface moves otherwise than its body.
@@ -328,6 +365,11 @@ impl SurfaceMap {
             }
         }
     }
+}
+
+/// The shape of this surface, if loads bend it.
+fn bent<'a>(at: &Instant<'a>, surface: usize) -> Option<&'a BentShape> {
+    at.shapes.get(surface).and_then(Option::as_ref)
 }
 
 /// Whether the roots of two wings meet at time zero, as they must to be joined.

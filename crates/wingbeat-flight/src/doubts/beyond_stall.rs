@@ -9,7 +9,7 @@
 
 use super::said::names;
 use crate::setup::{FlightSetup, LOOKS, MotionMode};
-use wingbeat_air::{AirSettings, LeadingEdge, LoadMethod};
+use wingbeat_air::{AirSettings, EdgeKind, LeadingEdge, LoadMethod};
 use wingbeat_math::DVec3;
 use wingbeat_model::{DeformingMesh, Wing};
 
@@ -127,7 +127,8 @@ impl FlightSetup {
         }
     }
 
-    /// What trailing vortices leave of the incidence of wing `w`, joined or not \[1\].
+    /// What trailing vortices leave of the incidence of wing `w`, joined to others, to its mirror image in a
+    /// plane of images, or to nothing \[1\].
     fn remains_of_incidence(&self, w: usize) -> f64 {
         let Some(air) = self.air.lattice() else {
             return 1.0;
@@ -137,7 +138,12 @@ impl FlightSetup {
         }
         let surface = one_surface(w, &air.joined_tips);
         let is_joined = (air.joined.iter().flatten()).any(|w| surface.contains(w));
-        let sides = if is_joined { 2.0 } else { 1.0 };
+        let is_half = (surface.iter()).any(|&w| {
+            [EdgeKind::Root, EdgeKind::Tip]
+                .iter()
+                .any(|&kind| self.is_on_plane(w, kind))
+        });
+        let sides = if is_joined || is_half { 2.0 } else { 1.0 };
         let reports = surface.iter().map(|&w| self.animal.wings[w].report());
         let [length, area] = reports.fold([0.0; 2], |[length, area], r| {
             [length + r.length, area + r.length * r.mean_chord]

@@ -36,6 +36,13 @@ impl FlightSetup {
         found
     }
 
+    /// Whether this edge of wing `w` stays on a plane of images of its lattice, joined to its mirror image.
+    pub(super) fn is_on_plane(&self, w: usize, kind: EdgeKind) -> bool {
+        let edges = self.air.lattice().map(|air| self.edges_on_planes(air));
+        let mut edges = edges.iter().flatten();
+        edges.any(|edge| edge.wing == w && edge.kind == kind && edge.is_joined())
+    }
+
     /// This edge of a wing, if it begins on or near this plane.
     fn edge_on(
         &self,

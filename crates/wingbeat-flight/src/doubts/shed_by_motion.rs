@@ -22,7 +22,7 @@ use std::f64::consts::PI;
 use super::air_past::strips;
 use super::said::names;
 use crate::setup::{FlightSetup, LOOKS, MotionMode};
-use wingbeat_air::{AirSettings, LeadingEdge};
+use wingbeat_air::{AirSettings, EdgeKind, LeadingEdge};
 use wingbeat_math::DVec3;
 use wingbeat_model::Wing;
 
@@ -82,8 +82,8 @@ impl FlightSetup {
     /// Says which wings shed vorticity of one sign from their leading edges in their prescribed motion
     /// ([`Self::one_sided_part`]) where roots or tips hold, or where leading edges shed by the suction of the step
     /// before, and what to do about it. Wings with joints of their own, whose motion is not known beforehand,
-    /// are left out; of wings joined at their roots, or whose circulation goes on through a body, no root
-    /// holds, and plane flow has neither roots nor tips.
+    /// are left out; edges that are joined to others or to their mirror images, and roots whose circulation
+    /// goes on through a body, do not hold, and plane flow has neither roots nor tips.
     pub fn one_sided_leading_edges(&self) -> Option<String> {
         let air = self.air.lattice()?;
         let shedding = air.lattice.shedding;
@@ -93,12 +93,20 @@ impl FlightSetup {
         let carried = self.carried_pairs(air);
         let through = carried.iter().map(|p| &p.wings);
         let pairs: Vec<&[usize; 2]> = air.joined.iter().chain(through).collect();
-        let is_joined = |w: usize| pairs.iter().any(|pair| pair.contains(&w));
+        let is_joined = |w: usize| {
+            pairs.iter().any(|pair| pair.contains(&w))
+                || air.joined_tips.iter().any(|[_, outer]| *outer == w)
+                || self.is_on_plane(w, EdgeKind::Root)
+        };
+        let is_tip_joined = |w: usize| {
+            air.joined_tips.iter().any(|[inner, _]| *inner == w)
+                || self.is_on_plane(w, EdgeKind::Tip)
+        };
         let is_late = matches!(air.lattice.leading, LeadingEdge::Suction { .. });
         let has_sides = !air.lattice.plane_wakes;
         let root_holds = |w: usize| has_sides && !shedding.root && !is_joined(w);
-        let tips_hold = has_sides && !shedding.tip;
-        let holds = |w: usize| tips_hold || root_holds(w);
+        let tip_holds = |w: usize| has_sides && !shedding.tip && !is_tip_joined(w);
+        let holds = |w: usize| tip_holds(w) || root_holds(w);
         let wings = 0..self.animal.wings.len();
         let known = wings.filter(|&w| !self.has_own_joint(w) && (is_late || holds(w)));
         let parts = known.map(|w| (w, self.one_sided_part(w)));
@@ -110,7 +118,11 @@ impl FlightSetup {
             true => ["strokes are unlike back and forth", "in every beat"],
             false => ["wings go more one way than the other", "over the flight"],
         };
-        let [why, remedy] = match (found.iter().any(|(w, _)| root_holds(*w)), tips_hold) {
+        let [roots_hold, tips_hold] = [
+            found.iter().any(|(w, _)| root_holds(*w)),
+            found.iter().any(|(w, _)| tip_holds(*w)),
+        ];
+        let [why, remedy] = match (roots_hold, tips_hold) {
             (true, false) => [
                 "as roots hold, the lift drifts with it",
                 "let roots shed (air.shed with \"root\", air.leading_edge = \"suction_implicit\")",

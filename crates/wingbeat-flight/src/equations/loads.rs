@@ -194,7 +194,7 @@ impl Equations {
             ..Instant::rigid(t, self.step, &s.motions)
         };
         let accelerations = &s.solution.bodies;
-        (self.air).deformation_power(&at, accelerations, &s.air_scratch, &mut s.deformation);
+        (self.air).deformation_power(&at, accelerations, &mut s.air_scratch, &mut s.deformation);
     }
 
     /// What dampers and stops of joints take up at the state last evaluated.

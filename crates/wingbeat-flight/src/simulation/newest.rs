@@ -46,14 +46,16 @@ impl Simulation {
             return vec![true; points.len()];
         };
         let solid = |SurfaceSnapshot { nodes, quads, .. }| Solid::new(&QuadMesh { nodes, quads });
-        let surfaces = self.snapshot().surfaces.into_iter();
+        let scratch = &self.scratch.air_scratch;
+        let surfaces = self.equations().air.surfaces(scratch).into_iter();
         let parts = surfaces.skip(self.setup.animal.wings.len());
         let solids: Vec<Solid> = parts.map(solid).collect();
-        let root = self.root().p;
-        let is_beyond = |x: DVec3, plane: &Plane| plane.height(x) * plane.height(root) < 0.0;
+        let side = |plane: &Plane| (*plane, plane.side(&scratch.nodes.position));
+        let sides: Vec<(Plane, f64)> = air.lattice.images.iter().map(side).collect();
         let is_in_air = |&x: &DVec3| {
+            let mut sides = sides.iter();
             !solids.iter().any(|s| s.contains(x))
-                && !air.lattice.images.iter().any(|plane| is_beyond(x, plane))
+                && sides.all(|(plane, side)| side * plane.height(x) >= 0.0)
         };
         points.iter().map(is_in_air).collect()
     }
