@@ -67,7 +67,7 @@ pub struct Equations {
     pub step: f64,
     /// Pass of a step from which those before speed the next ones up; none for plain passes.
     pub accelerated_from: Option<usize>,
-    /// Whether a support moves the root: a tether, or the hold before a release.
+    /// Whether a tether moves the root from the first to the last step.
     pub is_tethered: bool,
 }
 
@@ -231,16 +231,19 @@ impl Equations {
         Ok(())
     }
 
-    /// Whether the stage begins with accelerations of elastic wings that jump.
-    pub fn begins_with_jump(&self) -> bool {
-        !self.elastic.is_empty()
+    /// How often a state from which a stage begins is evaluated: loads on elastic wings that follow
+    /// accelerations need to know these, each time better.
+    pub fn entries(&self) -> usize {
+        match !self.elastic.is_empty() && self.air.follows_accelerations() {
+            true => 4,
+            false => 1,
+        }
     }
 
-    /// Whether accelerations of a free body that elastic wings push are integrated: they jump as those of the
-    /// wings, and what the wings do to it at the first instant, when none of their waves has gone anywhere, is
-    /// no measure of the first step.
-    pub fn is_pushed_by_waves(&self) -> bool {
-        !(self.elastic.is_empty() || self.core.takes_shapes() || self.core.is_supported())
+    /// Whether accelerations of elastic wings may jump where the stage begins: not where that of the body is integrated
+    /// itself, from that of rigid wings.
+    pub fn begins_with_jump(&self) -> bool {
+        !self.elastic.is_empty() && (self.core.takes_shapes() || self.core.is_supported())
     }
 
     /// Components of the state that nothing depends on and that a [`Self::pass`] leaves out.

@@ -280,23 +280,6 @@ pub trait Air: fmt::Debug + Send + Sync {
         Ok(false)
     }
 
-    /// At the first instant, whose loads hold no rates of circulations: adds to the loads last asked for what
-    /// these rates are where bodies and nodes of the wings accelerate as in `at`, their places kept, and puts
-    /// the loads about the origins of the bodies into `out`, N components. Nothing where loads hold such rates
-    /// or never do.
-    ///
-    /// # Errors
-    /// What the model reports.
-    fn add_rates_at_start(
-        &self,
-        _at: &Instant<'_>,
-        _memory: Option<&AirMemory>,
-        _scratch: &mut AirScratch,
-        _out: &mut [Wrench],
-    ) -> Result<(), FlightError> {
-        Ok(())
-    }
-
     /// Whether loads on wings that bend follow their accelerations within a step ([`WingResponse::inertia`]).
     fn follows_accelerations(&self) -> bool {
         false

@@ -340,9 +340,11 @@ impl Simulation {
         let equations = &self.stages[self.state.stage].equations;
         self.scratch.fit(equations);
         let mut f0 = vec![0.0; y0.len()];
+        for _ in 0..equations.entries() {
+            equations.evaluate(t, &y0, self.state.memory(), &mut self.scratch, &mut f0)?;
+        }
         let convergence = convergence(&self.setup.corrector, equations);
         let memory = self.state.memory();
-        equations.enter((t, &y0), memory, &mut self.scratch, &mut f0)?;
         let report = equations
             .couple_at_start((t, &y0), memory, &convergence, &mut self.scratch, &mut f0)
             .map_err(|e| failure(e, self.state.step, t, &self.setup))?;
@@ -379,8 +381,7 @@ impl Simulation {
             && self.setup.mass_over_carried_fluid().is_some();
         let rho = equations.elastic.damping_on_joints();
         let weights = rho.map(order_two_start);
-        let asks_no_start = is_light || equations.is_pushed_by_waves();
-        let started = match weights.or(asks_no_start.then_some(BACKWARD_START)) {
+        let started = match weights.or(is_light.then_some(BACKWARD_START)) {
             Some(weights) => {
                 let (from, how) = ((&y0[..], &f0[..]), (convergence, &scales[..]));
                 stepwise_start(from, h, &weights, how, &mut start)
@@ -393,12 +394,6 @@ impl Simulation {
             failure(e, first + 1, start.time(1), &self.setup)
         })?;
         (state.past, state.start_report) = (past, report);
-        if rho.is_none() && equations.begins_with_jump() && equations.core.is_supported() {
-            start::take_impulses_of_ends(&mut state.past, (equations.core.dim(), h));
-        }
-        if rho.is_none() && equations.is_pushed_by_waves() {
-            start::follow_velocities(&mut state.past, equations, start::At { step: h, first })?;
-        }
         Ok(())
     }
 }

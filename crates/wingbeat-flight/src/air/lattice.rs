@@ -12,7 +12,7 @@ use super::surfaces::SurfaceMap;
 use crate::error::FlightError;
 use crate::interface::memory::{AirMemory, wakes_of};
 use crate::interface::record::{ParticleSnapshot, Snapshot, SurfaceSnapshot, WakeSnapshot};
-use crate::interface::{Air, AirScratch, BentShape, Instant, WingInertia, WingResponse, misfit};
+use crate::interface::{Air, AirScratch, Instant, WingInertia, WingResponse, misfit};
 use crate::setup::{AirOptions, FlightSetup, MotionMode};
 
 /// Gravity across the plane of symmetry that is still the rounding of an attitude, over gravity.
@@ -122,36 +122,6 @@ impl LatticeAir {
             nodes.clear();
             (self.lattice).normal_wash(p, &s.workspace, now, |n, by| nodes.push((n, by)));
         }
-    }
-
-    /// Whether loads at a step of `step` \[s\] lack the rates of circulations that others hold: at the first
-    /// instant.
-    fn lacks_rates(&self, state: &AirState, step: f64) -> bool {
-        self.lattice.circulation_rate_weights(state, step) == Some([0.0; 3])
-    }
-
-    /// Bodies and shapes with the velocities that they have after a step of the accelerations of `at`, as seen
-    /// from the bodies, whose places and attitudes stay.
-    fn pushed(&self, at: &Instant<'_>) -> (Vec<BodyMotion>, Vec<Option<BentShape>>) {
-        let air = self.lattice.settings();
-        let of_body = |(m, a): (&BodyMotion, &BodyAcceleration)| {
-            let through = m.v - (air.free_stream + air.wind.at(m.p, at.time));
-            BodyMotion {
-                v: m.v + at.step * (a.linear - (m.r * m.w).cross(through)),
-                w: m.w + at.step * a.angular,
-                ..*m
-            }
-        };
-        let motions = at.motions.iter().zip(at.accelerations).map(of_body);
-        let of_wing = |(shape, m): (&Option<BentShape>, &BodyMotion)| {
-            let mut shape = shape.clone()?;
-            for (v, a) in shape.velocity.iter_mut().zip(&shape.acceleration) {
-                *v += at.step * (*a + m.w.cross(*v));
-            }
-            Some(shape)
-        };
-        let shapes = at.shapes.iter().zip(&at.motions[1..]).map(of_wing);
-        (motions.collect(), shapes.collect())
     }
 
     fn surface_snapshot(&self, s: &AirScratch, k: usize) -> SurfaceSnapshot {
@@ -303,17 +273,14 @@ impl Air for LatticeAir {
     fn wing_response(
         &self,
         wing: usize,
-        at: &Instant<'_>,
+        _at: &Instant<'_>,
         memory: Option<&AirMemory>,
         s: &mut AirScratch,
         out: &mut WingResponse,
     ) -> Result<bool, FlightError> {
         let state = wakes_of(memory).ok_or_else(|| misfit("a lattice needs its wakes"))?;
+        out.inertia.clear();
         out.matrix = (self.lattice).normal_response(wing, state, &s.workspace, &s.loads)?;
-        out.inertia = match self.lacks_rates(state, at.step) {
-            true => (self.lattice).normal_inertia(wing, state, &s.workspace, &s.loads)?,
-            false => vec![],
-        };
         self.set_panels(wing, s, out);
         Ok(true)
     }
@@ -345,7 +312,7 @@ impl Air for LatticeAir {
         out: &mut [Wrench],
     ) -> Result<bool, FlightError> {
         let state = wakes_of(memory).ok_or_else(|| misfit("a lattice needs its wakes"))?;
-        if !self.lacks_rates(state, at.step) {
+        if self.lattice.circulation_rate_weights(state, at.step) != Some([0.0; 3]) {
             return Ok(false);
         }
         let (mut ws, mut loads) = (self.lattice.workspace(), AirLoads::default());
@@ -366,57 +333,6 @@ impl Air for LatticeAir {
             }
         }
         Ok(true)
-    }
-
-    fn add_rates_at_start(
-        &self,
-        at: &Instant<'_>,
-        memory: Option<&AirMemory>,
-        s: &mut AirScratch,
-        out: &mut [Wrench],
-    ) -> Result<(), FlightError> {
-        let state = wakes_of(memory).ok_or_else(|| misfit("a lattice needs its wakes"))?;
-        if !self.lacks_rates(state, at.step) {
-            return Ok(());
-        }
-        let (motions, shapes) = self.pushed(at);
-        let then = Instant {
-            motions: &motions,
-            shapes: &shapes,
-            ..*at
-        };
-        let (mut nodes, mut loads) = (NodeMotion::default(), AirLoads::default());
-        self.map.node_motion(&then, &mut nodes)?;
-        (self.lattice)
-            .loads(
-                state,
-                at.time,
-                at.step,
-                &nodes,
-                &mut self.lattice.workspace(),
-                &mut loads,
-            )
-            .map_err(|e| self.map.error_of(e, at))?;
-        let (density, surfaces) = (self.lattice.settings().density, self.lattice.surfaces());
-        // Of closed surfaces, which fill again what they enclose, rates come with the first step.
-        for k in (0..surfaces.len()).filter(|&k| !surfaces[k].closed) {
-            for p in self.lattice.panels_of(k) {
-                let rate = (loads.gamma[p] - s.loads.gamma[p]) / at.step;
-                let [force, couple] =
-                    (self.lattice).loads_of_rate(p, rate, (&s.workspace, &s.loads));
-                let now = &mut s.loads;
-                now.gamma_rate[p] += rate;
-                now.pressure_jump[p] += density * rate;
-                now.force[p] += force;
-                now.couple[p] += couple;
-                now.inviscid_force += force;
-                now.surfaces[k].force += force;
-                now.surfaces[k].moment += now.panels.point[p].cross(force) + couple;
-            }
-        }
-        s.is_current = false;
-        self.map.wrenches(&s.loads, at.motions, out);
-        Ok(())
     }
 
     fn deforms(&self) -> bool {

@@ -1,7 +1,7 @@
 //! One step of the elastic wings with the air, at given motions and accelerations of the bodies.
 
 use wingbeat_dynamics::{BodyAcceleration, Wrench};
-use wingbeat_math::{Secants, larger, largest};
+use wingbeat_math::{Secants, larger};
 use wingbeat_structure::{GeneralizedAlpha, NODE};
 
 use super::step::{ROUNDING, SMALL, WingScratch};
@@ -117,9 +117,6 @@ impl ElasticWings {
     ) -> Result<bool, FlightError> {
         air.place(at, air_scratch)?;
         air.loads(at, memory, air_scratch, out)?;
-        if !s.is_stepping {
-            air.add_rates_at_start(at, memory, air_scratch, out)?;
-        }
         for (w, ws) in self.computed(&mut s.wings) {
             air.nodal_forces(w.wing, at, air_scratch, &mut ws.forces)?;
             let m = &at.motions[w.wing + 1];
@@ -135,13 +132,12 @@ impl ElasticWings {
         let helps = s.unbalanced < 0.5 * before;
         let is_whole = s.passes > 1 && s.share >= 1.0;
         let is_exact = is_whole && (s.moved <= ROUNDING || (s.moved <= SMALL && !helps));
-        if !s.is_stepping && s.passes == 1 {
+        if !s.is_stepping && air.follows_accelerations() {
             self.take_answers(at, (air, memory), s, air_scratch)?;
-            for (w, ws) in self.computed(&mut s.wings) {
-                ws.factor(w)?;
-            }
+            let all = self.computed(&mut s.wings);
+            all.for_each(|(w, ws)| ws.carried = ws.carried_air(w));
         }
-        if s.unbalanced <= self.tolerance() || is_exact {
+        if s.unbalanced <= self.tolerance() || is_exact || !s.is_stepping {
             return Ok(true);
         }
         if !s.unbalanced.is_finite() {
@@ -150,7 +146,7 @@ impl ElasticWings {
         // Answers at once, without a wake between, hardly change while bodies and wings are brought to agree;
         // on free joints passes need to know them well.
         let is_known = s.has_answers && air.follows_accelerations() && !self.on_joints;
-        let is_known = is_known && s.passes == 1 || !s.is_stepping;
+        let is_known = is_known && s.passes == 1;
         if s.passes % RENEWAL == 1 && !is_known {
             self.take_answers(at, (air, memory), s, air_scratch)?;
         }
@@ -262,10 +258,6 @@ impl ElasticWings {
     /// New trials: what the elastic bodies do under loads that follow them as the air has answered, and what
     /// secants of former passes make of that, all wings together; translations over the sizes of the wings.
     fn correct(&self, s: &mut ElasticScratch) -> Result<(), FlightError> {
-        if !s.is_stepping {
-            self.accelerate(s);
-            return Ok(());
-        }
         s.change.clear();
         s.share = 1.0;
         for (w, ws) in self.computed(&mut s.wings) {
@@ -302,35 +294,6 @@ impl ElasticWings {
         Ok(())
     }
 
-    /// At the first instant, shapes and velocities known: the accelerations with which the nodes are in balance
-    /// under loads that follow them as the air has answered, and what secants of former passes make of that,
-    /// all wings together.
-    fn accelerate(&self, s: &mut ElasticScratch) {
-        s.change.clear();
-        for (w, ws) in self.computed(&mut s.wings) {
-            ws.change_accelerations(w);
-            let free = w.structure.free_numbers().iter().zip(&ws.step);
-            s.change.extend(free.map(|(k, x)| x * length(w, *k)));
-        }
-        s.secants.accelerate(&mut s.change);
-        (s.share, s.moved) = (1.0, 0.0);
-        let mut from = 0;
-        for (w, ws) in self.computed(&mut s.wings) {
-            let free = w.structure.free_numbers();
-            let changes = &s.change[from..from + free.len()];
-            from += free.len();
-            ws.step.clear();
-            let own = free.iter().zip(changes);
-            ws.step.extend(own.map(|(k, x)| x / length(w, *k)));
-            ws.trial.add(&w.structure, &ws.step);
-            let all = free
-                .iter()
-                .map(|k| ws.trial.acceleration[*k].abs() * length(w, *k));
-            let [change, all] = [largest(changes.iter().map(|x| x.abs())), largest(all)];
-            s.moved = larger(s.moved, if change == 0.0 { 0.0 } else { change / all });
-        }
-    }
-
     /// Accepts the instant last asked for, the bodies accelerating as they do.
     pub fn accept(
         &self,
@@ -350,14 +313,5 @@ impl ElasticWings {
             let a = &accelerations[w.wing + 1];
             states[k].frame = [a.linear, a.angular];
         }
-    }
-}
-
-/// What the number `k` of the nodes counts by beside translations: rotations by the size of the wing \[m\].
-fn length(w: &ElasticWing, k: usize) -> f64 {
-    if k % NODE < 3 {
-        1.0
-    } else {
-        w.structure.size()
     }
 }

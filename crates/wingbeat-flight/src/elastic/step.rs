@@ -2,7 +2,9 @@
 
 use wingbeat_dynamics::AddedMass;
 use wingbeat_math::{DVec3, larger};
-use wingbeat_structure::{FrameMotion, LoadTangent, NODE, Solver, StructureError, Trial};
+use wingbeat_structure::{
+    FrameMotion, LoadTangent, NODE, Solver, StructureError, Trial, carried_by_frame,
+};
 
 use super::tangent::AirTangent;
 use super::wing::{ElasticState, ElasticWing, Nodes};
@@ -224,15 +226,6 @@ impl WingScratch {
         Ok(self.unbalanced <= ROUGH.min(at_first))
     }
 
-    /// In a trial without a step: by what the accelerations of the free numbers of the nodes have to change for
-    /// balance, into `step`, by the factors of what follows them.
-    pub fn change_accelerations(&mut self, w: &ElasticWing) {
-        self.step.clear();
-        let free = w.structure.free_numbers();
-        self.step.extend(free.iter().map(|&k| -self.residual[k]));
-        self.solver.solve(&mut self.step);
-    }
-
     /// Loads as the air's answer carries them on from the motion they were taken for.
     fn follow(&mut self) {
         self.given.clone_from(&self.loads);
@@ -261,7 +254,7 @@ impl WingScratch {
     }
 
     /// Factorises the tangent, with the air's answer on its left-hand side.
-    pub fn factor(&mut self, w: &ElasticWing) -> Result<(), StructureError> {
+    fn factor(&mut self, w: &ElasticWing) -> Result<(), StructureError> {
         let loads = match self.answers {
             true => self.tangent.loads(),
             false => LoadTangent::default(),
@@ -276,6 +269,13 @@ impl WingScratch {
             self.carried = Some(w.carried(&response));
         }
         Ok(())
+    }
+
+    /// What the air alone, the shape of the wing kept, answers to accelerations of its frame.
+    pub fn carried_air(&self, w: &ElasticWing) -> Option<AddedMass> {
+        let felt = self.answers && !self.tangent.acceleration.is_empty();
+        let at = &self.trial.configuration;
+        felt.then(|| w.carried_air(&carried_by_frame(at, &self.tangent.acceleration)))
     }
 
     pub fn nodes(&self) -> Nodes<'_> {

@@ -178,6 +178,11 @@ impl ElasticWing {
         AddedMass::new(self.wing + 1, scaled(&beside, part.unwrap_or(0.0)))
     }
 
+    /// From the derivative of the loads of the air by the acceleration of the frame: the added mass that it is.
+    pub(super) fn carried_air(&self, response: &SixBySix) -> AddedMass {
+        AddedMass::new(self.wing + 1, scaled(&symmetric_part(response), -1.0))
+    }
+
     /// Its masses as rigid bodies in N, the frame moving like `m`: nodes, then points between them.
     pub(super) fn bodies<'a>(
         &'a self,

@@ -3,70 +3,15 @@
 //! bring both to agree, as within a step. What velocities do to it as surfaces move past each other comes with the
 //! first step.
 
-use wingbeat_dynamics::{BodyAcceleration, Wrench};
+use wingbeat_dynamics::Wrench;
 use wingbeat_math::ode::{Convergence, StepError, StepReport, scaled_difference};
-use wingbeat_math::{DVec3, Secants, largest};
+use wingbeat_math::{DVec3, Secants};
 
 use super::{Equations, Memory, Scratch};
 use crate::error::FlightError;
 use crate::interface::Instant;
 
-/// Passes of bodies and elastic wings at the first instant, and the change of accelerations \[1\] that is their
-/// rounding. What they are to each other is linear: least squares end such passes after as many as there are
-/// unknowns.
-const MAX_PASSES: usize = 40;
-const ROUNDING: f64 = 1e-12;
-
 impl Equations {
-    /// The rates `dy` of the state `y` at time `t` \[s\] from which a stage begins: bodies and elastic wings
-    /// accelerate as they let each other.
-    ///
-    /// # Errors
-    /// As [`Self::evaluate`].
-    pub fn enter(
-        &self,
-        (t, y): (f64, &[f64]),
-        memory: Memory<'_>,
-        s: &mut Scratch,
-        dy: &mut [f64],
-    ) -> Result<(), FlightError> {
-        self.evaluate(t, y, memory, s, dy)?;
-        if self.elastic.is_empty() {
-            return Ok(());
-        }
-        let (mut secants, length) = (Secants::default(), self.core.system().units().length);
-        for _ in 0..MAX_PASSES {
-            let known = s.solution.bodies.clone();
-            self.evaluate(t, y, memory, s, dy)?;
-            let bodies = s.solution.bodies.iter();
-            let each = bodies.clone().chain(&known).map(|a| [a.linear, a.angular]);
-            let [linear, angular] = sizes(each);
-            let units = [linear.max(angular * length), angular.max(linear / length)]
-                .map(|unit| unit.max(f64::MIN_POSITIVE));
-            let part = |(now, before): (&BodyAcceleration, &BodyAcceleration)| {
-                let linear = (now.linear - before.linear) / units[0];
-                let angular = (now.angular - before.angular) / units[1];
-                [linear.to_array(), angular.to_array()].concat()
-            };
-            let mut change: Vec<f64> = bodies.zip(&known).flat_map(part).collect();
-            if largest(change.iter().map(|x| x.abs())) <= ROUNDING {
-                break;
-            }
-            secants.accelerate(&mut change);
-            let all = s
-                .solution
-                .bodies
-                .iter_mut()
-                .zip(&known)
-                .zip(change.chunks_exact(6));
-            for ((now, before), by) in all {
-                now.linear = before.linear + units[0] * DVec3::from_slice(&by[..3]);
-                now.angular = before.angular + units[1] * DVec3::from_slice(&by[3..]);
-            }
-        }
-        Ok(())
-    }
-
     /// Makes the rates `dy` of the state `y` at time `t` \[s\], which were asked for last, those in which accelerations
     /// and what surfaces do to each other's added mass agree. No passes where there is nothing of the kind.
     ///
@@ -84,9 +29,7 @@ impl Equations {
         let (mut secants, scales) = (Secants::default(), self.scales());
         let mut units = None;
         while let Some(felt) = self.coupling(t, memory, s).map_err(StepError::Rates)? {
-            let of = felt.iter().map(|w| [w.force, w.moment]);
-            let units = *units
-                .get_or_insert_with(|| sizes(of).map(|most| if most > 0.0 { most } else { 1.0 }));
+            let units = *units.get_or_insert_with(|| sizes(&felt));
             s.coupling.resize(felt.len(), Wrench::default());
             let mut change = numbers(&felt, &s.coupling, units);
             secants.accelerate(&mut change);
@@ -144,11 +87,13 @@ impl Equations {
     }
 }
 
-/// Largest of linear and of angular vectors.
-fn sizes(all: impl Iterator<Item = [DVec3; 2]>) -> [f64; 2] {
-    all.fold([0.0; 2], |[a, b], [linear, angular]| {
-        [f64::max(a, linear.length()), f64::max(b, angular.length())]
-    })
+/// Largest force \[N\] and moment \[N m\]; 1 where there is none.
+fn sizes(loads: &[Wrench]) -> [f64; 2] {
+    let largest = |of: fn(&Wrench) -> DVec3| {
+        let most = loads.iter().map(|w| of(w).length()).fold(0.0, f64::max);
+        if most > 0.0 { most } else { 1.0 }
+    };
+    [largest(|w| w.force), largest(|w| w.moment)]
 }
 
 /// By how much loads are more than those before, in these units: six numbers for each body.

@@ -8,9 +8,6 @@ pub const QUADRATURES: usize = 14;
 /// Which of them are works, and the impulse that is integrated as they are.
 pub(crate) const WORKS: [usize; 8] = [0, 1, 2, 9, 10, 11, 12, 13];
 
-/// Which of them are impulses.
-pub(crate) const IMPULSES: [usize; 9] = [3, 4, 5, 6, 7, 8, 11, 12, 13];
-
 /// Works and impulses since the start.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Quadratures {

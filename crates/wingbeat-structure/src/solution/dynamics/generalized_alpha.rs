@@ -76,12 +76,10 @@ pub struct Trial {
 }
 
 /// What an increment of the six numbers of the nodes changes along with them.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Weights {
     /// Step \[s\].
     pub step: f64,
-    /// Change of places by change of increment \[1\]: none where only accelerations are sought.
-    pub place: f64,
     /// Change of velocity by change of increment [1/s]: gamma / (h beta).
     pub velocity: f64,
     /// Change of acceleration by change of increment [1/s2].
@@ -90,23 +88,8 @@ pub struct Weights {
     algorithmic: f64,
 }
 
-impl Default for Weights {
-    /// Without a step: places and velocities are known, and an increment is one of accelerations (its weight
-    /// 1).
-    fn default() -> Self {
-        Self {
-            step: 0.0,
-            place: 0.0,
-            velocity: 0.0,
-            acceleration: 1.0,
-            algorithmic: 1.0,
-        }
-    }
-}
-
 impl Trial {
-    /// A trial that is a state, without a step: what is sought by it are the accelerations with which the nodes
-    /// are in balance there.
+    /// A trial that is a state, without a step.
     pub fn of(state: &State) -> Self {
         Self {
             configuration: state.configuration.clone(),
@@ -137,7 +120,7 @@ impl Trial {
     pub(crate) fn change(&mut self, n: usize, change: &[f64; NODE]) {
         let w = self.weights;
         for (k, d) in (NODE * n..).zip(change) {
-            self.increment[k] += w.place * d;
+            self.increment[k] += d;
             self.velocity[k] += w.velocity * d;
             self.acceleration[k] += w.acceleration * d;
             self.algorithmic[k] += w.algorithmic * d;
@@ -218,7 +201,6 @@ impl GeneralizedAlpha {
         let algorithmic = 1.0 / (h * h * self.beta);
         Weights {
             step: h,
-            place: 1.0,
             velocity: self.gamma / (h * self.beta),
             acceleration: algorithmic * (1.0 - self.alpha_m) / (1.0 - self.alpha_f),
             algorithmic,

@@ -73,7 +73,6 @@ impl Solver {
             let [force, moment] = inertia::force(m, frame, &node);
             let [load, turning] = pair(&self.loads, n);
             let moved = moved(&node, [force - load, moment - turning], turn);
-            let moved = scaled(&moved, trial.weights().place);
             s.rows.push(sum(&product(&to_root, &local), &moved));
             s.to_root.push(to_root);
             s.by_frame.push(by_frame);
@@ -89,7 +88,6 @@ impl Solver {
             let local = combined(&tangents, trial.weights(), DVec3::ZERO, 0.0);
             let [force, _] = inertia::force(&point, frame, &node);
             let moved = moved(&node, [force, DVec3::ZERO], DVec3::ZERO);
-            let moved = scaled(&moved, trial.weights().place);
             let row = sum(&product(&to_root, &local), &moved);
             for n in m.nodes {
                 s.rows[n] = sum(&s.rows[n], &scaled(&row, 0.5));

@@ -42,7 +42,7 @@ impl LoadTangent<'_> {
         };
         let [p, v, a] = [self.position, self.velocity, self.acceleration].map(part);
         let place = through(&p, turn);
-        std::array::from_fn(|j| w.place * place[j] + w.velocity * v[j] + w.acceleration * a[j])
+        std::array::from_fn(|j| place[j] + w.velocity * v[j] + w.acceleration * a[j])
     }
 }
 
@@ -214,10 +214,8 @@ impl Solver {
         let viscous = (viscous.time > 0.0).then_some(&viscous);
         let ahead = looks_ahead.then_some((&self.before, &self.ahead[..]));
         let turns = |n: usize| right_jacobian(trial.turn(n));
-        if trial.weights().place != 0.0 {
-            self.assembly
-                .tangent(structure, (&trial.configuration, ahead), viscous, &turns);
-        }
+        self.assembly
+            .tangent(structure, (&trial.configuration, ahead), viscous, &turns);
         for n in 0..structure.nodes() {
             let block = self.node_tangent(structure, trial, frame, n);
             self.assembly.add(structure, [n, n], &block);
@@ -357,8 +355,7 @@ pub(crate) fn combined(
     let mass = w.acceleration + mass_damping * w.velocity;
     let mut sum = ZERO;
     for (i, j) in (0..NODE * NODE).map(|k| (k / NODE, k % NODE)) {
-        sum[i][j] =
-            w.place * by_place[i][j] + w.velocity * t.velocity[i][j] + mass * t.acceleration[i][j];
+        sum[i][j] = by_place[i][j] + w.velocity * t.velocity[i][j] + mass * t.acceleration[i][j];
     }
     sum
 }
