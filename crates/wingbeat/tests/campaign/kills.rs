@@ -126,7 +126,7 @@ fn invariant_a_killed_flight_in_the_lattice_goes_on_bit_for_bit() {
     write(
         dir,
         r#"case = "fruit-fly-hover"
-keep = ["lift_over_weight", "power_watt"]
+keep = ["end.mass_centre_n3_m"]
 files = ["history"]
 [set]
 "time.beats" = 1
