@@ -55,8 +55,7 @@ impl Revolution {
     }
 
     /// By what factor a wake of which rows are kept for `time` \[s\] is too short where the wing passes the air
-    /// with
-    /// `speed` [m/s], and what was measured of such wakes; none where what is left out is felt little.
+    /// with `speed` [m/s], and what was measured of such wakes; none where what is left out is felt little.
     pub fn felt(&self, time: f64, speed: f64) -> Option<(f64, &'static str)> {
         let turns = TURNS * self.period() / time;
         let radii = RADII * self.radius / (speed * time);
