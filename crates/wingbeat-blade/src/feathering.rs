@@ -8,7 +8,7 @@ use crate::strip::Strip;
 /// The coefficient C_rot of a strip.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum RotationCoefficient {
-    /// The same however the air is met \[1\].
+    /// The same however the air is met \[1\]: `pi (3/4 - x0)` by Sane & Dickinson (2002), or a number of a case.
     Constant(f64),
     /// `pi (1/4 + (1/2 - x0) cos alpha)`, by x0, the feathering axis behind the leading edge over the chord \[1\];
     /// the cosine is negative where the air comes from behind.
@@ -20,13 +20,16 @@ pub(crate) enum RotationCoefficient {
 }
 
 impl RotationCoefficient {
-    /// That of strip `s`: of attached flow by theory, where feathering is damped as in theory; else as published.
+    /// That of strip `s`. Wakes of strips are those of attached flow by theory, whatever the law, unless there is none or
+    /// one coefficient.
     pub fn of(settings: &BladeSettings, s: &Strip) -> Self {
         match settings.rotation {
             Rotation::None => Self::Constant(0.0),
             Rotation::Coefficient(c) => Self::Constant(c),
-            _ if settings.damps_feathering() => Self::OfEdgeInFront(s.x0()),
-            _ => Self::Constant(PI * (0.75 - s.x0())),
+            Rotation::SaneDickinson if settings.unsteady.is_none() => {
+                Self::Constant(PI * (0.75 - s.x0()))
+            }
+            Rotation::SaneDickinson | Rotation::Circulation => Self::OfEdgeInFront(s.x0()),
         }
     }
 

@@ -28,9 +28,9 @@
 //! | Gamma_rot | - | `C_rot c^2 q` | m2/s |
 //!
 //! A section is taken as symmetric fore and aft: air from the trailing edge (u < 0) gives the mirrored force. The
-//! circulation of feathering does so where theory has it ([`Rotation::CirculationAndCouple`], [`Unsteady`]); by the
-//! published laws it is reckoned from the leading edge whatever edge meets the air, as in the sources, and then feathering
-//! in air from behind can take work out of air at rest.
+//! circulation of feathering does so, too ([`Rotation::Circulation`], [`Unsteady`]). With one coefficient and by
+//! [`Rotation::SaneDickinson`] it is reckoned from the leading edge whatever edge meets the air, as in the sources, and
+//! then feathering in air from behind can take work out of air at rest.
 //! Velocities along the span are ignored, as in all the sources, but by the moment of the added momentum.
 //! Strips of wings that are not flat have frames of their own ([`PlacedStrip`]). Twist and bending of a wing
 //! place and move its strips ([`SectionMotion`] where they are prescribed, [`MeshSection`] where loads bend the

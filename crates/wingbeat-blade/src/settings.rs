@@ -53,14 +53,12 @@ pub enum Rotation {
     /// [Sane & Dickinson 2002]. U is the speed with the sign of u, so the force jumps where u
     /// changes sign while w does not vanish.
     SaneDickinson,
-    /// The same circulation by Kutta and Joukowski: `rho Gamma` across the velocity. Its normal
-    /// part is Sane & Dickinson's force times cos alpha; smooth for every motion.
+    /// Thin-airfoil theory for whichever edge meets the air, smooth for every motion: the force `rho Gamma` across the
+    /// velocity (Kutta & Joukowski) with `C_rot = pi (1/4 + (1/2 - x0) cos alpha)`, the cosine negative where the air
+    /// comes from behind, and the moment against feathering, `-(pi/16) rho c^3 abs(u) q dr` [Theodorsen 1935]. Every
+    /// [`Unsteady`] law has both.
     Circulation,
-    /// Kutta-Joukowski with thin-airfoil theory for both edges: `C_rot = pi (1/4 + (1/2 - x0) cos alpha)`, the cosine
-    /// negative where the air comes from behind, and the moment against feathering, `-(pi/16) rho c^3 abs(u) q dr`
-    /// [Theodorsen 1935]. Every [`Unsteady`] law has both.
-    CirculationAndCouple,
-    /// Kutta-Joukowski with one coefficient for all strips, `Gamma = coefficient c^2 q`:
+    /// The force `rho Gamma` alone, with one coefficient for all strips, `Gamma = coefficient c^2 q`:
     /// `C_R/2` in [Berman & Wang 2007] (its C_R = pi is not checked against the paper).
     Coefficient(f64),
 }
@@ -111,11 +109,11 @@ impl AddedMassModel {
 impl BladeSettings {
     /// Whether feathering is damped by `-(pi/16) rho c^3 abs(u) q dr`, as in thin-airfoil theory.
     pub fn damps_feathering(&self) -> bool {
-        self.unsteady.is_some() || self.rotation == Rotation::CirculationAndCouple
+        self.unsteady.is_some() || self.rotation == Rotation::Circulation
     }
 
-    /// The default for small insects in still air: coefficients `dickson-2008`, circulation of
-    /// feathering, added mass by impulse, `Cosine` centre of pressure.
+    /// The default for small insects in still air: coefficients `dickson-2008`, circulation and
+    /// moment of feathering, added mass by impulse, `Cosine` centre of pressure.
     pub fn insect(density: f64) -> Self {
         Self {
             density,

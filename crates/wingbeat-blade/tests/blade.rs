@@ -97,12 +97,8 @@ fn order_strips_converge_at_second_order() {
 #[test]
 fn exact_rotational_force_of_thin_airfoil_theory() {
     // At alpha = 0 feathering at q about x0 gives -rho pi (3/4 - x0) c^2 q u: thin airfoil theory with the normal
-    // velocity at 3/4 chord. From behind theory has pi (x0 - 1/4), the published laws the same as from ahead.
-    for rotation in [
-        Rotation::SaneDickinson,
-        Rotation::Circulation,
-        Rotation::CirculationAndCouple,
-    ] {
+    // velocity at 3/4 chord. From behind theory has pi (x0 - 1/4), Sane & Dickinson's law the same as from ahead.
+    for rotation in [Rotation::SaneDickinson, Rotation::Circulation] {
         for u in [2.0, -2.0] {
             let settings = BladeSettings {
                 rotation,
@@ -113,7 +109,7 @@ fn exact_rotational_force_of_thin_airfoil_theory() {
             let load = BladeWing::new(strips, settings)
                 .unwrap()
                 .velocity_load(&motion(DVec3::new(u, 0.0, 0.0), DVec3::new(0.0, 0.5, 0.0)));
-            let from_behind = rotation == Rotation::CirculationAndCouple && u < 0.0;
+            let from_behind = rotation == Rotation::Circulation && u < 0.0;
             let coefficient = if from_behind { 0.4 - 0.25 } else { 0.75 - 0.4 };
             let exact = -RHO * PI * coefficient * 0.3 * 0.3 * 0.5 * u; // span 1
             assert!((load.force.z / exact - 1.0).abs() < 1e-14, "{rotation:?}"); // no lift at alpha 0
@@ -127,7 +123,6 @@ fn exact_couple_of_feathering_of_thin_airfoil_theory() {
     // a quarter of the chord is `-pi/16 rho c^3 u q` [Glauert 1926], whatever its circulation, either way round.
     for (axis, u) in [(0.25, 2.0), (0.4, 2.0), (0.6, 2.0), (0.4, -2.0)] {
         let settings = BladeSettings {
-            rotation: Rotation::CirculationAndCouple,
             added_mass: AddedMassModel::None,
             centre_of_pressure: CentreOfPressure::Fixed(0.25),
             ..BladeSettings::insect(RHO)

@@ -17,7 +17,6 @@ motion = { frequency_hz = 5, start = "impulsive" }
 flight = { velocity_m_s = [8, 0, 0], pitch_deg = 5 }
 air.model = "blade_element"
 air.blade.centre_of_pressure.fixed = 0.25
-air.blade.rotation = "circulation_and_couple"
 air.blade.own = { lift = 2.0, drag_0 = 0.03, drag_90 = 2.0 }
 output.frames_every = 0
 body = { mass_kg = 0.3, centre_m = [-0.01, 0, 0], inertia_about_centre_kg_m2 = [1e-3, 3e-3, 3.5e-3, 0, 0, 0] }

@@ -226,7 +226,7 @@ impl Sections {
         sum
     }
 
-    /// Lift, drag and the circulation of feathering.
+    /// Lift, drag, the circulation of feathering and its moment.
     fn circulatory(&self, s: &Strip, m: &Motion) -> Wrench {
         let at_axis = add(m.v, cross(m.w, [0.0, s.y, 0.0]));
         let (u, w_n, q) = (at_axis[0], at_axis[2], m.w[1]);
@@ -244,7 +244,9 @@ impl Sections {
             pressure * (-side * lift * w_n - drag * u),
             pressure * (side * lift * u - drag * w_n),
         ];
-        let circulation = PI * (0.75 - s.leading / s.chord) * s.chord * s.chord * q;
+        // Thin-airfoil theory, the edge in front being that which meets the air.
+        let part = 0.25 + (0.5 - s.leading / s.chord) * u / speed;
+        let circulation = PI * part * s.chord * s.chord * q;
         let joukowski = self.density * s.width * circulation;
         let force = [
             translation[0] + joukowski * w_n,
@@ -253,9 +255,10 @@ impl Sections {
         ];
         let behind = (2.0 - u / speed) / 4.0;
         let arm = [s.leading - s.chord * behind, 0.0, 0.0];
+        let couple = -PI / 16.0 * self.density * s.chord.powi(3) * s.width * u.abs() * q;
         // The force along the chord acts in the plane of the wing, on the axis.
         let moment = add(
-            cross(arm, [0.0, 0.0, force[2]]),
+            add(cross(arm, [0.0, 0.0, force[2]]), [0.0, couple, 0.0]),
             cross([0.0, s.y, 0.0], force),
         );
         Wrench { force, moment }

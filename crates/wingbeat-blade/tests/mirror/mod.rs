@@ -5,13 +5,13 @@ use wingbeat_math::{BodyAcceleration, BodyMotion, DMat3, DVec3, Wrench};
 
 const AXES: [f64; 6] = [-0.2, 0.0, 0.25, 0.4, 0.5, 1.0];
 
-/// All laws with wakes; without, those but for `Circulation` and `SaneDickinson`, whose sources know one edge alone.
+/// All laws with wakes; without, those but for `SaneDickinson`, whose source knows one edge alone.
 fn laws() -> Vec<BladeSettings> {
     let insect = BladeSettings::insect(1.2);
     let mut all = vec![];
     for rotation in [
         Rotation::None,
-        Rotation::CirculationAndCouple,
+        Rotation::Circulation,
         Rotation::Coefficient(1.3),
     ] {
         for centre_of_pressure in [
@@ -31,7 +31,6 @@ fn laws() -> Vec<BladeSettings> {
             Rotation::None,
             Rotation::SaneDickinson,
             Rotation::Circulation,
-            Rotation::CirculationAndCouple,
             Rotation::Coefficient(1.3),
         ] {
             all.push(BladeSettings {
@@ -126,7 +125,6 @@ fn exact_force_of_feathering_does_not_hang_on_the_axis_it_is_referred_to() {
             drag_0: 0.0,
             drag_90: 0.0,
         },
-        rotation: Rotation::CirculationAndCouple,
         added_mass: AddedMassModel::None,
         ..BladeSettings::insect(1.2)
     };

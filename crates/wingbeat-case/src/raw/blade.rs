@@ -24,11 +24,11 @@ pub struct BladeCase {
     pub own: Option<OwnCoefficients>,
     /// Force of feathering while sweeping.
     ///
-    /// Change it to `circulation_and_couple` for elastic wings without `unsteady`, or to reproduce a published model.
+    /// Change it to reproduce a published model.
     #[default(RotationCase::Circulation)]
     pub rotation: RotationCase,
-    /// Coefficient C of the circulation `C c^2 q` of feathering for all strips; left out:
-    /// `pi (0.75 - x0)` by strip.
+    /// Coefficient C of the circulation `C c^2 q` of feathering for all strips, without a moment against feathering;
+    /// left out: by thin-airfoil theory.
     ///
     /// Change it to reproduce a published model.
     #[schemars(extend("with" = "rotation = circulation"))]
@@ -102,14 +102,12 @@ pub struct OwnCoefficients {
 pub enum RotationCase {
     /// Left out.
     None,
-    /// Kutta and Joukowski's force of the circulation of feathering: smooth.
+    /// Circulation of feathering by thin-airfoil theory for whichever edge meets the air, with its moment against
+    /// feathering, as `unsteady` laws always have both: smooth.
     Circulation,
-    /// The same by thin-airfoil theory for whichever edge meets the air, with its moment against feathering, as
-    /// `unsteady` laws always have it. Without it quasi-steady strips excite the torsion of elastic wings, and wings that
-    /// feather while they fly backwards take work out of air at rest.
-    CirculationAndCouple,
-    /// The same, normal to the wing (Sane & Dickinson 2002). It jumps where the air along a chord reverses while it
-    /// meets the wing broadside: flights are as good as their steps, derivatives and modes of flight are none.
+    /// A force normal to the wing (Sane & Dickinson 2002). It jumps where the air along a chord reverses while it
+    /// meets the wing broadside: flights are as good as their steps, derivatives and modes of flight are none. It has
+    /// no moment against feathering, so without `unsteady` it makes the torsion of elastic wings grow.
     SaneDickinson,
 }
 

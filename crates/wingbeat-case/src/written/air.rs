@@ -131,7 +131,6 @@ fn blade(options: &BladeOptions) -> Written<AirCase> {
     let (rotation, rotation_coefficient) = match rotation {
         Rotation::None => (RotationCase::None, None),
         Rotation::Circulation => (RotationCase::Circulation, None),
-        Rotation::CirculationAndCouple => (RotationCase::CirculationAndCouple, None),
         Rotation::SaneDickinson => (RotationCase::SaneDickinson, None),
         Rotation::Coefficient(c) => (RotationCase::Circulation, Some(c)),
     };

@@ -3,8 +3,8 @@
 //! A section in a stream U turns about an elastic axis a c behind its leading edge. By thin-airfoil theory, the force
 //! of circulation at a quarter of the chord follows the downwash of 3/4, and the added mass gives `m U q` at mid chord:
 //! the moment `pi rho c^3 U q ((a - 1/4) (3/4 - a) - (1/2 - a)/4)`, which drives the motion where
-//! `a > (5 - sqrt 5)/8 = 0.35`. With the couple `-(pi/16) rho c^3 U q` [Theodorsen 1935], which the quasi-steady law
-//! leaves out by default, it damps for every a up to 1/2. Behind that a wake that lags is what damps. Where wings bend, too,
+//! `a > (5 - sqrt 5)/8 = 0.35`. With the couple `-(pi/16) rho c^3 U q` [Theodorsen 1935], which laws with
+//! one coefficient leave out, it damps for every a up to 1/2. Behind that a wake that lags is what damps. Where wings bend, too,
 //! without the couple those grow whose elastic axis or mass lies behind a quarter of the chord: a wing of 0.3 x 0.08 m at
 //! 5 m/s by 15 1/s with the axis at 0.25 and the mass at 0.5, by 3 and 23 1/s with both at 0.3 and 0.4; with both at 0.25
 //! it decays.
@@ -56,7 +56,7 @@ impl FlightSetup {
         let (why, remedy) = match has_couple {
             false => (
                 "leave out the moment of thin-airfoil theory against feathering, and what is left",
-                "air.blade.rotation = \"circulation_and_couple\", air.blade.unsteady = \"peters\"",
+                "air.blade.rotation = \"circulation\" without rotation_coefficient, air.blade.unsteady = \"peters\"",
             ),
             true => (
                 "have no wake that lags, and what is left about an elastic axis behind mid chord",

@@ -82,7 +82,7 @@ fn energy_at_start(setup: &FlightSetup, first: &Record, (density, stream): (f64,
 fn remedy(setup: &FlightSetup) -> &'static str {
     match &setup.air {
         AirModel::BladeElement(air) if !air.blade.damps_feathering() => {
-            "Sections that feather while they fly backwards do so by the published laws: take air.blade.rotation = \"circulation_and_couple\", or air.blade.unsteady."
+            "Sections that feather while they fly backwards do so by the published laws: take air.blade.rotation = \"circulation\" without rotation_coefficient, or air.blade.unsteady."
         }
         AirModel::BladeElement(air) if air.blade.unsteady.is_none() => {
             "Circulation that follows the motion at once can do so, which wakes of strips (air.blade.unsteady) take up; look at coefficients of your own, too."

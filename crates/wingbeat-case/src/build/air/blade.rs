@@ -23,7 +23,6 @@ pub(crate) fn options(air: &AirCase, scale: f64) -> Built<BladeOptions> {
             (RotationCase::None, _) => Rotation::None,
             (_, Some(c)) => Rotation::Coefficient(c),
             (RotationCase::Circulation, None) => Rotation::Circulation,
-            (RotationCase::CirculationAndCouple, None) => Rotation::CirculationAndCouple,
             (RotationCase::SaneDickinson, None) => Rotation::SaneDickinson,
         },
         added_mass: case.added_mass,
