@@ -25,7 +25,7 @@ const OPEN: f64 = 1e-2;
 
 /// The momentum of a held flyer is open from the first on, and its motion is not resolved from the second on, over what
 /// moves beside its body. A fly in 40, 20, 14, 10 and 4 steps a beat: 1e-3, 0.03, 0.08, 0.24 and 1.5, whose lift is 0,
-/// 0.04, 0.1, 0.4 and 13 % off.
+/// 0.05, 0.1, 0.6 and 16 % off.
 const HELD: [f64; 2] = [0.04, 0.4];
 
 /// From here on steps do not resolve how passive joints move.
