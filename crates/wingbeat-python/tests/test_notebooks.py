@@ -21,7 +21,7 @@ def test_behaves_page_runs(page):
 
 
 def test_behaves_a_policy_that_learned_flies_longer_than_none():
-    """Of 30 wingbeats: 28.4 to 28.8 for three seeds of the search; half of the way from no control to the regulator is asked
+    """Of 30 wingbeats: 27.7 to 28.7 for three seeds of the search; half of the way from no control to the regulator is asked
     for.
     """
     example = runpy.run_path(str(ROOT / "crates" / "wingbeat-python" / "examples" / "learn_to_hover.py"))
