@@ -41,13 +41,13 @@ for line in sys.stdin:
     pitch = returning(0.25, 0.5 * tilt[1] + lean(place[0], drift[0]), rate[1])
     heading = returning(0.45, 0.5 * tilt[2], rate[2])
     # What the controls do to this fly: `wingbeat derivatives` over its mass and inertia.
-    amplitude = returning(20.0, place[2], drift[2]) / -16.9
-    apart = -0.92 * roll - 0.61 * heading  # right less left amplitude
-    planes = 0.90 * roll + 1.05 * heading  # right less left stroke plane, rad
+    amplitude = returning(20.0, place[2], drift[2]) / -16.5
+    apart = -0.95 * roll - 0.63 * heading  # right less left amplitude
+    planes = 0.91 * roll + 1.06 * heading  # right less left stroke plane, rad
     wings = []
     for wing in seen["wings"]:
         side = 0.5 if wing["side"] == "right" else -0.5
-        offset, plane = 1.31 * pitch, side * planes
+        offset, plane = 1.32 * pitch, side * planes
         degrees = {"stroke_offset_deg": 57.3 * offset, "stroke_plane_deg": 57.3 * plane}
         wings.append({"stroke_amplitude": amplitude + side * apart, **degrees})
     print(json.dumps({"wings": wings, "memory": start}), flush=True)
