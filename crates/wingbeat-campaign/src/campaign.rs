@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use sha2::{Digest, Sha256};
 use wingbeat_case::{IoError, LoadedCase};
-use wingbeat_flight::FlightSetup;
+use wingbeat_flight::{AirModel, FlightSetup};
 use wingbeat_results::summary::starting_beats;
 
 use crate::plan::blocks::points_of_block;
@@ -202,6 +202,9 @@ fn digest_of(file: &CampaignFile, numbers: &[Number]) -> Sha256 {
     let starts = starting_beats(&base.setup) > 0 || file.plan.varies_starts();
     if starts && numbers.iter().any(|n| n.source.is_mean()) {
         hash.update("means without starts and holds\n"); // they were of the last wingbeats, whatever these were
+    }
+    if matches!(base.setup.air, AirModel::BladeElement(_)) || file.plan.varies("air.model") {
+        hash.update("feathering by thin-airfoil theory\n"); // it was of the leading edge, without a moment
     }
     hash
 }

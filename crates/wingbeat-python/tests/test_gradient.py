@@ -19,7 +19,7 @@ X = np.array([200.0, 0.0, 0.01, 9.3e-7])
 
 def central(problem: Problem, x: np.ndarray) -> np.ndarray:
     """Five-point central differences over a fixed step: another way, with errors of fourth order in it."""
-    step = 3e-3 * (problem.upper - problem.lower)
+    step = 3e-4 * (problem.upper - problem.lower)
     columns = []
     for e in np.diag(step):
         a, b, c, d = problem.evaluate([x + e, x - e, x + 2 * e, x - 2 * e])

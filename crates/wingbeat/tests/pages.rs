@@ -79,7 +79,10 @@ fn agrees_the_recording_of_the_page_on_measured_angles_with_the_set_that_it_is_o
         "{check}"
     );
     let shown = said(dir, &["show", "tethered"]);
-    assert!(shown.contains("1.264") && shown.contains("24.95"), "{shown}");
+    assert!(
+        shown.contains("1.264") && shown.contains("24.95"),
+        "{shown}"
+    );
 }
 
 /// Tables of a left wing that has the strokes of the right one fly as its mirror image; with the sign of a right wing

@@ -105,8 +105,9 @@ fn behaves_the_remedy_is_that_of_what_brings_wings_through_each_other() {
 #[test]
 fn balances_a_tilted_flight_behind_slow_actuators() {
     let tilted = [
-        "flight.pitch_deg=69.54",
+        "flight.pitch_deg=69.69",
         "time.beats=80",
+        "time.steps_per_beat=60",
         "control.weights={}",
         "control.lag_beats=1",
     ];
@@ -125,7 +126,7 @@ fn exact_altitude_under_a_load_with_and_without_integral_action() {
     let sunk = [0.0, 0.02].map(|integral| {
         let integral = format!("control.stiffness={{altitude=0.2,integral={integral}}}");
         let setup = in_blades(&[
-            "flight.pitch_deg=49.58",
+            "flight.pitch_deg=49.69",
             "time.beats=400",
             "control.controller=stabiliser",
             "control.latency_beats=0",

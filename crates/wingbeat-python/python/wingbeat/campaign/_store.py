@@ -20,6 +20,8 @@ from wingbeat.campaign._task import Found, Task
 from wingbeat.errors import CaseError, ResultError
 
 _FORMAT = 1
+_FEATHERING = "feathering by thin-airfoil theory"
+"""Of blade elements; it was of the leading edge, without a moment."""
 _MOST = 1000
 """Points in a file at most."""
 
@@ -46,6 +48,8 @@ class Store:
     def key(self, point: Point) -> str:
         """The hash of a point: of its values, and of what is in files that they name."""
         text = self._task + json.dumps(point, sort_keys=True)
+        if "blade_element" in point.values():
+            text += _FEATHERING
         text += "".join(self._content(key, point[key]) for key in sorted(point))
         return hashlib.sha256(text.encode()).hexdigest()[:32]
 
@@ -109,6 +113,8 @@ def _digest(task: Task) -> str:
     parts = [_FORMAT, _core.version(), base, do, task.keep, task.last_beats]
     if task.do == "fly" and any(name in BEATS for name in task.keep):
         parts.append("means without smooth starts and holds")  # they were of the last wingbeats, whatever these were
+    if "blade_element" in json.dumps([base, do]):
+        parts.append(_FEATHERING)
     if isinstance(task.base, Flight):
         parts.append(task.base._core.hash_of_programs())
     return hashlib.sha256(json.dumps(parts).encode()).hexdigest()
