@@ -86,3 +86,18 @@ fn agrees_an_ensemble_that_is_stopped_with_one_of_so_many_wingbeats() {
     assert!(said.contains("two members or more"), "{said}");
     assert_eq!(ensemble(&flight(1.0), 2, 1).expect("flown").members, 2);
 }
+
+/// A flight without a step was no flight, and had an empty history.
+#[test]
+fn refuses_a_flight_without_a_step() {
+    let fly = Flight::preset("fruit-fly-blade").expect("a preset");
+    for beats in [0.0, 1e-9, -1.0, f64::NAN] {
+        let said = fly.clone().beats(beats).fly().map(|_| ());
+        let said = said.expect_err("no step").to_string();
+        assert!(
+            said.contains("time.steps = 0") && said.contains("Flight::beats"),
+            "{said}"
+        );
+    }
+    assert_eq!(fly.beats(0.006).fly().expect("a step").records.len(), 2);
+}
