@@ -2,7 +2,7 @@
 
 use wingbeat_case::LoadedCase;
 
-use crate::common::{preset, refusal};
+use crate::common::{self, preset, refusal};
 
 /// A joint of a left wing does not begin with what that of the right wing has.
 #[test]
@@ -187,4 +187,55 @@ fn behaves_control_without_a_controller_is_for_one_of_the_users_own() {
         .unwrap()
         .expect("it has [control]");
     assert_eq!((own.interval, own.latency, own.sensors), (30, 1, None));
+}
+
+/// A wing that stands still on a body without parts.
+const STILL: &str = "format = 1
+time = { step_s = 2e-3, steps = 6 }
+flight.mode = \"tethered\"
+air = { stream_m_s = [-3, 0, 0], shed = [\"trailing\"] }
+body = { mass_kg = 0.02, inertia_about_centre_kg_m2 = [1e-5, 1e-5, 1e-5, 0, 0, 0] }
+[wing.right]
+hinge_m = [0, 0.01, 0]
+mass_kg = 5e-4
+motion.psi.constant_deg = 5
+planform.rectangle = { chord_m = 0.03, span_m = 0.09 }
+mesh = { chordwise = 2, spanwise = 3 }
+";
+
+/// A body in the lattice that has no parts, and a frequency at which nothing beats and nothing is counted.
+#[test]
+fn behaves_bodies_and_frequencies_that_are_not_there_are_named() {
+    let said = |set: &[&str]| common::load(STILL, set).unwrap().idle_keys();
+    let records = |set: &[&str]| common::fly(common::load(STILL, set).unwrap().setup);
+    let plain = records(&[]);
+    for (set, key) in [
+        ("air.body=true", "air.body = true changes nothing"),
+        (
+            "motion.frequency_hz=10",
+            "motion.frequency_hz moves nothing",
+        ),
+    ] {
+        let [doubt] = &said(&[set])[..] else {
+            panic!("{set}")
+        };
+        assert!(doubt.starts_with(key), "{doubt}");
+        assert!(records(&[set]) == plain, "{set} moves something");
+    }
+    let part = "body.part.trunk={ length_m = 0.05, diameter_m = 0.01 }";
+    for set in [
+        &[][..],
+        &["air.body=false"],
+        &["air.body=true", part],
+        &[
+            "motion.frequency_hz=10",
+            "time={ steps_per_beat = 20, beats = 1 }",
+        ],
+        &[
+            "motion.frequency_hz=10",
+            "wing.right.motion.phi={ fourier = { sine_deg = [20] } }",
+        ],
+    ] {
+        assert_eq!(said(set), [""; 0], "{set:?}");
+    }
 }

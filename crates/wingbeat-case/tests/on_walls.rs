@@ -139,3 +139,25 @@ fn behaves_there_is_no_air_beyond_the_wall_of_half_a_model() {
     let in_air = flight.is_in_air(&[0.05, 1e-6, 0.0, -1e-6, -0.05].map(at));
     assert_eq!(in_air, [true, true, true, false, false]);
 }
+
+/// Roots that lie on the wall side by side are joined to their own images: no circulation ends there. Away from
+/// it, wings that are not left and right of each other are not advised to be joined, which no key does.
+#[test]
+fn behaves_roots_that_meet_on_a_wall_are_not_to_be_joined() {
+    let two = [
+        "wing.right.motion={ phi.constant_deg = 20 }",
+        "wing.upper={ side = \"right\", hinge_m = [0, 0, -1e-3], mass_kg = 5e-4, motion = { phi = { constant_deg = -20 } }, planform = { rectangle = { chord_m = 0.03, span_m = 0.09, axis_fraction = 0.25 } }, mesh = { chordwise = 3, spanwise = 4 } }",
+    ];
+    assert_eq!(setup(&two).unjoined_roots(), [""; 0]);
+    let apart = setup(&[&two[..], &["air.ground="]].concat());
+    let said = apart.unjoined_roots();
+    assert!(
+        said.len() == 1 && !said[0].contains("joined = true") && said[0].contains("hinge_m"),
+        "{said:?}"
+    );
+    let whole = setup(&["wing.right.mirror=true", "air.ground="]).unjoined_roots();
+    assert!(
+        whole.len() == 1 && whole[0].contains("joined = true"),
+        "{whole:?}"
+    );
+}

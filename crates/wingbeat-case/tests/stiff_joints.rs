@@ -205,3 +205,27 @@ fn behaves_flights_that_do_not_converge_say_so_by_every_form() {
         );
     }
 }
+
+/// A spring beyond all that steps resolve is named at its joint: half a lattice was to be computed whole, and
+/// then to take more steps.
+#[test]
+fn behaves_flights_that_a_stiff_spring_ends_name_it() {
+    for mirror in [true, false] {
+        let set = [
+            "joint.hinge-right.element[0].stiffness_newton_m_per_rad=1e10".to_owned(),
+            format!("air.mirror={mirror}"),
+            "time.beats=0.1".to_owned(),
+        ];
+        let case = LoadedCase::find("robobee", &set).unwrap();
+        assert_eq!(growing_joint(&case.setup), None, "bdf carries it");
+        let ended = flown(case.setup.clone()).expect_err("too stiff");
+        let refused = case.refused(&ended).to_string();
+        for words in [
+            "error: joint.hinge-right",
+            "far stiffer than steps resolve: w h = ",
+            "take less stiffness",
+        ] {
+            assert!(refused.contains(words), "{refused}\nhas no {words}");
+        }
+    }
+}

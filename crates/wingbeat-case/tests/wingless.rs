@@ -21,6 +21,7 @@ fn refuses_motions_of_wings_that_are_not_there() {
         "motion.difference={ stroke_offset_deg = 1 }",
         "motion.start=impulsive",
         "motion.start_beats=2",
+        "dynamics.wings=massless",
     ] {
         let Err(refused) = load(&[set.to_owned()]) else {
             panic!("{set} is accepted");

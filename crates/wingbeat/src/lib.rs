@@ -46,7 +46,7 @@ extern crate self as wingbeat; // the command line is written as any other user 
 pub mod command;
 mod facade;
 
-pub use facade::{Beat, Error, Flight, Run, ensemble, fly_all};
+pub use facade::{Beat, Error, Flight, Run, WatchedEnsemble, ensemble, ensemble_watched, fly_all};
 
 /// What a program that flies needs: `use wingbeat::prelude::*;`.
 ///

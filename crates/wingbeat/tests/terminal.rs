@@ -265,3 +265,35 @@ fn behaves_an_interrupted_sweep_has_what_is_done() {
     assert!(rest.contains(&told), "{rest:?}");
     assert!(scratch.0.join("s.svg").is_file());
 }
+
+/// An ensemble that is interrupted reports the flights that reached their end, and which did not, with the exit
+/// code of an interruption.
+#[test]
+fn behaves_an_interrupted_ensemble_has_the_flights_that_are_done() {
+    let scratch = Scratch::new("ensemble-stopped");
+    let args = "ensemble fruit-fly-blade --members 9000 --threads 2 --json --set time.beats=1";
+    let mut command = Command::new(env!("CARGO_BIN_EXE_wingbeat"));
+    let command = command.current_dir(&scratch.0).args(args.split(' '));
+    let child = command.stdout(Stdio::piped()).stderr(Stdio::piped());
+    let mut child = child.spawn().unwrap();
+    let mut errors = BufReader::new(child.stderr.take().unwrap()).lines();
+    let third = errors.find(|l| l.as_ref().is_ok_and(|l| l.contains(": 3 of 9000 flights")));
+    assert!(third.is_some(), "it tells of each flight");
+    signal(&child, "INT");
+    let rest: Vec<String> = errors.map(Result::unwrap).collect();
+    let out = child.wait_with_output().unwrap();
+    assert_eq!(out.status.code(), Some(130), "{rest:?}");
+    let told = "interrupted: the flights end after this step";
+    assert!(rest.iter().any(|l| l.starts_with(told)), "{rest:?}");
+    let report: serde_json::Value = serde_json::from_slice(&out.stdout).unwrap();
+    let length = |name: &str| report[name].as_array().unwrap().len();
+    assert_eq!(report["complete"], false);
+    let [flown, left] = ["members_of_means", "unfinished_members"].map(length);
+    assert!(
+        flown >= 3 && left >= 1 && flown + left == 9000,
+        "{flown} {left}"
+    );
+    assert_eq!(report["ensemble"]["members"], flown);
+    let told = format!("interrupted: {left} of 9000 flights were not flown to their end");
+    assert!(rest.contains(&told), "{rest:?}");
+}

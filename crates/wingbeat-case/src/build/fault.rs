@@ -90,12 +90,12 @@ fn most_extreme(key: String, value: &toml::Value) -> Option<(f64, String)> {
     }
 }
 
-/// A key without effect, and why.
-pub(super) fn idle(key: impl Into<String>, why: &str) -> Fault {
+/// A key without effect, why, and beside what it has one.
+pub(super) fn idle(key: impl Into<String>, why: &str, acts: &str) -> Fault {
     Fault::new(
         key,
         format!("this has no effect {why}"),
-        "no such key here",
-        "remove it",
+        acts,
+        "remove it, or give what it acts on",
     )
 }

@@ -9,7 +9,46 @@ use crate::raw::{ControllerCase, TargetCase};
 impl LoadedCase {
     /// Which keys change nothing, in sentences.
     pub fn idle_keys(&self) -> Vec<String> {
-        [self.idle_biases(), self.idle_motion(), self.idle_camber()].concat()
+        [
+            self.idle_biases(),
+            self.idle_motion(),
+            self.idle_camber(),
+            self.idle_frequency(),
+            self.idle_body(),
+        ]
+        .concat()
+    }
+
+    /// A frequency at which nothing beats, in a flight whose steps are not counted by it.
+    fn idle_frequency(&self) -> Vec<String> {
+        let (setup, raw) = (&self.setup, &self.raw);
+        let is_still = setup.animal.wings.iter().all(Wing::is_still);
+        let counts = raw.time.step_s.is_none() || raw.time.steps.is_none();
+        let acts = !is_still
+            || counts
+            || !setup.joints.is_empty()
+            || setup.feedback.is_some()
+            || raw.flight.held_beats > 0.0;
+        let period = setup.time.period.filter(|_| !acts);
+        period
+            .map(|period| {
+                format!(
+                    "motion.frequency_hz moves nothing: no wing has angles that vary over the beat (wing.NAME.motion); the flight is divided into beats of {period:.4e} s for means, and no more"
+                )
+            })
+            .into_iter()
+            .collect()
+    }
+
+    /// A body that is to be part of the lattice and has no parts.
+    fn idle_body(&self) -> Vec<String> {
+        let raw = &self.raw;
+        let asks = raw.air.body && self.gives("air.body");
+        let is_lattice = matches!(self.setup.air, AirModel::VortexLattice(_));
+        match is_lattice && asks && raw.body.part.is_empty() {
+            true => vec!["air.body = true changes nothing: the body has no parts that the air could meet; give its shape in [body.part.NAME]".to_owned()],
+            false => vec![],
+        }
     }
 
     /// How the beat of wings starts whose angles are all constant, as those of wings on joints that springs or

@@ -34,9 +34,11 @@ fn number(shape: Shape, x: f64) -> Option<String> {
     let high = bound("maximum").is_some_and(|b| x > b)
         || bound("exclusiveMaximum").is_some_and(|b| x >= b);
     let uneven = bound("multipleOf").is_some_and(|b| x % b != 0.0);
+    // Of whole numbers from 1 on, none is measured.
+    let is_size = least.is_some_and(|b| (0.0..1.0).contains(&b));
     let problem = match (low, high) {
-        (true, _) if x < 0.0 && least == Some(0.0) => "this must not be negative",
-        (true, _) if x == 0.0 && least == Some(0.0) => "this must not be zero",
+        (true, _) if x < 0.0 && is_size => "this must not be negative",
+        (true, _) if x == 0.0 && is_size => "this must not be zero",
         (true, _) => "this is too small",
         (_, true) => "this is too large",
         _ if uneven => "this must be even",
@@ -81,7 +83,8 @@ pub(super) fn allowed(shape: Shape) -> Option<String> {
     if let Some(only) = exact {
         return Some(format!("{only}"));
     }
-    let bound = |(name, sign): (&str, &str)| Some(format!("{sign} {}", shape.number(name)?));
+    let bound =
+        |(name, sign): (&str, &str)| Some(format!("{sign} {}", in_few_digits(shape.number(name)?)));
     let bounds: Vec<String> = signs.into_iter().filter_map(bound).collect();
     if bounds.is_empty() {
         return None;
@@ -92,4 +95,13 @@ pub(super) fn allowed(shape: Shape) -> Option<String> {
         _ => "a finite number",
     };
     Some(format!("{what} {}", bounds.join(" and ")))
+}
+
+/// A bound in digits, or in powers of ten where these are shorter.
+fn in_few_digits(bound: f64) -> String {
+    let [plain, powers] = [format!("{bound}"), format!("{bound:e}")];
+    match plain.len() > 8 && powers.len() < plain.len() {
+        true => powers,
+        false => plain,
+    }
 }

@@ -152,7 +152,7 @@ pub(crate) fn beside_own_air(source: &CaseSource) -> Checked {
             return Err(Fault::new(
                 lost,
                 "this has no effect beside a model of the air of your own",
-                "no such key here",
+                "in air that the case chooses (air.model)",
                 "let the model compute it, and take the key away",
             ));
         }

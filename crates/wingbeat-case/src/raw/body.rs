@@ -16,13 +16,13 @@ pub struct BodyCase {
     /// keep their sizes.
     ///
     /// Change it to the length that was measured.
-    #[schemars(extend("exclusiveMinimum" = 0))]
+    #[schemars(extend("minimum" = 1e-9, "maximum" = 1e5))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub length_m: Option<f64>,
     /// Mass of the body without wings. Left out: the sum of its parts.
     ///
     /// Change it to the mass that was measured.
-    #[schemars(extend("exclusiveMinimum" = 0))]
+    #[schemars(extend("minimum" = 1e-15, "maximum" = 1e9))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub mass_kg: Option<f64>,
     /// Mass centre in body axes, from the body origin. Left out: the origin.
@@ -80,13 +80,13 @@ pub struct PartCase {
     /// Length along the axis.
     ///
     /// Change it to what was measured.
-    #[schemars(extend("exclusiveMinimum" = 0, "with" = REVOLUTION))]
+    #[schemars(extend("minimum" = 1e-9, "maximum" = 1e5, "with" = REVOLUTION))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub length_m: Option<f64>,
     /// Largest diameter.
     ///
     /// Change it to what was measured.
-    #[schemars(extend("exclusiveMinimum" = 0, "with" = REVOLUTION))]
+    #[schemars(extend("minimum" = 1e-9, "maximum" = 1e5, "with" = REVOLUTION))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub diameter_m: Option<f64>,
     /// Shape of the outline. Left out: an ellipsoid.
@@ -135,14 +135,14 @@ pub struct PartCase {
     /// Mass of the part, spread evenly.
     ///
     /// Change it to the mass that was measured.
-    #[schemars(range(min = 0))]
+    #[schemars(range(min = 0, max = 1e9))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub mass_kg: Option<f64>,
     /// Density of the part. Surfaces of revolution have the mass of the round solid, meshes that of the solid
     /// within their panels.
     ///
     /// Change it where no mass was measured: insect tissue has about 1000.
-    #[schemars(range(min = 0), extend("or" = "mass_kg"))]
+    #[schemars(range(min = 0, max = 1e9), extend("or" = "mass_kg"))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub density_kg_m3: Option<f64>,
 }

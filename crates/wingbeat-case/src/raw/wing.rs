@@ -42,13 +42,13 @@ pub struct WingCase {
     /// Mass of this wing, spread evenly over its area if nothing else is said; 0 is allowed.
     ///
     /// Change it to the mass that was measured: an insect's wing has 0.5 to 1 % of the body's.
-    #[schemars(range(min = 0))]
+    #[schemars(range(min = 0, max = 1e9))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub mass_kg: Option<f64>,
     /// Mass per area, instead of `mass_kg`.
     ///
     /// Change it where the membrane was weighed and not the wing.
-    #[schemars(range(min = 0), extend("or" = "mass_kg"))]
+    #[schemars(range(min = 0, max = 1e9), extend("or" = "mass_kg"))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub areal_density_kg_m2: Option<f64>,
     /// Mass per area over the span, instead of `mass_kg`: rows [distance from the hinge in m,
@@ -144,7 +144,7 @@ pub struct BetaCase {
     /// Wing length R, hinge to tip.
     ///
     /// Change it to what was measured.
-    #[schemars(extend("exclusiveMinimum" = 0))]
+    #[schemars(extend("minimum" = 1e-9, "maximum" = 1e5))]
     pub length_m: f64,
     /// Mean chord S/R.
     ///
@@ -198,12 +198,12 @@ pub struct RectangleCase {
     /// Chord.
     ///
     /// Change it to what was measured.
-    #[schemars(extend("exclusiveMinimum" = 0))]
+    #[schemars(extend("minimum" = 1e-9, "maximum" = 1e5))]
     pub chord_m: f64,
     /// Span from root to tip.
     ///
     /// Change it to what was measured.
-    #[schemars(extend("exclusiveMinimum" = 0))]
+    #[schemars(extend("minimum" = 1e-9, "maximum" = 1e5))]
     pub span_m: f64,
     /// Distance from the hinge to the root.
     ///

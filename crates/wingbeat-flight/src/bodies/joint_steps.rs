@@ -30,6 +30,10 @@ const GROWS: f64 = 1.01;
 /// Growth a step that is none \[1\]: a few parts in a thousand over a hundred steps.
 const STAYS: f64 = 1.0 + 1e-4;
 
+/// w h from which a spring is far stiffer than steps resolve \[1\]: the hinges of insects and robots have 0.1
+/// to 1, and from some 1e4 on roundings of the angle part halves of a flyer that are alike.
+const STIFF: f64 = 1e3;
+
 /// Most times as many steps that are looked at as a remedy.
 const MAX_FINER: u32 = 1000;
 
@@ -53,6 +57,12 @@ pub struct JointSteps {
 impl JointSteps {
     /// What is said of it under the integrator of `setup`.
     pub fn said(&self, setup: &FlightSetup) -> String {
+        if self.growth <= GROWS {
+            return format!(
+                "the spring of joint `{}` is far stiffer than steps resolve: w h = {:.1e} (angular frequency and step, rigid and in a vacuum), and roundings of its angle move what hangs on it",
+                self.joint, self.vibration
+            );
+        }
         format!(
             "{} act faster than dynamics.integrator = \"{}\" carries: c h / I = {:.2}, w h = {:.2} (damping, angular frequency, and step; rigid and in a vacuum), where a disturbance becomes {:.2} times as large in every step",
             match self.is_together {
@@ -74,16 +84,9 @@ impl JointSteps {
 pub fn growing_joint(setup: &FlightSetup) -> Option<JointSteps> {
     let method = equal_steps(setup)?;
     let h = setup.time.step;
-    let joints = setup.joints.iter().enumerate();
-    let open = joints.filter(|(k, _)| !closes_loop(&setup.joints, *k));
-    let directions = open.flat_map(|(_, j)| (0..j.model.kind.directions()).map(move |k| (j, k)));
-    let acted = directions.filter(|(j, k)| j.model.damping_and_stiffness(*k) != [0.0; 2]);
-    let acted: Vec<(&Joint, usize)> = acted.collect();
+    let acted = acted(setup);
     let found = mobilities_of(setup, &acted)?;
-    let efforts: Vec<[f64; 2]> = acted
-        .iter()
-        .map(|(j, k)| j.model.damping_and_stiffness(*k).map(|x| x.max(0.0)))
-        .collect();
+    let efforts = efforts(&acted);
     let steps = |joint: usize, both: [f64; 2], is_together: bool| {
         let growth = method.growth(both, h);
         let found = JointSteps {
@@ -104,6 +107,44 @@ pub fn growing_joint(setup: &FlightSetup) -> Option<JointSteps> {
     let alone = (0..acted.len()).filter_map(one).max_by(faster);
     let most = alone.as_ref().map_or(0.0, |a| a.growth) * (1.0 + SAME);
     all.max_by(faster).filter(|a| a.growth > most).or(alone)
+}
+
+/// The joint whose spring vibrates fastest in the steps of `setup`, where it does so beyond all that steps
+/// resolve, whether they carry it or not; none where all springs are softer.
+pub(crate) fn stiff_joint(setup: &FlightSetup) -> Option<JointSteps> {
+    let acted = acted(setup);
+    let found = mobilities_of(setup, &acted)?;
+    let springs = efforts(&acted).into_iter().enumerate();
+    let of = |(i, [_, stiffness]): (usize, [f64; 2])| {
+        JointSteps {
+        joint: acted[i].0.name.clone(),
+        is_together: false,
+        damping: 0.0,
+        vibration: (stiffness * found[i][i]).sqrt() * setup.time.step,
+        growth: 1.0,
+        remedy: "less stiffness: look at its unit; a joint that is not to turn is kind = \"weld\", and a wing without a joint is driven as its motion has it".into(),
+    }
+    };
+    let fastest = springs
+        .map(of)
+        .max_by(|a, b| a.vibration.total_cmp(&b.vibration));
+    fastest.filter(|j| j.vibration > STIFF)
+}
+
+/// Free directions, with their joints, along which springs or dampers act; those of joints that close loops are
+/// left out.
+fn acted(setup: &FlightSetup) -> Vec<(&Joint, usize)> {
+    let joints = setup.joints.iter().enumerate();
+    let open = joints.filter(|(k, _)| !closes_loop(&setup.joints, *k));
+    let directions = open.flat_map(|(_, j)| (0..j.model.kind.directions()).map(move |k| (j, k)));
+    let acted = directions.filter(|(j, k)| j.model.damping_and_stiffness(*k) != [0.0; 2]);
+    acted.collect()
+}
+
+/// Damping and stiffness along these directions [N m s and N m, N s/m and N/m].
+fn efforts(acted: &[(&Joint, usize)]) -> Vec<[f64; 2]> {
+    let of = |(j, k): &(&Joint, usize)| j.model.damping_and_stiffness(*k).map(|x| x.max(0.0));
+    acted.iter().map(of).collect()
 }
 
 /// Growth that is the same, over itself \[1\].

@@ -5,7 +5,6 @@ use wingbeat_model::{
 };
 
 use super::said::names;
-use crate::air::check_joined;
 use crate::setup::FlightSetup;
 
 /// Depth ([`crossing_depth`]) over the mean chord up to which wings that pass through each other graze \[1\].
@@ -73,8 +72,7 @@ impl FlightSetup {
     /// What to do about wings that pass through each other.
     fn apart(&self, found: &Crossing, is_joined: bool) -> String {
         let remedy = "move their hinges apart (hinge_m), sweep them (theta) or change their phase";
-        let may_be_joined =
-            self.air.lattice().is_some() && check_joined(&self.animal, found.wings).is_ok();
+        let may_be_joined = self.air.lattice().is_some() && self.may_be_joined(found.wings);
         match (is_joined, may_be_joined) {
             (true, _) => "feather less at the joined roots (twist the wing instead), change their phase, or do not join them".to_owned(),
             (false, true) => format!("join them at their roots (joined = true of the wing), {remedy}"),

@@ -1,10 +1,11 @@
 //! Wings whose roots meet, or tip and root, or that stand on a plane of images, and are not joined there: the lattice has a gap there,
 //! through which air passes.
 
-use wingbeat_model::{Spacing, are_joined, pairs, roots_meet};
+use wingbeat_air::EdgeKind;
+use wingbeat_model::{Spacing, are_joined, mirror_name, pairs, roots_meet};
 
 use crate::air::{EdgeOnPlane, ON_PLANE, check_joined, check_joined_tip, tip_gap};
-use crate::setup::{FlightSetup, MotionMode};
+use crate::setup::{AirOptions, FlightSetup, MotionMode};
 
 /// How near roots are that meet, and those that lie on each other, whose filaments cancel, over their chords \[1\].
 const NEAR: f64 = 0.1;
@@ -20,7 +21,9 @@ impl FlightSetup {
             _ => return vec![],
         };
         let pairs = pairs(self.prescribed_wings().into_iter());
-        let apart = pairs.filter(|pair| !are_joined(&air.joined, *pair));
+        let goes_on = self.goes_on(air);
+        let ends = |pair: [usize; 2]| !pair.into_iter().all(|w| goes_on(w, EdgeKind::Root));
+        let apart = pairs.filter(|pair| !are_joined(&air.joined, *pair) && ends(*pair));
         let wings = &self.animal.wings;
         let reach = |w: usize| wings[w].mesh.columns == Spacing::Cosine || air.lattice.inset == 0.0;
         let closes =
@@ -42,6 +45,7 @@ impl FlightSetup {
             own.map(|joint| joint.parent.unwrap_or(0))
         };
         let reach = |w: usize| wings[w].mesh.columns == Spacing::Cosine || air.lattice.inset == 0.0;
+        let goes_on = self.goes_on(air);
         let meets = |&[a, b]: &[usize; 2]| {
             let gap = match (carrier(a), carrier(b)) {
                 (_, Some(by)) if by == a + 1 => tip_gap(&self.animal, [a, b], false),
@@ -49,12 +53,19 @@ impl FlightSetup {
                 _ => return false,
             };
             let closes = [a, b].into_iter().all(reach) && gap <= SAME;
-            gap <= NEAR && !closes && !air.joined_tips.contains(&[a, b])
+            let ends = !goes_on(a, EdgeKind::Tip) || !goes_on(b, EdgeKind::Root);
+            gap <= NEAR && !closes && ends && !air.joined_tips.contains(&[a, b])
         };
         let others = |a: usize| (0..wings.len()).map(move |b| [a, b]);
         let all = (0..wings.len()).flat_map(others).filter(|[a, b]| a != b);
         let say = |[a, b]: [usize; 2]| self.say_unjoined_tip([a, b], carrier(b) == Some(a + 1));
         all.filter(meets).map(say).collect()
+    }
+
+    /// Whether the circulation of this edge of a wing goes on in its own mirror image in a plane of images.
+    fn goes_on(&self, air: &AirOptions) -> impl Fn(usize, EdgeKind) -> bool + use<> {
+        let edges = self.edges_on_planes(air);
+        move |w, kind| (edges.iter()).any(|e| e.wing == w && e.kind == kind && e.is_joined())
     }
 
     fn say_unjoined_tip(&self, pair: [usize; 2], is_carried: bool) -> String {
@@ -98,11 +109,21 @@ impl FlightSetup {
         ))
     }
 
+    /// Whether a key of a case joins the roots of these wings: they are left and right of each other, and their
+    /// roots meet off all planes of images.
+    pub(super) fn may_be_joined(&self, pair: [usize; 2]) -> bool {
+        let [a, b] = pair.map(|w| &self.animal.wings[w].name);
+        let is_free = |w: usize| !self.is_on_plane(w, EdgeKind::Root);
+        mirror_name(a).is_some_and(|other| other == **b)
+            && pair.into_iter().all(is_free)
+            && check_joined(&self.animal, pair).is_ok()
+    }
+
     fn say_unjoined(&self, pair: [usize; 2]) -> String {
         let [a, b] = pair.map(|w| &self.animal.wings[w].name);
-        let remedy = match check_joined(&self.animal, pair) {
-            Ok(()) => "join them (joined = true of the wing), or move the hinges apart (hinge_m)",
-            Err(_) => "move the hinges apart (hinge_m)",
+        let remedy = match self.may_be_joined(pair) {
+            true => "join them (joined = true of the wing), or move the hinges apart (hinge_m)",
+            false => "move the hinges apart (hinge_m)",
         };
         format!(
             "the roots of wings `{a}` and `{b}` meet and are not joined: their circulation ends there, so that lift is low, by a seventh in a stream at an aspect ratio of 6, and drag high; {remedy}"

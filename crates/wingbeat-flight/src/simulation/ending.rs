@@ -6,7 +6,7 @@ use std::f64::consts::TAU;
 use wingbeat_dynamics::DynamicsError;
 
 use super::Simulation;
-use crate::bodies::joint_steps::growing_joint;
+use crate::bodies::joint_steps::{growing_joint, stiff_joint};
 use crate::error::FlightError;
 use crate::setup::{FormulationChoice, IntegratorChoice};
 
@@ -14,7 +14,8 @@ use crate::setup::{FormulationChoice, IntegratorChoice};
 const LENGTHS: f64 = 100.0;
 
 impl Simulation {
-    /// The error `ended` of a step, or what made it: a free joint whose motion the integrator does not carry.
+    /// The error `ended` of a step, or what made it: a free joint whose motion the integrator does not carry,
+    /// or whose spring is far stiffer than steps resolve.
     pub(super) fn explained(&self, ended: FlightError) -> FlightError {
         let may_follow = matches!(
             ended,
@@ -30,7 +31,7 @@ impl Simulation {
         let (setup, integrator) = (&self.setup, self.setup.integrator.name());
         let time = self.time(self.state.step);
         let ended = Box::new(ended);
-        if let Some(found) = growing_joint(setup) {
+        if let Some(found) = growing_joint(setup).or_else(|| stiff_joint(setup)) {
             return FlightError::JointGrows {
                 time,
                 acts: Some(found.said(setup)),

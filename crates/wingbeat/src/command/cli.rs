@@ -27,7 +27,8 @@ pub(crate) const STYLES: Styles = Styles::styled()
 ///
 /// Exit codes: 0 done; 1 the flight, the writing or a print failed midway (what was flown is kept);
 /// 2 nothing was run: command line, case or output directory cannot be used; 130 a flight was
-/// interrupted by Ctrl-C or SIGTERM (what was flown is kept). Analyses end by these signals at once.
+/// interrupted by Ctrl-C or SIGTERM (what was flown is kept). `ensemble`, `flutter` and
+/// `trim --sweep` report what is done when these signals end them; all other analyses end at once.
 #[derive(Parser)]
 #[command(version, max_term_width = MAX_WIDTH, styles = STYLES)]
 pub(crate) struct Cli {

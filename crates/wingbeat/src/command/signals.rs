@@ -16,7 +16,7 @@ use crate::command::output::terminal::tell;
 pub(crate) struct Interrupts {
     stop: Arc<AtomicBool>,
     is_built: Arc<AtomicBool>,
-    /// What is finished after the first signal, where that may take a while.
+    /// What follows the first signal before the report, where that may take a while.
     finishes: Option<&'static str>,
 }
 
@@ -44,8 +44,8 @@ impl Interrupts {
     }
 }
 
-/// Set by the first signal, for work in parts that may take a while: the one that is under way is finished, in words
-/// (`this speed`), and what is done is reported.
+/// Set by the first signal, for work in parts that may take a while: what becomes of those under way, in words
+/// (`this speed is finished`), and what is done is reported.
 pub(crate) fn stop_flag_after(part: &'static str) -> Arc<AtomicBool> {
     let interrupts = Interrupts {
         finishes: Some(part),
@@ -77,7 +77,7 @@ fn watch(interrupts: Interrupts) -> std::io::Result<()> {
             }
             if let Some(part) = interrupts.finishes {
                 tell!(
-                    "interrupted: {part} is finished, and what is done is reported; a second Ctrl-C ends it at once"
+                    "interrupted: {part}, and what is done is reported; a second Ctrl-C ends it at once"
                 );
             }
         }

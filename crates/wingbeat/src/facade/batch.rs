@@ -35,8 +35,18 @@ pub fn fly_all<T: Send>(
     threads: usize,
     keep: impl Fn(Run) -> T + Sync,
 ) -> Result<Vec<Result<T, Error>>, Error> {
+    over_threads(flights, threads, |_, flight| flight.fly().map(&keep))
+}
+
+/// What `fly` makes of each of `flights` and its place in the list, in their order, over so many `threads` (0:
+/// as many as the machine has).
+pub(super) fn over_threads<T: Send>(
+    flights: &[Flight],
+    threads: usize,
+    fly: impl Fn(usize, &Flight) -> T + Sync,
+) -> Result<Vec<T>, Error> {
     let pool = ThreadPoolBuilder::new().num_threads(threads).build()?;
-    let fly = |flight: &Flight| flight.fly().map(&keep);
     // One by one: some flights are longer than others.
-    Ok(pool.install(|| flights.par_iter().with_max_len(1).map(fly).collect()))
+    let all = flights.par_iter().with_max_len(1).enumerate();
+    Ok(pool.install(|| all.map(|(k, flight)| fly(k, flight)).collect()))
 }

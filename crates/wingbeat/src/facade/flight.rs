@@ -7,7 +7,8 @@ use wingbeat_analysis::{Trim, TrimProblem};
 use wingbeat_case::{IoError, LoadedCase};
 use wingbeat_draw::draw_run;
 use wingbeat_flight::{
-    AirModel, Feedback, FlightSetup, MotionMode, Record, Simulation, StartState, TimeGrid, faster,
+    AirModel, Feedback, FlightError, FlightSetup, MotionMode, Record, Simulation, StartState,
+    TimeGrid, faster,
 };
 use wingbeat_math::DVec3;
 use wingbeat_model::{Animal, Start};
@@ -133,7 +134,7 @@ impl Flight {
         self
     }
 
-    /// How many wingbeats are flown.
+    /// How many wingbeats are flown, to the nearest step; of a flight without a step [`Self::fly`] is refused.
     pub fn beats(mut self, beats: f64) -> Self {
         self.setup.time.steps = (beats * self.steps_per_beat()).round() as usize;
         self
@@ -221,6 +222,11 @@ impl Flight {
     /// # Errors
     /// A setup that is refused; of a case as it was read, with its key and line.
     pub fn begin(&self) -> Result<Simulation, Error> {
+        if self.setup.time.steps == 0 {
+            let remedy =
+                "a flight has a step or more: fly longer (Flight::beats), or give setup.time.steps";
+            return Err(FlightError::setup("time.steps", "0", remedy).into());
+        }
         Simulation::new(self.setup.clone()).map_err(|e| match self.unchanged_case() {
             Some(case) => IoError::from(case.refused(&e)).into(),
             None => e.into(),

@@ -7,7 +7,7 @@ mod flight;
 mod run;
 
 pub use batch::fly_all;
-pub use ensemble::ensemble;
+pub use ensemble::{WatchedEnsemble, ensemble, ensemble_watched};
 pub use error::Error;
 pub use flight::Flight;
 pub use run::{Beat, Run};

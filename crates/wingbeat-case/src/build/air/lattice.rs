@@ -97,6 +97,7 @@ fn overlap_slope(case: &AirCase) -> Built<f64> {
         Some(slope) if slope != OVERLAP_SLOPE && !resolve::has_slope(case) => Err(idle(
             "air.wake_overlap_slope",
             "without algebraic cores of the wake, as wide as air.wake_overlap (above 0) has them",
+            "with air.wake_core = algebraic and an air.wake_overlap above 0",
         )),
         slope => Ok(slope.unwrap_or(OVERLAP_SLOPE)),
     }

@@ -46,6 +46,7 @@ pub(crate) fn given_once(air: &AirCase) -> Built<()> {
         true => Err(idle(
             KEY,
             "with cores that do not spread and air.section_drag.friction = none",
+            "with friction of the sections, or with cores that spread (algebraic, lamb_oseen)",
         )),
         false => Ok(()),
     }

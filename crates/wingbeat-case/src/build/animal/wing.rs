@@ -259,8 +259,8 @@ fn mesh(source: &Source<'_>, side: Side) -> Built<GridMesh> {
             return Err(Fault::new(
                 format!("wing.{named}.mesh"),
                 format!("this has no effect beside {path}.nodes_m, which is the mesh"),
-                "no such key here",
-                "remove it",
+                "beside other planforms, which it divides into panels",
+                "remove it, or give the wing another planform",
             ));
         }
         PlanformCase::Beta(b) => beta(&format!("{path}.beta"), b)?,

@@ -5,14 +5,13 @@ use wingbeat_model::motion::Adjustment;
 use wingbeat_model::planform::Spacing;
 use wingbeat_model::{Animal, Wing, mirror_name};
 
-use crate::build::checks::{model_keys, spacing, wingless};
+use crate::build::checks::{model_keys, spacing, still, wingless};
 use crate::build::fault::{Built, idle};
 use crate::error::Fault;
 use crate::motion::carrier::rides_on_wing;
 use crate::motion::own_motion::{every_phase, every_wing, has_all_angles};
 use crate::raw::{
-    ANGLES, AirModel, Case, Formulation, JointCase, Mode, TetherCase, TurnCase, WingCase,
-    WingMeshCase,
+    ANGLES, AirModel, Case, Formulation, JointCase, Mode, TurnCase, WingCase, WingMeshCase,
 };
 use crate::shipped::data::find_data;
 use crate::text::source::CaseSource;
@@ -24,7 +23,7 @@ pub(crate) fn check(case: &Case, setup: &FlightSetup, source: &CaseSource) -> Bu
     spacing::check(case)?;
     motion(case, &setup.animal, source)?;
     adjustments(case, setup)?;
-    still_motion(case, setup)?;
+    still::motion(case, setup)?;
     joints(case)?;
     frames(case, source)?;
     wingless::check(case, source)?;
@@ -42,7 +41,8 @@ fn springs(case: &Case) -> Built<()> {
     for (name, spring) in &case.spring {
         if spring.stiffness_newton_per_m == 0.0 && spring.damping_newton_s_per_m == 0.0 {
             let why = "without stiffness_newton_per_m or damping_newton_s_per_m";
-            return Err(idle(format!("spring.{name}"), why));
+            let acts = "with stiffness_newton_per_m or damping_newton_s_per_m above 0";
+            return Err(idle(format!("spring.{name}"), why, acts));
         }
     }
     Ok(())
@@ -50,15 +50,16 @@ fn springs(case: &Case) -> Built<()> {
 
 /// Beats at which a body is to be held that are none.
 fn held_beats(case: &Case, setup: &FlightSetup) -> Built<()> {
-    let why = match (setup.time.period, &setup.mode) {
+    let [why, acts] = match (setup.time.period, &setup.mode) {
         _ if case.flight.held_beats <= 0.0 => return Ok(()),
-        (None, _) => "where nothing beats",
-        (_, MotionMode::Free(start)) if start.held_steps == 0 => {
-            "as it is shorter than half a step of the flight"
-        }
+        (None, _) => ["where nothing beats", "with motion.frequency_hz above 0"],
+        (_, MotionMode::Free(start)) if start.held_steps == 0 => [
+            "as it is shorter than half a step of the flight",
+            "0, or half a step or more",
+        ],
         _ => return Ok(()),
     };
-    Err(idle("flight.held_beats", why))
+    Err(idle("flight.held_beats", why, acts))
 }
 
 /// A tether that holds nothing, oscillates at no frequency, or starts what does not start.
@@ -66,16 +67,23 @@ fn tether(case: &Case, setup: &FlightSetup) -> Built<()> {
     let Some(tether) = &case.flight.tether else {
         return Ok(());
     };
-    still_on_tether(tether)?;
+    still::on_tether(tether)?;
     let starts = tether.start_s.is_some();
-    let start = |why| Err(idle("flight.tether.start_s", why));
+    let start = |why, acts| Err(idle("flight.tether.start_s", why, acts));
     match &setup.mode {
         MotionMode::Free(_) if case.flight.held_beats == 0.0 => Err(idle(
             "flight.tether",
-            "in free flight that is not held at first: give flight.held_beats, or mode = \"tethered\"",
+            "in free flight that is not held at first",
+            "with flight.held_beats above 0, or with mode = \"tethered\"",
         )),
-        MotionMode::Free(_) if starts => start("in free flight, which goes on as it is held"),
-        MotionMode::Tethered(motion) if starts && motion.rests() => start("on a body at rest"),
+        MotionMode::Free(_) if starts => start(
+            "in free flight, which goes on as it is held",
+            "with mode = \"tethered\"",
+        ),
+        MotionMode::Tethered(motion) if starts && motion.rests() => start(
+            "on a body at rest",
+            "with x, y, z, pitch, yaw or roll that move it",
+        ),
         _ => Ok(()),
     }
 }
@@ -89,7 +97,11 @@ fn formulation(case: &Case, setup: &FlightSetup) -> Built<()> {
         (false, Formulation::Momentum) | (true, Formulation::Quaternion) => Ok(()),
         (false, _) => {
             let why = "with flight.mode = \"tethered\": all motion is prescribed";
-            Err(idle(KEY, why))
+            Err(idle(
+                KEY,
+                why,
+                "in free flight, or with joints that move freely",
+            ))
         }
         (true, _) => Err(Fault::new(
             KEY,
@@ -124,22 +136,28 @@ fn bodies(case: &Case) -> Built<()> {
         for (name, part) in &body.part {
             let path = |key: &str| format!("body.part.{name}.{key}");
             let why = "beside body.mass_kg and body.inertia_about_centre_kg_m2";
+            let acts = "without one of these two, of which parts then make up the other";
             if part.density_kg_m3.is_some() {
-                return Err(idle(path("density_kg_m3"), why));
+                return Err(idle(path("density_kg_m3"), why, acts));
             }
             if part.mass_kg.is_some() {
-                return Err(idle(path("mass_kg"), why));
+                return Err(idle(path("mass_kg"), why, acts));
             }
         }
     }
     for (name, wing) in &case.wing {
         if wing.mirror.is_some() && mirror_name(name).is_none() {
             let why = "for a wing whose name has neither left nor right";
-            return Err(idle(format!("wing.{name}.mirror"), why));
+            let acts = "for a wing whose name has left or right in it, as `right-fin`";
+            return Err(idle(format!("wing.{name}.mirror"), why, acts));
         }
         if wing.mass_kg == Some(0.0) && wing.inertia_about_centre_kg_m2.is_some() {
             let key = format!("wing.{name}.inertia_about_centre_kg_m2");
-            return Err(idle(key, "for a wing of mass_kg = 0"));
+            return Err(idle(
+                key,
+                "for a wing of mass_kg = 0",
+                "with mass_kg above 0",
+            ));
         }
     }
     Ok(())
@@ -188,7 +206,11 @@ fn motion_without_wings(case: &Case, source: &CaseSource) -> Built<()> {
     let acts = |key: &&str| case.joint.is_empty() || !key.starts_with("start");
     let keys = data.then_some("data").into_iter();
     match keys.chain(case.motion.unlike_default()).find(acts) {
-        Some(key) => Err(idle(format!("motion.{key}"), "without wings")),
+        Some(key) => Err(idle(
+            format!("motion.{key}"),
+            "without wings",
+            "with a wing ([wing.NAME])",
+        )),
         None => Ok(()),
     }
 }
@@ -203,20 +225,23 @@ fn motion(case: &Case, animal: &Animal, source: &CaseSource) -> Built<()> {
     for (name, wing) in &case.wing {
         if own(wing).data.is_some() && all_angles(wing) {
             let key = format!("wing.{name}.motion.data");
-            return Err(idle(key, "beside phi, theta and psi"));
+            let acts = "without one of these, which it then gives";
+            return Err(idle(key, "beside phi, theta and psi", acts));
         }
     }
     let every = "beside that of every wing";
-    let is_still = animal.wings.iter().all(Wing::is_still); // said by `still_motion`
+    let is_still = animal.wings.iter().all(Wing::is_still); // said by `still::motion`
     if case.motion.phase != 0.0 && !is_still && every_phase(case, animal) {
         let why = "beside that of every wing whose angles vary";
-        return Err(idle("motion.phase", why));
+        let acts = "with a wing whose angles vary and that has no phase of its own";
+        return Err(idle("motion.phase", why, acts));
     }
     let gives = |key: &str| source.gives(&format!("motion.{key}"));
     let own_planes = every_wing(case, |own| own.stroke_plane_pitch_deg.is_some());
     let pitch = case.motion.stroke_plane_pitch_deg.value();
     if pitch != 0.0 && gives("stroke_plane_pitch_deg") && own_planes {
-        return Err(idle("motion.stroke_plane_pitch_deg", every));
+        let acts = "with a wing that has no stroke_plane_pitch_deg of its own";
+        return Err(idle("motion.stroke_plane_pitch_deg", every, acts));
     }
     let Some(name) = case.motion.data.as_deref() else {
         return Ok(());
@@ -229,6 +254,7 @@ fn motion(case: &Case, animal: &Animal, source: &CaseSource) -> Built<()> {
         return Err(idle(
             "motion.data",
             "where frequency, stroke plane and angles that it has are all given otherwise",
+            "without one of motion.frequency_hz, stroke_plane_pitch_deg and the angles of a wing, which it then gives",
         ));
     }
     Ok(())
@@ -253,26 +279,14 @@ fn adjustments(case: &Case, setup: &FlightSetup) -> Built<()> {
         let lost = parts.find(|part| !wings.is_empty() && wings.iter().all(|w| lost_on(w, part)));
         if let Some((part, _)) = lost {
             let key = format!("motion.{table}.{part}");
-            return Err(idle(key, "on wings whose angle is constant"));
+            return Err(idle(
+                key,
+                "on wings whose angle is constant",
+                "with a wing whose angle of this name varies over the beat",
+            ));
         }
     }
     Ok(())
-}
-
-/// Phase and length of the start of wings whose angles are all constant.
-fn still_motion(case: &Case, setup: &FlightSetup) -> Built<()> {
-    let wings = &setup.animal.wings;
-    if wings.is_empty() || !wings.iter().all(Wing::is_still) || !case.joint.is_empty() {
-        return Ok(());
-    }
-    let acts = |key: &&str| ["phase", "start_beats"].contains(key);
-    match case.motion.unlike_default().into_iter().find(acts) {
-        Some(key) => {
-            let why = "on wings whose angles are all constant";
-            Err(idle(format!("motion.{key}"), why))
-        }
-        None => Ok(()),
-    }
 }
 
 /// What sees no otherwise than without, and leads nowhere.
@@ -286,16 +300,25 @@ fn senses(case: &Case, source: &CaseSource) -> Built<()> {
         && w.heading_deg.is_none()
     {
         let why = "without position_m or heading_deg at the end: the place and heading before it are held anyway";
-        return Err(idle(format!("control.waypoint[{last}]"), why));
+        let acts = "with position_m or heading_deg, or before another waypoint";
+        return Err(idle(format!("control.waypoint[{last}]"), why, acts));
     }
     let given = source.keys_at("control.sensors");
     let has = |ending: &str| given.iter().any(|key| key.contains(ending));
     if control.sensors.is_some() && !has("_noise_") {
         if !has("_bias_") {
-            return Err(idle("control.sensors", "without noise or bias"));
+            return Err(idle(
+                "control.sensors",
+                "without noise or bias",
+                "with a key of noise or bias, e.g. rate_noise_deg_s",
+            ));
         }
         if has("seed") {
-            return Err(idle("control.sensors.seed", "without noise"));
+            return Err(idle(
+                "control.sensors.seed",
+                "without noise",
+                "with a key of noise, e.g. rate_noise_deg_s",
+            ));
         }
     }
     Ok(())
@@ -307,7 +330,11 @@ fn loads(case: &Case, source: &CaseSource) -> Built<()> {
         let path = |key: &str| format!("load[{k}].{key}");
         // One of zero may be where a campaign begins.
         if !LOADS.iter().any(|key| source.gives(&path(key))) {
-            return Err(idle(format!("load[{k}]"), "without a force or a couple"));
+            return Err(idle(
+                format!("load[{k}]"),
+                "without a force or a couple",
+                "with force_newton, couple_newton_m or harmonics of them",
+            ));
         }
         let series = [
             ("force_cosine_newton", load.force_cosine_newton.is_empty()),
@@ -339,37 +366,6 @@ const LOADS: [&str; 6] = [
     "couple_sine_newton_m",
 ];
 
-/// Sines of a tether at no frequency.
-fn still_on_tether(tether: &TetherCase) -> Built<()> {
-    let paths = [("x", &tether.x), ("y", &tether.y), ("z", &tether.z)];
-    let paths = paths.map(|(name, path)| {
-        let path = path.as_ref();
-        (name, "sine_m", path.map(|p| (p.frequency_hz, &p.sine_m)))
-    });
-    let turns = [
-        ("pitch", &tether.pitch),
-        ("yaw", &tether.yaw),
-        ("roll", &tether.roll),
-    ];
-    let turns = turns.map(|(name, turn)| {
-        let turn = turn.as_ref();
-        (
-            name,
-            "sine_deg",
-            turn.map(|t| (t.frequency_hz, &t.sine_deg)),
-        )
-    });
-    for (name, key, oscillation) in paths.into_iter().chain(turns) {
-        if oscillation.is_some_and(|(frequency, sine)| frequency == 0.0 && !sine.is_empty()) {
-            return Err(idle(
-                format!("flight.tether.{name}.{key}"),
-                "at a frequency_hz of 0",
-            ));
-        }
-    }
-    Ok(())
-}
-
 /// What joints are told and cannot do.
 fn joints(case: &Case) -> Built<()> {
     let given = |name: &str| case.wing.contains_key(name);
@@ -384,6 +380,7 @@ fn joints(case: &Case) -> Built<()> {
             return Err(idle(
                 path("at_child_m"),
                 "at a wing, which turns about its hinge and closes loops there",
+                "at joints between body and segments; a wing has hinge_m",
             ));
         }
         let moves = |t: &crate::raw::TravelCase| !t.cosine_m.is_empty() || !t.sine_m.is_empty();
@@ -393,48 +390,17 @@ fn joints(case: &Case) -> Built<()> {
             return Err(idle(
                 path("turn"),
                 "without mean_deg, cosine_deg or sine_deg",
+                "with one of these",
             ));
         }
         if travel.as_ref().is_some_and(|t| !moves(t)) {
-            return Err(idle(path("travel"), "without cosine_m or sine_m"));
-        }
-        still_joint(name, joint, case.motion.frequency_hz.value())?;
-    }
-    Ok(())
-}
-
-/// Oscillations of a joint, and of what acts along it, at no frequency; `beat` is that of the wings \[Hz\].
-fn still_joint(name: &str, joint: &JointCase, beat: f64) -> Built<()> {
-    let turn = joint.turn.iter().map(|t| {
-        let still = t.cosine_deg.is_empty() && t.sine_deg.is_empty();
-        ("turn".to_owned(), t.frequency_hz, still)
-    });
-    let travel = joint.travel.iter().map(|t| {
-        let still = t.cosine_m.is_empty() && t.sine_m.is_empty();
-        ("travel".to_owned(), t.frequency_hz, still)
-    });
-    let along = joint.element.iter().enumerate().flat_map(|(k, e)| {
-        let follow = e.follow.as_ref().map(|f| &f.angle_deg);
-        let efforts = [
-            ("moment_newton_m", e.moment_newton_m.as_ref()),
-            ("force_newton", e.force_newton.as_ref()),
-            ("follow.angle_deg", follow),
-        ];
-        efforts.into_iter().filter_map(move |(key, series)| {
-            let s = series?;
-            let still = s.cosine.is_empty() && s.sine.is_empty();
-            Some((format!("element[{k}].{key}"), s.frequency_hz, still))
-        })
-    });
-    for (key, frequency, still) in turn.chain(travel).chain(along) {
-        if !still && frequency.unwrap_or(beat) == 0.0 {
-            return Err(Fault::new(
-                format!("joint.{name}.{key}"),
-                "its sines and cosines stand still at a frequency of 0",
-                "harmonics of a frequency above 0",
-                "give frequency_hz here or in [motion], or the mean alone",
+            return Err(idle(
+                path("travel"),
+                "without cosine_m or sine_m",
+                "with one of these",
             ));
         }
+        still::joint(name, joint, case.motion.frequency_hz.value())?;
     }
     Ok(())
 }

@@ -5,4 +5,5 @@ pub(crate) mod model_keys;
 pub(crate) mod refused;
 pub(crate) mod size;
 pub(crate) mod spacing;
+mod still;
 pub(crate) mod wingless;

@@ -33,7 +33,8 @@ fn density(air: &AirCase, source: &CaseSource) -> Built<()> {
     match air.derivatives.as_ref().is_some_and(has_dimensions) && changed {
         true if !stands_by(source, KEY) => Err(idle(
             KEY,
-            "beside air.derivatives with dimensions, which hold the density: only air.derivatives.dimensionless asks for it",
+            "beside air.derivatives with dimensions, which hold the density",
+            "with air.derivatives.dimensionless, which asks for it",
         )),
         _ => Ok(()),
     }
@@ -60,6 +61,7 @@ fn core_of_no_wake(air: &AirCase, source: &CaseSource) -> Built<()> {
         true => Err(idle(
             KEY,
             "with air.shed = []: there are no wakes, and its viscosity is that of air",
+            "with edges in air.shed, or with a viscosity_m2_s of its own",
         )),
         false => Ok(()),
     }

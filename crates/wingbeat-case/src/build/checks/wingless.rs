@@ -1,14 +1,15 @@
-//! Keys of the air that act on wings and their wakes, in cases without wings: each is refused by name.
+//! Keys that act on wings and their wakes, in cases without wings: each is refused by name.
 
 use toml::Table;
 
 use crate::build::fault::{Built, idle};
 use crate::build::resolve;
 use crate::error::Fault;
-use crate::raw::{AirCase, AirModel, Case};
+use crate::raw::{AirCase, AirModel, Case, WingInertia};
 use crate::text::source::{CaseSource, table_of};
 
 const WITHOUT_WINGS: &str = "without wings";
+const WITH_WINGS: &str = "with a wing ([wing.NAME])";
 
 /// Keys of the lattice that act on wings and their wakes alone.
 const LATTICE: [&str; 24] = [
@@ -58,6 +59,9 @@ pub(crate) fn check(case: &Case, source: &CaseSource) -> Built<()> {
     if !case.wing.is_empty() {
         return Ok(());
     }
+    if case.dynamics.wings != WingInertia::Massive && source.gives("dynamics.wings") {
+        return Err(idle("dynamics.wings", WITHOUT_WINGS, WITH_WINGS));
+    }
     match case.air.model {
         AirModel::VortexLattice => lattice(&case.air, source),
         AirModel::BladeElement => blades(&case.air, source),
@@ -75,7 +79,7 @@ fn lattice(air: &AirCase, source: &CaseSource) -> Built<()> {
     unchanged("air", &LATTICE, [&table_of(air), &table_of(&plain)], source)?;
     // One core asks for the other, of the same kind.
     match source.gives("air.wake_core") && !source.gives("air.bound_core") {
-        true => Err(idle("air.wake_core", WITHOUT_WINGS)),
+        true => Err(idle("air.wake_core", WITHOUT_WINGS, WITH_WINGS)),
         false => Ok(()),
     }
 }
@@ -106,7 +110,7 @@ fn unchanged(
     let full = |key: &str| format!("{path}.{key}");
     let mut differ = keys.iter().filter(|k| own.get(**k) != plain.get(**k));
     match differ.find(|k| source.gives(&full(k))) {
-        Some(key) => Err(idle(full(key), WITHOUT_WINGS)),
+        Some(key) => Err(idle(full(key), WITHOUT_WINGS, WITH_WINGS)),
         None => Ok(()),
     }
 }

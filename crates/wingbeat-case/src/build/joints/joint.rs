@@ -436,12 +436,13 @@ fn goes_far_in_a_step(setup: &FlightSetup) -> bool {
     way > 10.0 * setup.animal.wing_reach() && way > 0.0
 }
 
-/// The table of a joint; all joints where the case has none of this name.
+/// The table of a joint, or of that of which it is the mirror image; all joints where the case has none of this
+/// name.
 pub(crate) fn key_of(case: &Case, joint: &str) -> String {
-    match case.joint.contains_key(joint) {
-        true => format!("joint.{joint}"),
-        false => "joint".to_owned(),
-    }
+    let names = [Some(joint.to_owned()), mirror_name(joint)];
+    let mut names = names.into_iter().flatten();
+    let known = names.find(|name| case.joint.contains_key(name));
+    known.map_or("joint".to_owned(), |name| format!("joint.{name}"))
 }
 
 /// The key of a joint's start; its table where its mirror image has the joint.

@@ -73,7 +73,7 @@ pub(crate) fn run(args: &FlutterArgs) -> Result<(), Failure> {
                 case.name
             );
         }
-        let stop = stop_flag_after("this speed");
+        let stop = stop_flag_after("this speed is finished");
         for (done, &speed) in asked.iter().enumerate() {
             if stop.load(Ordering::Relaxed) {
                 conclude_all(report, &case, &found, false);

@@ -62,7 +62,7 @@ fn watched(
     problem: &TrimProblem,
     velocities: &[DVec3],
 ) -> Result<Sweep, Failure> {
-    let stop = stop_flag_after("this speed");
+    let stop = stop_flag_after("this speed is finished");
     let watch = Watch::new("trimming");
     let mut done = 0;
     let each = |velocity: DVec3, lost: Option<Lost>| {
