@@ -240,8 +240,9 @@ fn balances_lift_and_buoyancy_of_a_trimmed_flyer() {
     let borne = case.setup.lift_of_loads() / weight;
     let off = mean / weight + borne - 1.0;
     println!("{borne} {off:e}");
-    // Means of steps in place of the integral over the beat: 2.5e-7 measured.
-    assert!(borne > 0.2 && off.abs() < 2.5e-6, "{borne} {off:e}");
+    // Means of 100 steps in place of the integral over the beat, in which the air turns to the other edge at once at
+    // reversal: 1.3e-4 measured.
+    assert!(borne > 0.2 && off.abs() < 1e-3, "{borne} {off:e}");
 }
 
 /// A regulator that is laid out for the trimmed flight holds it: without buoyancy in its layout the moth rose 222 mm.

@@ -421,17 +421,16 @@ fn exact_no_such_case_and_no_overwriting_by_new() {
     );
 }
 
-/// A body a thousand times too heavy to turn and one too light fail on trial with a message of numbers; what is
-/// implausible is said before it.
+/// A hinge far too stiff for the steps fails on trial with a message of numbers; what is implausible is said before it.
 #[test]
 fn refuses_flights_that_fail_on_trial_with_their_doubts_first() {
     let scratch = Scratch::new("doubts-first");
-    let inertia = "body.inertia_about_centre_kg_m2=[1.5e-12,1.5e-12,0.5e-12,0,0,0]";
-    let set = ["--set", "air.model=blade_element", "--set", inertia];
+    let hinge = "joint.hinge-right.element=[{stiffness_newton_m_per_rad=1e5}]";
+    let set = ["--set", "air.model=blade_element", "--set", hinge];
     let out = wingbeat(&scratch.0, &[&["check", "robobee"][..], &set].concat());
     let said = String::from_utf8_lossy(&out.stderr);
     assert!(!out.status.success(), "{said}");
-    let doubt = said.find("is the inertia in kg m2?");
+    let doubt = said.find("is the stiffness in N m/rad?");
     let error = said.find("error: ");
     assert!(doubt.is_some() && doubt < error, "{said}");
 }

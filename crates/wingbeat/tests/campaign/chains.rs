@@ -60,9 +60,9 @@ fn agrees_trim_stability_and_power_with_their_commands() {
         let watt = &power["power"]["perfect_storage"]["watt"];
         assert_eq!(own("power.perfect_storage_watt")[k], *watt);
         // What was trimmed flies: it carries its weight and goes as fast as was asked. The impulse of the air is summed
-        // over 40 steps: measured 7e-6 off.
+        // over 40 steps, two of which turn it to the other edge at reversal: measured 8e-5 off.
         assert!(
-            (own("lift_over_weight")[k] - 1.0).abs() < 3e-5,
+            (own("lift_over_weight")[k] - 1.0).abs() < 3e-4,
             "{:?}",
             own("lift_over_weight")
         );
