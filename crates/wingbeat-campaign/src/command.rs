@@ -10,13 +10,16 @@ use crate::plan::raw::Task;
 use crate::plan::trimming::TRIM;
 use crate::plan::value::Value;
 
-/// The command that flies a point by itself; where it is trimmed, the trim first, and the flight if one is asked for.
+/// The command that flies a point by itself, in the folder in which the campaign is run; where it is trimmed, the trim first, and the flight if one is asked for.
 /// What the trim refuses stands there as it is.
 pub fn command(campaign: &Campaign, i: usize) -> String {
     let raw = campaign.raw();
     let is_trimmed = raw.tasks.contains(&Task::Trim);
     let verb = if is_trimmed { "trim" } else { "run" };
-    let mut text = format!("wingbeat {verb} {}", shell_path(Path::new(&raw.case)));
+    let mut text = format!(
+        "wingbeat {verb} {}",
+        shell_path(Path::new(campaign.base().origin()))
+    );
     for set in campaign.overrides(i) {
         let _ = write!(text, " --set {}", shell(&set)); // a string takes everything
     }

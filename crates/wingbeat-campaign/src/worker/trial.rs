@@ -1,6 +1,8 @@
 //! What is refused before anything is flown: points that are tried, numbers that none of them has, means over wingbeats
 //! that none flies.
 
+use std::collections::HashSet;
+
 use wingbeat_analysis::estimate;
 use wingbeat_case::{IoError, LoadedCase, nearest};
 use wingbeat_results::summary::starting_beats;
@@ -47,18 +49,19 @@ impl CampaignFile {
     }
 
     /// The points that are tried before anything is flown: the values of every axis, up to twenty of each and the last,
-    /// beside the first ones of the others.
+    /// beside the first ones of the others. Each stands once.
     fn tried(&self) -> impl Iterator<Item = usize> + use<> {
         let mut block = self.plan.samples;
         let mut points = vec![];
         for axis in self.plan.axes.iter().rev() {
-            let stride = (axis.len() / TRIED).max(1);
+            let stride = axis.len().div_ceil(TRIED).max(1);
             let places = (0..axis.len()).step_by(stride).chain([axis.len() - 1]);
             points.extend(places.map(|at| at * block));
             block *= axis.len();
         }
         points.push(0);
-        points.into_iter()
+        let mut known = HashSet::new();
+        points.into_iter().filter(move |&i| known.insert(i))
     }
 
     fn case(&self, i: usize) -> Result<LoadedCase, IoError> {

@@ -266,4 +266,14 @@ list = [1.5, 2.5]
             && said.contains("a whole number from 1 to 1"),
         "{said}"
     );
+    // A grid of which the last point alone flies enough, as no value does beside the first of the other axis.
+    let grid = text
+        .replace("\"time.beats\" = 4\n", "")
+        .replace("mean_beats = 2", "mean_beats = 3");
+    let grid = grid.replace(
+        "1.5, 2.5]",
+        "2, 1]\n[parameter.\"time.beats\"]\nlist = [2, 4]",
+    );
+    write(dir, &grid);
+    flown(dir, &["campaign", "check", "c.toml"]);
 }

@@ -175,6 +175,26 @@ list = [0.5, 1]
     assert!(merged(dir, "r") == tables);
 }
 
+/// The command of a point names the case as the folder has it in which the campaign is run.
+#[test]
+fn behaves_the_command_of_a_point_flies_its_case_from_where_the_campaign_is_run() {
+    let scratch = Scratch::new("campaign-folder");
+    let dir = &scratch.0;
+    fs::create_dir(dir.join("sub")).unwrap();
+    let case = include_str!("../../../wingbeat-case/presets/fruit-fly-blade.toml");
+    fs::write(dir.join("sub/own.toml"), case).unwrap();
+    let text = "case = \"own.toml\"\nkeep = [\"lift_over_weight\"]\n[set]\n\"time.steps_per_beat\" = 40\n[parameter.\"time.beats\"]\nlist = [0.5, 1]\n";
+    fs::write(dir.join("sub/c.toml"), text).unwrap();
+    let campaign = ["sub/c.toml", "--out", "r"];
+    flown(
+        dir,
+        &[&["campaign", "run"][..], &campaign, &["--quiet"]].concat(),
+    );
+    flown(dir, &[&["campaign", "merge"][..], &campaign].concat());
+    let failed = fs::read_to_string(dir.join("r/failed.csv")).unwrap();
+    assert!(failed.contains("wingbeat run sub/own.toml"), "{failed}");
+}
+
 /// The command of a point that is trimmed begins with its trim, at the speed of the point.
 #[test]
 fn behaves_the_command_of_a_failed_trim_fails_as_the_point_does() {
