@@ -8,6 +8,7 @@
 //! State: mass centre, quaternion, linear momentum, angular momentum about the mass centre (13
 //! numbers, N components), then coordinates and speeds of the free joints.
 
+pub(crate) mod glide;
 pub(crate) mod level;
 pub(crate) mod mean;
 pub(crate) mod periodic;
@@ -24,10 +25,11 @@ use wingbeat_flight::{
 };
 use wingbeat_math::ode::Rk4;
 use wingbeat_math::{DMat3, DQuat, DVec3, RotationLaw, rotation_vector};
+use wingbeat_model::Wing;
 use wingbeat_model::motion::Adjustment;
-use wingbeat_model::{Animal, Wing};
 
 use crate::AnalysisError;
+use glide::period_of_glide;
 use periodic::check_periodic;
 
 /// The state of the momentum form.
@@ -56,8 +58,8 @@ impl Beat {
     /// by how much it delays them behind joints that are driven in time.
     ///
     /// # Errors
-    /// Air with a memory or that changes with time or place; applied loads; wings that do not beat or
-    /// beat at different frequencies; joints that are not back after a wingbeat; loops whose motion
+    /// Air with a memory or that changes with time or place; applied loads; no wings, or wings that beat at different
+    /// frequencies; joints that are not back after a wingbeat; loops whose motion
     /// the laws of joints do not determine; what bodies and air refuse.
     pub fn new(setup: &FlightSetup, steps: usize) -> Result<Self, AnalysisError> {
         let beat = Self::with_law(setup, steps, |_, wing| Arc::new(wing.motion.clone()))?;
@@ -76,7 +78,7 @@ impl Beat {
         from: &[Adjustment],
         to: &[Adjustment],
     ) -> Result<Self, AnalysisError> {
-        let window = [0.0, common_period(&setup.animal)?];
+        let window = [0.0, common_period(setup)?];
         Self::passing(setup, steps, from, to, window)
     }
 
@@ -107,7 +109,7 @@ impl Beat {
         steps: usize,
         law: impl Fn(usize, &Wing) -> Arc<dyn RotationLaw>,
     ) -> Result<Self, AnalysisError> {
-        let period = common_period(&setup.animal)?;
+        let period = common_period(setup)?;
         check_steady(setup)?;
         let half = period / (2 * steps) as f64;
         let setup = &steadied(setup); // deformations of wings follow their phase too
@@ -150,7 +152,7 @@ impl Beat {
         self.period / (2 * self.steps) as f64
     }
 
-    /// Period T of the wingbeat [s].
+    /// Period T of the wingbeat [s]; of a glide, in which nothing beats, sqrt(R / g) / 4.
     pub fn period(&self) -> f64 {
         self.period
     }
@@ -414,21 +416,25 @@ pub(crate) fn steadied(setup: &FlightSetup) -> FlightSetup {
     steady
 }
 
-/// The common period of all wings [s].
-fn common_period(animal: &Animal) -> Result<f64, AnalysisError> {
+/// The common period of all wings; of a glide, in which nothing beats, the time by which it is analysed [s].
+fn common_period(setup: &FlightSetup) -> Result<f64, AnalysisError> {
+    let animal = &setup.animal;
     let Some(first) = animal.wings.first().map(|w| w.motion.frequency) else {
         return Err(AnalysisError::not_covered(
             "the case has no beating wings, and what is analysed are wingbeats",
             "analyse the case whose wings beat, as that of which a table of derivatives was made; fly this one with `run`",
         ));
     };
-    if first <= 0.0 {
-        return Err(AnalysisError::not_covered(
-            "no wing beats",
-            "give a wingbeat frequency; what only glides is flown with `run` until it is steady (docs/flight-mechanics.md, \"Gliding\")",
-        ));
+    let is_alike = animal.wings.iter().all(|w| w.motion.frequency == first);
+    if first <= 0.0 && is_alike {
+        return period_of_glide(setup).ok_or_else(|| {
+            AnalysisError::not_covered(
+                "no wing beats, but joints are driven in time, or there is no gravity in which to glide",
+                "give the frequency of the drives as that of the wingbeat (motion.frequency_hz); what glides has gravity and no drives",
+            )
+        });
     }
-    if animal.wings.iter().any(|w| w.motion.frequency != first) {
+    if !is_alike {
         return Err(AnalysisError::not_covered(
             "the wings beat at different frequencies",
             "analyse wings of one frequency",

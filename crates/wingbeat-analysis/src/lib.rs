@@ -44,6 +44,7 @@ mod turned;
 mod vibration;
 pub mod wake;
 
+pub use beat::glide::glides;
 pub use beat::level::{Level, Perturbation, STATE};
 pub use beat::{Beat, Integration, State};
 pub use error::AnalysisError;
@@ -63,13 +64,15 @@ pub use stability::{
 };
 pub use sweep::least_power::trim_within;
 pub use sweep::{Sweep, Swept, sweep, sweep_watched};
+pub use trim::glide::Glide;
 pub use trim::lost::{Lost, Way};
-pub use trim::preconditions::{SPEED_OF_SOUND, TRIM_STEPS};
+pub use trim::preconditions::TRIM_STEPS;
 pub use trim::problem::{TrimProblem, TrimSettings, turned_inside_out};
 pub use trim::request::TrimRequest;
 pub use trim::residuals::Residuals;
 pub use trim::solution::TrimSolution;
-pub use trim::unknown::{Bound, UNKNOWNS, Unknown, UnknownKind};
+pub use trim::tail::tail_wings;
+pub use trim::unknown::{Bound, SPEED_OF_SOUND, UNKNOWNS, Unknown, UnknownKind};
 pub use trim::{Trim, trim, trim_from};
 pub use turned::{turned_over, turned_over_with_wake};
 pub use vibration::flutter::{self, Condition, FlutterSettings};

@@ -20,8 +20,10 @@ use crate::power::{Power, power_of_trim};
 use crate::progress;
 use crate::sweep::continuation::{Path, largest_stroke};
 use crate::trim::Trim;
+use crate::trim::glide::Glide;
 use crate::trim::lost::Lost;
 use crate::trim::problem::TrimProblem;
+use crate::trim::unknown::Unknown;
 
 /// A trimmed flight of a sweep.
 #[derive(Clone, Debug)]
@@ -32,6 +34,8 @@ pub struct Swept {
     pub trim: Trim,
     /// What it costs over the free wingbeat.
     pub power: Power,
+    /// The glide, where nothing beats.
+    pub glide: Option<Glide>,
     /// Largest stroke angle of all wings from end to end \[rad\]; 0 where none flaps by itself.
     pub stroke_amplitude: f64,
 }
@@ -65,6 +69,16 @@ impl Sweep {
     /// The flight of least work per distance (actuators, perfect elastic storage); none in hover alone.
     pub fn least_work(&self) -> Option<&Swept> {
         self.least(work_per_distance)
+    }
+
+    /// The glide of least sink; none of flyers that beat.
+    pub fn least_sink(&self) -> Option<&Swept> {
+        self.least(|f| f.glide.map_or(f64::INFINITY, |g| g.power))
+    }
+
+    /// The flattest glide; none of flyers that beat.
+    pub fn flattest(&self) -> Option<&Swept> {
+        self.least(|f| f.glide.map_or(f64::INFINITY, |g| g.angle))
     }
 
     /// Speed forward (along n1) of least power, between the flights: that of the parabola through the least and its
@@ -131,6 +145,12 @@ pub fn sweep_watched(
     velocities: &[DVec3],
     watch: impl FnMut(DVec3, Option<Lost>) -> ControlFlow<()>,
 ) -> Result<Sweep, AnalysisError> {
+    if problem.unknowns.contains(&Unknown::Forward) {
+        return Err(AnalysisError::not_covered(
+            "a sweep gives the speed forward, and `forward` is among the unknowns",
+            "leave it out; `climb` may be one",
+        ));
+    }
     if !is_falling(setup, velocities) {
         return rising(setup, problem, velocities, watch);
     }
@@ -229,7 +249,8 @@ fn flight_at(path: &mut Path, velocity: DVec3) -> Result<Result<Swept, Lost>, An
     }
     let power = power_of_trim(&trim)?;
     Ok(Ok(Swept {
-        velocity,
+        velocity: trim.velocity,
+        glide: trim.glide()?,
         stroke_amplitude,
         trim,
         power,

@@ -6,6 +6,7 @@
 //! for the Jacobian and a line search; a failure keeps the best point found. A search with bounds stays inside;
 //! only where it finds nothing there, another one says where beyond them steady flight is.
 
+pub(crate) mod glide;
 pub(crate) mod lost;
 pub(crate) mod preconditions;
 pub(crate) mod problem;
@@ -13,6 +14,7 @@ pub(crate) mod request;
 pub(crate) mod residuals;
 pub(crate) mod root;
 pub(crate) mod solution;
+pub(crate) mod tail;
 pub(crate) mod unknown;
 
 use wingbeat_dynamics::{BodyMotion, MomentumState};
@@ -26,7 +28,7 @@ use crate::AnalysisError;
 use crate::beat::{Beat, JOINTS, State, steadied};
 use crate::progress;
 use crate::trim::preconditions::{AT_START, check_determined, check_symmetric};
-use crate::trim::problem::{TrimProblem, first_controls};
+use crate::trim::problem::{TrimProblem, first_unknowns};
 use crate::trim::residuals::{FlyerMotion, Measures, Residuals, attitude, turning};
 use crate::trim::root::{Map, Search, largest, matrix_of, moved};
 use crate::trim::solution::TrimSolution;
@@ -36,14 +38,15 @@ use crate::trim::solution::TrimSolution;
 pub struct Trim {
     /// The controls found, and the residuals.
     pub solution: TrimSolution,
-    /// Mean velocity that was asked for, N components [m/s]; in a turn that at the start of a beat.
+    /// Mean velocity that was asked for, or found where it is unknown, N components [m/s]; in a turn that at the start
+    /// of a beat.
     pub velocity: DVec3,
     /// Turn of the heading [rad/s].
     pub turn_rate: f64,
     /// State at the start of the beat, mass centre at the origin.
     pub state: State,
     /// The point that Newton's method found: velocity over R f and angular velocity times T (of symmetric flight
-    /// those of its plane), the controls, then coordinates and speeds of free joints over their natural sizes \[1 or
+    /// those of its plane), the unknowns that were chosen, speeds over sqrt(g R), then coordinates and speeds of free joints over their natural sizes \[1 or
     /// rad\].
     pub point: Vec<f64>,
     /// The wingbeat of the adjusted animal.
@@ -155,7 +158,7 @@ pub fn trim(setup: &FlightSetup, problem: &TrimProblem) -> Result<Trim, Analysis
     let speed = first.wing_length() / first.period();
     let rate = turning(problem, problem.angles()) * first.period();
     let mut x = Residuals::of(problem).point(problem.velocity / speed, rate);
-    x.extend(first_controls(problem));
+    x.extend(first_unknowns(setup, problem));
     x.extend(periodic_joints(&first, attitude(problem.angles()))?);
     let begun = evaluate(&steadied(setup), problem, &x)?;
     check_symmetric(begun.solution.lateral, AT_START * ROUNDING)?;
@@ -244,7 +247,9 @@ const ROUNDING: f64 = 1e-5;
 fn evaluate(setup: &FlightSetup, problem: &TrimProblem, x: &[f64]) -> Result<Trim, AnalysisError> {
     let residuals = Residuals::of(problem);
     let n = residuals.controls();
-    let (mut solution, setup) = TrimSolution::at(setup, problem, &x[n..2 * n]);
+    let chosen = problem.values(setup, &x[n..2 * n]);
+    let (mut solution, setup) = TrimSolution::at(setup, problem, &chosen);
+    let problem = &problem.at_speeds(&solution.unknowns, &solution.values);
     let beat = Beat::new(&setup, problem.settings.steps)?;
     let (length, period) = (beat.wing_length(), beat.period());
     let [velocity, rate] = residuals.motion(x);
@@ -308,7 +313,7 @@ impl Map for BeatMap<'_> {
     fn confine(&self, x: &mut [f64]) {
         if self.is_confined {
             let n = Residuals::of(self.problem).controls();
-            self.problem.confine(&mut x[n..2 * n]);
+            self.problem.confine(self.setup, &mut x[n..2 * n]);
         }
     }
 

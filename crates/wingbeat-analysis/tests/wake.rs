@@ -229,3 +229,32 @@ fn refuses_to_trim_wings_that_do_not_beat_in_the_lattice() {
     let said = refused(&setup);
     assert!(said.contains("no wing beats"), "{said}");
 }
+
+#[test]
+fn refuses_speeds_as_unknowns_where_a_wake_grows_while_the_body_is_held() {
+    let mut problem = hover(20);
+    problem.unknowns[2] = Unknown::Climb;
+    let found = trim_with_wake(&in_lattice(20), &problem, &WakeSettings::default());
+    let said = found.unwrap_err().to_string();
+    assert!(said.contains("`climb` is no unknown"), "{said}");
+}
+
+/// Without a wake the map of a wingbeat is smooth: over changes of 0.001 its curvature is some 1e-6.
+#[test]
+fn limit_the_roughness_of_a_smooth_map_is_its_curvature() {
+    let settings = WakeSettings {
+        held_beats: 1,
+        tolerance: 1e-6,
+        iterations: 1,
+    };
+    let found = trim_with_wake(&fly(), &hover(100), &settings).unwrap();
+    assert!(!found.solution.converged);
+    let rough = found.roughness.unwrap();
+    assert!(rough > 0.0 && rough < 2e-5, "{rough:e}");
+    let settings = WakeSettings {
+        iterations: 40,
+        ..settings
+    };
+    let found = trim_with_wake(&fly(), &hover(100), &settings).unwrap();
+    assert!(found.solution.converged && found.roughness.is_none());
+}

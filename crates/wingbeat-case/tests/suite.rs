@@ -14,6 +14,7 @@ mod differences;
 mod facing;
 mod far_hinges;
 mod fluids;
+mod glides;
 mod hand_wings;
 mod heeded;
 mod held;

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use wingbeat_analysis::control::{adjustments, sides};
-use wingbeat_analysis::{TrimProblem, trim};
+use wingbeat_analysis::{TrimProblem, Unknown, trim};
 use wingbeat_case::{LoadedCase, trimmed_case};
 use wingbeat_math::DVec3;
 use wingbeat_model::AngleLaw;
@@ -133,4 +133,62 @@ fn balances_a_bird_is_trimmed_by_its_wings_with_the_tail_that_it_has() {
         let is_constant = matches!(a.motion.angles.phi, AngleLaw::Constant(_));
         assert_eq!(is_constant, a.name.ends_with("tail"));
     }
+}
+
+/// The tail's incidence as an unknown: its moment balances that of the wings, and the case that is written has it on
+/// either side, wherever the angle stands.
+#[test]
+fn balances_a_bird_is_trimmed_by_its_elevator() {
+    for set in [
+        &[][..],
+        &["wing.left_tail.motion={ phi.constant_deg = 10, psi.constant_deg = -3 }"],
+    ] {
+        let case = bird(set);
+        let mut problem = TrimProblem::straight(DVec3::new(8.0, 0.0, 0.0), 0.1);
+        problem.unknowns[2] = Unknown::TailIncidence;
+        let found = trim(&case.setup, &problem).unwrap_or_else(|e| panic!("{e}"));
+        assert!(found.solution.converged, "{:?}", found.solution.residual);
+        assert!(found.solution.residual[2].abs() < 1e-9); // the mean pitching moment
+        let psi = found.solution.value(Unknown::TailIncidence).unwrap();
+        assert!(psi.abs() > 1e-3, "{psi}");
+        let text = trimmed_case(&case, &found).unwrap();
+        let written = LoadedCase::from_text("bird", &text, Path::new(""), &[]).unwrap();
+        for tail in ["right_tail", "left_tail"] {
+            let now = angles(&written, tail)[2];
+            assert!((now - (-3f64).to_radians() - psi).abs() < 1e-12, "{now}");
+        }
+        let problem = TrimProblem {
+            unknowns: vec![
+                Unknown::BodyPitch,
+                Unknown::StrokeAmplitude,
+                Unknown::TailIncidence,
+            ],
+            ..TrimProblem::straight(DVec3::new(8.0, 0.0, 0.0), found.solution.body_pitch)
+        };
+        let again = trim(&written.setup, &problem).unwrap();
+        let left = again.solution.value(Unknown::TailIncidence).unwrap();
+        assert!(left.abs() < 1e-7, "{left}");
+    }
+}
+
+#[test]
+fn refuses_the_elevator_of_a_flyer_without_a_tail_or_with_two() {
+    let refused = |text: &str| {
+        let case = LoadedCase::from_text("bird", text, Path::new(""), &[]);
+        let case = case.unwrap_or_else(|e| panic!("{e}"));
+        let mut problem = TrimProblem::straight(DVec3::new(8.0, 0.0, 0.0), 0.1);
+        problem.unknowns[2] = Unknown::TailIncidence;
+        trim(&case.setup, &problem).unwrap_err().to_string()
+    };
+    let flaps = "motion.psi.constant_deg = -3\nmotion.phi.constant_deg = -10";
+    let without = BIRD.replace(flaps, "motion.phi.fourier.sine_deg = [5]");
+    let said = refused(&without);
+    assert!(said.contains("asks for a tail"), "{said}");
+    let second = BIRD.find("[wing.right_tail]").unwrap();
+    let end = BIRD.find("[wing.left]").unwrap();
+    let nose = BIRD[second..end]
+        .replace("right_tail", "right_nose")
+        .replace("-0.35", "0.3");
+    let said = refused(&format!("{BIRD}{nose}"));
+    assert!(said.contains("`right_nose`, `right_tail`"), "{said}");
 }

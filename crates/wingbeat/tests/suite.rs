@@ -12,6 +12,7 @@ mod examples;
 mod exports;
 mod figures;
 mod files;
+mod glides;
 mod mechanics;
 mod modes;
 mod new;

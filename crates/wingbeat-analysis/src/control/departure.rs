@@ -9,6 +9,7 @@ use wingbeat_model::Wing;
 use wingbeat_model::motion::Adjustment;
 
 use crate::AnalysisError;
+use crate::beat::glide::glides;
 use crate::beat::level::{Level, Perturbation};
 use crate::trim::Trim;
 
@@ -198,6 +199,17 @@ impl Limits {
     /// Whether any control is at its limit.
     pub fn reached(&self, u: &Controls) -> bool {
         u.iter().zip(self.sizes()).any(|(u, most)| u.abs() >= most)
+    }
+}
+
+/// An error if nothing beats: feedback commands strokes.
+pub(crate) fn check_beats(trim: &Trim) -> Result<(), AnalysisError> {
+    match glides(&trim.setup) {
+        false => Ok(()),
+        true => Err(AnalysisError::not_covered(
+            "feedback steers by the strokes, and no wing beats here",
+            "see the modes of the glide (`wingbeat stability`), or fly it without feedback",
+        )),
     }
 }
 

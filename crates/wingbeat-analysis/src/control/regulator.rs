@@ -24,7 +24,7 @@ use std::collections::VecDeque;
 use wingbeat_flight::control::fits;
 
 use crate::AnalysisError;
-use crate::control::departure::{CONTROLS, Controls, Departure, pass_on, sides};
+use crate::control::departure::{CONTROLS, Controls, Departure, check_beats, pass_on, sides};
 use crate::control::part::Orbit;
 use crate::control::sensors::Channels;
 use crate::trim::Trim;
@@ -139,8 +139,9 @@ impl Regulator {
     /// The same for looks at other times.
     ///
     /// # Errors
-    /// As [`Self::new`]; steps of the trim that the looks do not divide.
+    /// As [`Self::new`]; steps of the trim that the looks do not divide; a glide.
     pub fn timed(trim: &Trim, weights: &Weights, timing: &Timing) -> Result<Self, AnalysisError> {
+        check_beats(trim)?;
         let sides = sides(&trim.setup);
         let orbit = Orbit::new(trim, timing.parts)?;
         let plants = Plant::parts(trim, &orbit, &sides)?;

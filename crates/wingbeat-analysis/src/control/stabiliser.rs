@@ -19,7 +19,7 @@ use wingbeat_math::DVec3;
 use wingbeat_model::Wing;
 
 use crate::AnalysisError;
-use crate::control::departure::{Controls, Departure};
+use crate::control::departure::{Controls, Departure, check_beats};
 use crate::stability::{input_matrix, trimmed_controls};
 use crate::trim::Trim;
 
@@ -86,8 +86,9 @@ impl ProportionalDerivative {
     /// The stabiliser of the trimmed flight.
     ///
     /// # Errors
-    /// A setup without control derivatives; a control without effect.
+    /// A setup without control derivatives; a control without effect; a glide.
     pub fn new(trim: &Trim, stiffness: &Stiffness) -> Result<Self, AnalysisError> {
+        check_beats(trim)?;
         let list = trimmed_controls(trim)?;
         let rates = input_matrix(&trim.beat, &trim.state, &list)?;
         let effect = |name: &str, wing: &str, row: usize| {

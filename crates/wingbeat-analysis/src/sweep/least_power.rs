@@ -156,11 +156,7 @@ impl<'a> Search<'a> {
 
     /// The animal as the case has it, within the bounds.
     fn start(&self) -> Vec<f64> {
-        let value = |b: &Bound| match b.unknown {
-            Unknown::BodyPitch => self.problem.body_pitch,
-            Unknown::BodyRoll => self.problem.body_roll,
-            _ => 0.0,
-        };
+        let value = |b: &Bound| self.problem.first(b.unknown);
         let inside = self.spare.iter().map(|b| value(b).clamp(b.from, b.to));
         inside.collect()
     }

@@ -6,14 +6,11 @@ use wingbeat_math::DVec3;
 use crate::AnalysisError;
 use crate::trim::problem::TrimProblem;
 use crate::trim::residuals::Residuals;
-use crate::trim::unknown::check_unknowns;
+use crate::trim::unknown::{SPEED_OF_SOUND, check_unknowns};
 
 /// Steps per wingbeat at least and at most: in fewer the loads of a beat are off by more than a trim is, and with the
 /// most a method of order four is at the last bits.
 pub const TRIM_STEPS: [usize; 2] = [20, 2_000];
-
-/// The air is incompressible: speeds are below that of sound [m/s].
-pub const SPEED_OF_SOUND: f64 = 340.0;
 
 /// How many times more than at its end right and left may part by rounding where a search begins, in flight
 /// that is not steady.
@@ -25,7 +22,7 @@ pub(crate) fn check_symmetric(lateral: f64, rounding: f64) -> Result<(), Analysi
         true => Ok(()),
         false => Err(AnalysisError::Asymmetric {
             lateral,
-            remedy: "name six unknowns, three of them lateral, e.g. body_pitch stroke_amplitude stroke_offset body_roll stroke_amplitude_difference stroke_plane_difference; or make right and left wings alike and let the wind blow along the plane of symmetry",
+            remedy: "name six unknowns, three of them lateral, e.g. body_pitch stroke_amplitude stroke_offset body_roll stroke_amplitude_difference stroke_plane_difference; or make right and left wings alike and let wind and gravity lie in the plane of symmetry, n1 and n3",
         }),
     }
 }
@@ -66,15 +63,16 @@ pub(crate) fn check(setup: &FlightSetup, problem: &TrimProblem) -> Result<(), An
     }
 }
 
-/// An error if gravity is nearer to another direction than to n3: forward, right and up are those of n1, n2 and -n3.
+/// An error if gravity points more than 45 degrees off n3: forward, right and up are those of n1, n2 and -n3.
 fn check_upright(gravity: DVec3) -> Result<(), AnalysisError> {
     if gravity.z > gravity.truncate().length() {
         return Ok(());
     }
     let [x, y, z] = gravity.to_array();
+    let off = gravity.angle_between(DVec3::Z).to_degrees();
     Err(AnalysisError::not_covered(
         format!(
-            "gravity is not along n3 (gravity_m_s2 = [{x}, {y}, {z}]), and of a trim -n3 is up"
+            "gravity points {off:.0} degrees off n3 (gravity_m_s2 = [{x}, {y}, {z}]), and of a trim forward is n1, right n2 and up -n3"
         ),
         "take inertial axes of which n3 points down: gravity_m_s2 = [0, 0, 9.81]; at most 45 degrees off are allowed",
     ))

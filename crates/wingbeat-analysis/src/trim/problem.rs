@@ -1,8 +1,9 @@
 //! What to trim: the steady flight that is wanted, and what may be chosen for it.
 
+use wingbeat_flight::FlightSetup;
 use wingbeat_math::DVec3;
 
-use crate::trim::unknown::{Bound, Unknown};
+use crate::trim::unknown::{Bound, Unknown, UnknownKind};
 
 /// What to trim.
 #[derive(Clone, Debug, PartialEq)]
@@ -14,7 +15,8 @@ pub struct TrimProblem {
     pub given: Vec<(Unknown, f64)>,
     /// Between what unknowns must lie; others within [`Bound::default_of`] where there is a choice.
     pub bounds: Vec<Bound>,
-    /// Mean velocity wanted: along the heading, to the right of it, down [m/s]. Heading along n1: N components.
+    /// Mean velocity wanted: along the heading, to the right of it, down [m/s]. Heading along n1: N components. Where
+    /// [`Unknown::Forward`] or [`Unknown::Climb`] is chosen, the search begins with it.
     pub velocity: DVec3,
     /// Turn of the heading about the vertical, positive to the right [rad/s].
     pub turn_rate: f64,
@@ -67,11 +69,12 @@ impl TrimProblem {
         [outside, at]
     }
 
-    /// Moves values of the chosen unknowns into the bounds that were given.
-    pub(crate) fn confine(&self, values: &mut [f64]) {
-        for (u, x) in self.unknowns.iter().zip(values) {
+    /// Moves the chosen unknowns, as they stand in a point, into the bounds that were given.
+    pub(crate) fn confine(&self, setup: &FlightSetup, numbers: &mut [f64]) {
+        for (u, x) in self.unknowns.iter().zip(numbers) {
             if let Some(b) = self.bounds.iter().find(|b| b.unknown == *u) {
-                *x = x.clamp(b.from, b.to);
+                let size = size_in_point(*u, setup);
+                *x = x.clamp(b.from / size, b.to / size);
             }
         }
     }
@@ -83,6 +86,38 @@ impl TrimProblem {
             [&self.unknowns[..], &given].concat(),
             [values, &kept].concat(),
         )
+    }
+
+    /// The values of the chosen unknowns where they stand as `numbers` in a point.
+    pub(crate) fn values(&self, setup: &FlightSetup, numbers: &[f64]) -> Vec<f64> {
+        let unknowns = self.unknowns.iter().zip(numbers);
+        unknowns
+            .map(|(u, x)| x * size_in_point(*u, setup))
+            .collect()
+    }
+
+    /// The same flight with the speeds among these `values` of `unknowns`.
+    pub(crate) fn at_speeds(&self, unknowns: &[Unknown], values: &[f64]) -> Self {
+        let mut at = self.clone();
+        for (unknown, x) in unknowns.iter().zip(values) {
+            match unknown {
+                Unknown::Forward => at.velocity.x = *x,
+                Unknown::Climb => at.velocity.z = -x,
+                _ => {}
+            }
+        }
+        at
+    }
+
+    /// The value of `unknown` at the start of the iteration.
+    pub(crate) fn first(&self, unknown: Unknown) -> f64 {
+        match unknown {
+            Unknown::BodyPitch => self.body_pitch,
+            Unknown::BodyRoll => self.body_roll,
+            Unknown::Forward => self.velocity.x,
+            Unknown::Climb => -self.velocity.z,
+            _ => 0.0,
+        }
     }
 
     /// Pitch and roll at the start of the iteration.
@@ -128,11 +163,19 @@ impl Default for TrimSettings {
     }
 }
 
-/// The controls of the point at which a search begins.
-pub(crate) fn first_controls(problem: &TrimProblem) -> impl Iterator<Item = f64> {
-    problem.unknowns.iter().map(|u| match u {
-        Unknown::BodyPitch => problem.body_pitch,
-        Unknown::BodyRoll => problem.body_roll,
-        _ => 0.0,
-    })
+/// The unknowns in the point at which a search begins.
+pub(crate) fn first_unknowns(
+    setup: &FlightSetup,
+    problem: &TrimProblem,
+) -> impl Iterator<Item = f64> {
+    let unknowns = problem.unknowns.iter();
+    unknowns.map(|u| problem.first(*u) / size_in_point(*u, setup))
+}
+
+/// The unit in which an unknown stands in a point: of speeds sqrt(g R) [m/s], of others that of its value.
+fn size_in_point(unknown: Unknown, setup: &FlightSetup) -> f64 {
+    match unknown.kind() {
+        UnknownKind::Speed => (setup.gravity.length() * setup.animal.wing_length()).sqrt(),
+        _ => 1.0,
+    }
 }

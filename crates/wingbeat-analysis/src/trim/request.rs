@@ -1,11 +1,13 @@
 //! What users ask of a trim, as every program takes it: in words and numbers, with defaults for the rest.
 
-use wingbeat_flight::FlightSetup;
+use wingbeat_flight::{FlightSetup, MotionMode};
 use wingbeat_math::DVec3;
 
 use crate::AnalysisError;
+use crate::beat::glide::glides;
 use crate::trim::problem::{TrimProblem, TrimSettings};
 use crate::trim::residuals::Residuals;
+use crate::trim::tail::tail_wings;
 use crate::trim::unknown::{Bound, Unknown};
 
 /// The unknowns of flight that turns or slips sideways, beside those of straight flight.
@@ -23,7 +25,9 @@ pub struct TrimRequest {
     /// Turn of the heading, positive to the right [rad/s].
     pub turn_rate: f64,
     /// What may be chosen. None: body pitch, stroke amplitude and mean stroke angle; where the flight turns or slips
-    /// sideways body roll and the differences of stroke amplitude and stroke plane besides.
+    /// sideways body roll and the differences of stroke amplitude and stroke plane besides. Of a flyer in which nothing
+    /// beats: body pitch, and speed forward and climb as far as they are not given (0); for those that are, the incidence
+    /// of the tail, then the mass centre.
     pub unknowns: Option<Vec<Unknown>>,
     /// Between what unknowns must lie.
     pub bounds: Vec<Bound>,
@@ -43,6 +47,7 @@ impl TrimRequest {
         let lateral = Residuals::of(&problem) == Residuals::All;
         match self.unknowns {
             Some(named) => problem.unknowns = named,
+            None if glides(setup) => problem.unknowns = of_glide(setup, self.velocity),
             None if lateral => problem.unknowns.extend(LATERAL),
             None => {}
         }
@@ -53,11 +58,72 @@ impl TrimRequest {
         if start.z.abs() > ROUNDING {
             problem.body_roll = start.z;
         }
+        problem.velocity = first_velocity(setup, &problem)?;
         problem.bounds = self.bounds;
         let default = TrimSettings::default();
         problem.settings.steps = self.steps.unwrap_or(default.steps);
         Ok(problem)
     }
+}
+
+/// The unknowns of a glide with the speeds that are `asked` [m/s]; 0 is none.
+fn of_glide(setup: &FlightSetup, asked: DVec3) -> Vec<Unknown> {
+    let mut all = vec![Unknown::BodyPitch];
+    if asked.x == 0.0 {
+        all.push(Unknown::Forward);
+    }
+    if asked.z == 0.0 {
+        all.push(Unknown::Climb);
+    }
+    let spare = [
+        tail_wings(setup).ok().map(|_| Unknown::TailIncidence),
+        Some(Unknown::MassCentre),
+        Some(Unknown::FeatheringOffset),
+    ];
+    all.extend(spare.into_iter().flatten());
+    all.truncate(Residuals::Symmetric.controls());
+    all
+}
+
+/// Lift coefficient and slope of the glide from which the search for its speed begins where the case has none \[1\].
+const FIRST_GLIDE: [f64; 2] = [0.5, 0.1];
+
+/// The velocity from which the search begins, N components [m/s]: what is asked, and of speeds that are unknown, and for
+/// which nothing is, that of the release; where that is through no air and nothing beats, a glide by the wings' area.
+fn first_velocity(setup: &FlightSetup, problem: &TrimProblem) -> Result<DVec3, AnalysisError> {
+    let is_unknown = |u| problem.unknowns.contains(&u);
+    let release = match &setup.mode {
+        MotionMode::Free(start) => start.velocity,
+        MotionMode::Tethered(_) => DVec3::ZERO,
+    };
+    let mut first = problem.velocity;
+    if is_unknown(Unknown::Forward) && first.x == 0.0 {
+        first.x = release.x;
+    }
+    if is_unknown(Unknown::Climb) && first.z == 0.0 {
+        first.z = release.z;
+    }
+    let stream = setup.air.stream().unwrap_or(DVec3::ZERO);
+    if !glides(setup) || !is_unknown(Unknown::Forward) || first != stream {
+        return Ok(first);
+    }
+    let reports = setup.animal.wing_reports();
+    let area: f64 = reports.iter().map(|r| r.area).sum();
+    let [lift, slope] = FIRST_GLIDE;
+    let carried = setup.air.density().unwrap_or(0.0) * area * lift;
+    if carried <= 0.0 {
+        return Err(AnalysisError::not_covered(
+            "the search for a glide begins at some speed, and none is known",
+            "give about that which is expected: --forward, or flight.velocity_m_s of the case",
+        ));
+    }
+    let weight = setup.animal.mass() * setup.gravity.length();
+    let speed = (2.0 * weight / carried).sqrt();
+    if is_unknown(Unknown::Climb) {
+        first.z += slope * speed;
+    }
+    first.x += speed;
+    Ok(first)
 }
 
 /// Angles at the release by rounding, of cases that were trimmed \[rad\].

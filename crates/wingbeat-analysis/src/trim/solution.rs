@@ -24,7 +24,7 @@ pub struct TrimSolution {
     pub iterations: usize,
     /// What was chosen, in the order in which it was named, and what was given.
     pub unknowns: Vec<Unknown>,
-    /// Values of the unknowns \[1 or rad\].
+    /// Values of the unknowns \[1, rad or m/s\].
     pub values: Vec<f64>,
     /// Unknowns whose values are outside the bounds of the problem: steady flight, but not as asked.
     pub outside: Vec<Unknown>,
@@ -36,6 +36,8 @@ pub struct TrimSolution {
     pub difference: Adjustment,
     /// Shift of the mass centre along b1 [m].
     pub mass_centre: f64,
+    /// Change of the feathering angle of the tail, leading edge up \[rad\].
+    pub tail_incidence: f64,
     /// Pitch of the body at the start of the beat, in air with memory at its release \[rad\].
     pub body_pitch: f64,
     /// Roll of the body then, right side down \[rad\].
@@ -67,6 +69,7 @@ impl TrimSolution {
             adjustment: a.adjustment,
             difference: a.difference,
             mass_centre: a.mass_centre,
+            tail_incidence: a.tail_incidence,
             body_pitch: a.pitch,
             body_roll: a.roll,
             way: None,
@@ -140,6 +143,7 @@ mod tests {
             adjustment: Adjustment::default(),
             difference: Adjustment::default(),
             mass_centre: 0.0,
+            tail_incidence: 0.0,
             body_pitch: 0.0,
             body_roll: 0.0,
             way: None,

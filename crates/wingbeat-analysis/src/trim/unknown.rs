@@ -7,8 +7,12 @@ use wingbeat_math::DVec3;
 use wingbeat_model::motion::Adjustment;
 
 use crate::AnalysisError;
+use crate::trim::tail::tail_wings;
 
-/// A control that trim may choose.
+/// The air is incompressible: speeds are below that of sound [m/s].
+pub const SPEED_OF_SOUND: f64 = 340.0;
+
+/// A control or a speed that trim may choose.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Unknown {
     /// Relative change of the stroke amplitude.
@@ -29,6 +33,12 @@ pub enum Unknown {
     BodyPitch,
     /// Mass centre along b1, relative to the hinges, in wing lengths.
     MassCentre,
+    /// Change of the feathering angle of the tail, leading edge up \[rad\]: the elevator.
+    TailIncidence,
+    /// Mean velocity along n1 [m/s].
+    Forward,
+    /// Mean velocity along -n3 [m/s].
+    Climb,
     /// Roll of the body, right side down \[rad\].
     BodyRoll,
     /// Relative amplitude of right wings less that of left ones.
@@ -54,10 +64,12 @@ pub enum UnknownKind {
     WingLengths,
     /// An angle \[rad\].
     Angle,
+    /// A speed [m/s].
+    Speed,
 }
 
 /// All unknowns with their names in cases and reports.
-pub const UNKNOWNS: [(Unknown, &str); 15] = [
+pub const UNKNOWNS: [(Unknown, &str); 18] = [
     (Unknown::StrokeAmplitude, "stroke_amplitude"),
     (Unknown::StrokeOffset, "stroke_offset"),
     (Unknown::Frequency, "frequency"),
@@ -67,6 +79,9 @@ pub const UNKNOWNS: [(Unknown, &str); 15] = [
     (Unknown::DeviationOffset, "deviation_offset"),
     (Unknown::BodyPitch, "body_pitch"),
     (Unknown::MassCentre, "mass_centre"),
+    (Unknown::TailIncidence, "tail_incidence"),
+    (Unknown::Forward, "forward"),
+    (Unknown::Climb, "climb"),
     (Unknown::BodyRoll, "body_roll"),
     (
         Unknown::StrokeAmplitudeDifference,
@@ -104,6 +119,7 @@ impl Unknown {
             }
             Self::FeatheringLead => UnknownKind::Beats,
             Self::MassCentre => UnknownKind::WingLengths,
+            Self::Forward | Self::Climb => UnknownKind::Speed,
             _ => UnknownKind::Angle,
         }
     }
@@ -146,6 +162,7 @@ impl Bound {
             Unknown::BodyPitch | Unknown::BodyRoll => (-PI, PI),
             Unknown::FeatheringLead => (-0.25, 0.25),
             Unknown::MassCentre => (-1.0, 1.0),
+            Unknown::Forward | Unknown::Climb => (-SPEED_OF_SOUND, SPEED_OF_SOUND),
             _ => (-FRAC_PI_3, FRAC_PI_3),
         };
         Self { unknown, from, to }
@@ -204,6 +221,8 @@ pub(crate) struct Adjusted {
     pub difference: Adjustment,
     /// Shift of the mass centre along b1 [m].
     pub mass_centre: f64,
+    /// Change of the feathering angle of the tail \[rad\].
+    pub tail_incidence: f64,
     /// Pitch of the body \[rad\].
     pub pitch: f64,
     /// Roll of the body \[rad\].
@@ -215,6 +234,9 @@ pub(crate) fn check_unknowns(
     setup: &FlightSetup,
     unknowns: &[Unknown],
 ) -> Result<(), AnalysisError> {
+    if unknowns.contains(&Unknown::TailIncidence) {
+        tail_wings(setup)?;
+    }
     if !unknowns.contains(&Unknown::MassCentre) {
         return Ok(());
     }
@@ -254,7 +276,7 @@ pub(crate) fn adjusted(
 ) -> Adjusted {
     let mut a = Adjustment::default();
     let mut d = Adjustment::default();
-    let mut shift = 0.0;
+    let (mut shift, mut tail_incidence) = (0.0, 0.0);
     for (unknown, &x) in unknowns.iter().zip(values) {
         match unknown {
             Unknown::StrokeAmplitude => a.stroke_amplitude = x,
@@ -266,6 +288,8 @@ pub(crate) fn adjusted(
             Unknown::DeviationOffset => a.deviation_offset = x,
             Unknown::BodyPitch => pitch = x,
             Unknown::MassCentre => shift = x,
+            Unknown::TailIncidence => tail_incidence = x,
+            Unknown::Forward | Unknown::Climb => {} // of the flight, not of the animal
             Unknown::BodyRoll => roll = x,
             Unknown::StrokeAmplitudeDifference => d.stroke_amplitude = x,
             Unknown::StrokeOffsetDifference => d.stroke_offset = x,
@@ -285,6 +309,18 @@ pub(crate) fn adjusted(
         wing.motion = wing.motion.adjusted(wing.side, &own);
         wing.hinge_b.x -= shift;
     }
+    if tail_incidence != 0.0
+        && let Ok(tail) = tail_wings(&setup)
+    {
+        let elevator = Adjustment {
+            feathering_offset: tail_incidence,
+            ..Adjustment::default()
+        };
+        for w in tail {
+            let wing = &mut setup.animal.wings[w];
+            wing.motion = wing.motion.adjusted(wing.side, &elevator);
+        }
+    }
     if a.frequency != 0.0 {
         for joint in &mut setup.joints {
             *joint = faster(joint, 1.0 + a.frequency);
@@ -295,6 +331,7 @@ pub(crate) fn adjusted(
         adjustment: a,
         difference: d,
         mass_centre: shift,
+        tail_incidence,
         pitch,
         roll,
     }

@@ -38,7 +38,7 @@ pub fn check_alike(setup: &FlightSetup) -> Result<(), AnalysisError> {
     if setup.time.period.is_none_or(|period| period <= 0.0) {
         return Err(AnalysisError::not_covered(
             "no wing beats",
-            "give a wingbeat frequency; what only glides is flown with `run` until it is steady (docs/flight-mechanics.md, \"Gliding\")",
+            "give a wingbeat frequency; what only glides is trimmed in blade elements (air.model = \"blade_element\", rigid wings, no air.blade.unsteady), or flown with `run` until it is steady",
         ));
     }
     check_steady(setup)?;

@@ -4,7 +4,7 @@ use wingbeat_dynamics::BodyMotion;
 use wingbeat_flight::{
     AirModel, FlightSetup, MotionMode, Past, PrescribedMotion, Record, StartState,
 };
-use wingbeat_math::DVec3;
+use wingbeat_math::{DVec3, larger};
 
 use super::free_beat::{free_beat, start, steps_per_beat};
 use super::orbit::{check_alike, check_orbit, has_orbit, periodic_beat};
@@ -13,10 +13,11 @@ use crate::AnalysisError;
 use crate::beat::steadied;
 use crate::progress;
 use crate::trim::preconditions::{AT_START, check_determined, check_symmetric};
-use crate::trim::problem::{TrimProblem, first_controls};
+use crate::trim::problem::{TrimProblem, first_unknowns};
 use crate::trim::residuals::{FlyerMotion, Measures, Residuals};
 use crate::trim::root::{Map, Search, matrix_of, moved};
 use crate::trim::solution::TrimSolution;
+use crate::trim::unknown::UnknownKind;
 
 /// How the flights are flown.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -59,6 +60,10 @@ pub struct WakeTrim {
     pub orbit: Option<PrescribedMotion>,
     /// Wingbeats flown.
     pub beats: usize,
+    /// How rough the map of a wingbeat is at the best point, where a flight in air with wakes was not trimmed: the largest
+    /// change of a residual by changes of the unknowns of 0.001, but for what is linear in them \[1\]. Smaller residuals are
+    /// found by chance alone. None where it was not measured.
+    pub roughness: Option<f64>,
     /// The adjusted flight: held, released, one free wingbeat; with [`Self::past`] the free wingbeat alone.
     pub setup: FlightSetup,
 }
@@ -95,6 +100,7 @@ pub fn trim_with_wake(
             "trim the turn in blade elements (air.model = \"blade_element\", no air.blade.unsteady) with rigid wings",
         ));
     }
+    check_speeds(problem)?;
     let residuals = Residuals::of(problem);
     let has_orbit = has_orbit(setup);
     let mut setup = setup.clone();
@@ -118,6 +124,21 @@ pub fn trim_with_wake(
         best: f64::INFINITY,
     };
     flights.run()
+}
+
+/// An error if a speed is unknown: the body is held at the speed asked while its wake grows.
+fn check_speeds(problem: &TrimProblem) -> Result<(), AnalysisError> {
+    let mut all = problem.unknowns.iter();
+    match all.find(|u| u.kind() == UnknownKind::Speed) {
+        None => Ok(()),
+        Some(unknown) => Err(AnalysisError::not_covered(
+            format!(
+                "the speed `{}` is no unknown where wakes or elastic wings have a memory",
+                unknown.name()
+            ),
+            "give it (--forward, --climb) and choose another unknown, or trim rigid wings in blade elements",
+        )),
+    }
 }
 
 /// Right and left of a wingbeat after a hold part by less than this where wakes are chaotic, and where there
@@ -163,7 +184,27 @@ impl Flights<'_> {
         found
             .solution
             .conclude(iterations, self.settings.tolerance, rounding)?;
+        if !found.solution.converged && !self.has_orbit {
+            found.roughness = self.roughness(&x, &found.solution.residual);
+            (found.flights, found.beats) = (self.flights, self.beats);
+        }
         Ok(found)
+    }
+
+    /// Half of the second difference of the residuals `r` about the point `x`, over small steps of all unknowns that were
+    /// chosen; none where a flight beside it fails.
+    fn roughness(&mut self, x: &[f64], r: &[f64]) -> Option<f64> {
+        const STEP: f64 = 1e-3;
+        let first = self.residuals.controls();
+        let mut beside = |s: f64| {
+            let mut x = x.to_vec();
+            x[first..].iter_mut().for_each(|x| *x += s);
+            self.residual(&x).ok()
+        };
+        let (plus, minus) = (beside(STEP)?, beside(-STEP)?);
+        let sides = plus.iter().zip(&minus).zip(r);
+        let parts = sides.map(|((p, m), r)| (0.5 * (p + m) - r).abs());
+        Some(parts.fold(0.0, larger))
     }
 
     /// By how much right and left part by rounding at the end \[1\].
@@ -184,7 +225,7 @@ impl Flights<'_> {
             _ => (problem.velocity, DVec3::ZERO),
         };
         let mut x = self.residuals.point(v * period / length, w * period);
-        x.extend(first_controls(problem));
+        x.extend(first_unknowns(self.setup, problem));
         x
     }
 
@@ -211,6 +252,7 @@ impl Flights<'_> {
             past,
             orbit: self.has_orbit.then(|| sway(&roots, 1.0 / period)),
             beats: self.beats,
+            roughness: None,
             setup,
         })
     }
@@ -302,7 +344,8 @@ impl Map for Flights<'_> {
     }
 
     fn confine(&self, x: &mut [f64]) {
-        self.problem.confine(&mut x[self.residuals.controls()..]);
+        self.problem
+            .confine(self.setup, &mut x[self.residuals.controls()..]);
     }
 
     /// By one-sided differences, over steps beside which the roughness of the map is small.

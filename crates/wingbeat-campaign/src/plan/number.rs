@@ -291,6 +291,7 @@ fn unit_of(unknown: Unknown) -> [&'static str; 2] {
         UnknownKind::Beats => ["_beats", "1"],
         UnknownKind::WingLengths => ["_lengths", "1"],
         UnknownKind::Angle => ["_rad", "rad"],
+        UnknownKind::Speed => ["_m_per_s", "m s-1"],
     }
 }
 

@@ -1,22 +1,25 @@
 //! A trimmed flight as a case file.
 
 use wingbeat_analysis::wake::WakeTrim;
-use wingbeat_analysis::{AnalysisError, LinearModel, Trim, TrimSolution, rigid_animal};
+use wingbeat_analysis::{
+    AnalysisError, LinearModel, Trim, TrimSolution, glides, rigid_animal, tail_wings,
+};
 use wingbeat_blade::DerivativeTable;
 use wingbeat_dynamics::BodyMotion;
 use wingbeat_flight::{FlightSetup, LoadFrame, closes_loop};
 use wingbeat_math::{DVec3, EulerSequence};
-use wingbeat_model::Side;
 use wingbeat_model::motion::Adjustment;
+use wingbeat_model::{Side, Wing};
 
 use super::flight::tethered;
 use crate::loaded::LoadedCase;
 use crate::loaded::written_to_change as written;
-use crate::motion::own_motion::every_phase;
+use crate::motion::own_motion::{every_phase, gives_angles};
 use crate::raw::{
-    AdjustCase, AirCase, AirModel, BodyCase, Case, ControlCase, ControllerCase, CorrectorCase,
-    DerivativesCase, DynamicsCase, FlightCase, Formulation, IntegratorCase, JointCase, JointKind,
-    LoadCase, Mode, MotionCase, StabilisationCase, StartCase, TargetCase, TimeCase,
+    AdjustCase, AirCase, AirModel, AngleCase, BodyCase, Case, ControlCase, ControllerCase,
+    CorrectorCase, DerivativesCase, DynamicsCase, FlightCase, Formulation, IntegratorCase,
+    JointCase, JointKind, LoadCase, Mode, MotionCase, StabilisationCase, StartCase, TargetCase,
+    TimeCase,
 };
 
 /// The case of a trimmed flight as TOML: the given case with the adjusted wing motion, hinges and
@@ -27,14 +30,18 @@ use crate::raw::{
 /// A trimmed wingbeat whose numbers do not stay finite.
 pub fn trimmed_case(case: &LoadedCase, trim: &Trim) -> Result<String, AnalysisError> {
     let mut raw = adjusted(case, &trim.solution);
+    turn_tail(&mut raw, case, trim.solution.tail_incidence);
     lead(&mut raw, case, &trim.setup);
     let time = &case.setup.time;
     let flown = time.steps as f64 * time.step / trim.beat.period();
-    raw.time = TimeCase {
-        steps_per_beat: Some(trim.beat.steps()),
-        beats: raw.time.beats.or(Some(flown)),
-        ..TimeCase::default()
-    };
+    // Without a wingbeat all steps are alike: those of the case remain.
+    if time.period.is_some() {
+        raw.time = TimeCase {
+            steps_per_beat: Some(trim.beat.steps()),
+            beats: raw.time.beats.or(Some(flown)),
+            ..TimeCase::default()
+        };
+    }
     let joints = &case.setup.joints;
     let (formulation, stabilisation) = match (0..joints.len()).any(|k| closes_loop(joints, k)) {
         true => (Formulation::Quaternion, StabilisationCase::Projection),
@@ -99,6 +106,7 @@ const HELD_WITH_WINGS: f64 = 5.0;
 /// come into their motion, then released.
 pub fn wake_trimmed_case(case: &LoadedCase, trim: &WakeTrim) -> String {
     let mut raw = adjusted(case, &trim.solution);
+    turn_tail(&mut raw, case, trim.solution.tail_incidence);
     if trim.solution.unknowns.iter().any(|u| u.is_lateral()) {
         raw.air.mirror = false; // right and left part
     }
@@ -151,13 +159,51 @@ fn adjusted(case: &LoadedCase, by: &TrimSolution) -> Case {
     motion.adjust = written_adjustment(&right.mean(&left));
     motion.difference = written_adjustment(&right.less(&left));
     motion.frequency_hz = (motion.frequency_hz.value() * (1.0 + by.adjustment.frequency)).into();
-    motion.start = StartCase::Impulsive;
+    if case.setup.time.period.is_some() {
+        motion.start = StartCase::Impulsive;
+    }
     let given = raw.joint.values_mut().flat_map(frequencies);
     given.for_each(|f| *f *= 1.0 + by.adjustment.frequency);
     for hinge in raw.wing.values_mut().filter_map(|w| w.hinge_m.as_mut()) {
         hinge[0] -= by.mass_centre / raw.animal.scale;
     }
     raw
+}
+
+/// The case with the tail's feathering changed by `incidence` \[rad\]. The angle stands where a wing of the tail gives
+/// angles, in one of its wings where none does.
+fn turn_tail(raw: &mut Case, case: &LoadedCase, incidence: f64) {
+    let wings = &case.setup.animal.wings;
+    let Some(tail) = tail_wings(&case.setup).ok().filter(|_| incidence != 0.0) else {
+        return;
+    };
+    let mut given: Vec<&Wing> = tail.iter().map(|&w| &wings[w]).collect();
+    given.retain(|wing| raw.wing.contains_key(&wing.name));
+    let has_angles = |wing: &&Wing| {
+        let motion = raw.wing[&wing.name].motion.as_ref();
+        motion.is_some_and(gives_angles)
+    };
+    let count = given.iter().filter(|w| has_angles(w)).count();
+    match count {
+        0 => given.truncate(1),
+        _ => given.retain(has_angles),
+    }
+    // What `motion.adjust` adds to it stands there.
+    let [all, apart] = [&case.raw.motion.adjust, &case.raw.motion.difference].map(Adjustment::from);
+    let own = |wing: &Wing| {
+        let psi = wing.motion.angles.psi.at(0.0)[0];
+        match glides(&case.setup) {
+            true => psi - all.on(wing.side, &apart).feathering_offset,
+            false => psi,
+        }
+    };
+    for wing in given {
+        let (name, psi) = (&wing.name, own(wing));
+        let wing = raw.wing.get_mut(name).expect("retained as one of the file");
+        let motion = wing.motion.get_or_insert_default();
+        let turned = (psi + incidence).to_degrees();
+        motion.psi = Some(AngleCase::ConstantDeg(turned));
+    }
 }
 
 /// Phases of the wings as in the setup that was trimmed: where joints are driven in time, the beat begins at

@@ -1,8 +1,9 @@
 //! What is reported of a trim.
 
 use serde_json::{Map, Value, json};
+use wingbeat::analysis::wake::WakeTrim;
 use wingbeat::analysis::{
-    Bound, Lost, Residuals, TrimProblem, TrimSolution, UNKNOWNS, Unknown, UnknownKind,
+    Bound, Glide, Lost, Residuals, TrimProblem, TrimSolution, UNKNOWNS, Unknown, UnknownKind,
     doubtful_reynolds_numbers, stroke_amplitude, turned_inside_out,
 };
 use wingbeat::case::LoadedCase;
@@ -46,6 +47,14 @@ fn heading(report: &mut Report, case: &LoadedCase, problem: &TrimProblem) {
         );
     }
     report.value("airspeed_m_s", airspeed);
+    let off = case.setup.gravity.angle_between(DVec3::Z).to_degrees();
+    if off > TILTED {
+        line!(
+            report,
+            "gravity points {off:.2} deg off n3 (gravity_m_s2): forward is along n1, right along n2, up along -n3, not level and plumb"
+        );
+    }
+    report.value("gravity_off_n3_deg", off);
     tell_held(report, &case.setup);
     let has_control = case.raw.control.is_some();
     if has_control {
@@ -68,6 +77,12 @@ fn heading(report: &mut Report, case: &LoadedCase, problem: &TrimProblem) {
     report.value("sideslip_m_s", problem.velocity.y);
     report.value("turn_rate_deg_s", problem.turn_rate.to_degrees());
 }
+
+/// Part of the residuals from which on the roughness of the map is said to keep them \[1\].
+const ROUGH: f64 = 0.1;
+
+/// Angle off n3 from which on gravity is said to be tilted \[deg\].
+const TILTED: f64 = 1e-3;
 
 /// Velocity of the body at the start of a free flight, N components [m/s]; 0 on a tether.
 fn start_velocity(setup: &FlightSetup) -> DVec3 {
@@ -173,10 +188,47 @@ fn warn(report: &mut Report, t: &TrimSolution, setup: &FlightSetup) {
     report.value("warnings", warnings);
 }
 
+/// The glide, where nothing beats.
+pub(super) fn tell_glide(report: &mut Report, glide: &Glide) {
+    let angle = glide.angle.to_degrees();
+    line!(
+        report,
+        "  glide: {:.4} m/s through the air, {angle:.4} deg below the level, {:.4} of way for one of height",
+        glide.airspeed,
+        glide.ratio
+    );
+    report.value("glide_angle_deg", angle);
+    report.value("glide_ratio", glide.ratio);
+}
+
 /// Wings that turn over on passive hinges.
 pub(super) fn warn_of_turned(report: &mut Report, turned: Vec<String>) {
     turned.iter().for_each(|text| tell!("warning: {text}"));
     report.value("turned_over", turned);
+}
+
+/// That a flight in air with wakes was not found because the map of a wingbeat is rough.
+pub(super) fn tell_rough(report: &mut Report, found: &WakeTrim) {
+    let Some(rough) = found.roughness else {
+        return;
+    };
+    report.value("roughness", rough);
+    if rough < ROUGH * found.solution.error() {
+        return;
+    }
+    let free = found.setup.joints.iter();
+    let free = free.filter(|j| j.model.kind.directions() > 0);
+    let free: Vec<String> = free.map(|j| format!("`{}`", j.name)).collect();
+    let joints = match free.is_empty() {
+        true => String::new(),
+        false => format!(
+            ", as wings on free joints ({}) make it, which swing otherwise in every wake that they meet",
+            free.join(", ")
+        ),
+    };
+    tell!(
+        "the map of a wingbeat is rough here{joints}: residuals part by {rough:.1e} between flights whose unknowns differ by 0.001, and smaller ones are found by chance alone. Trim in blade elements (--set air.model=blade_element), or take a --tolerance above that"
+    );
 }
 
 /// What to try where a flight that is not slow is not found in air with memory, whose trims take minutes.
@@ -259,6 +311,7 @@ fn value(u: Unknown, t: &TrimSolution) -> (String, &'static str, f64) {
         "%" => (100.0 * x, 3),
         "deg" => (x.to_degrees(), 4),
         "mm forward" => (1e3 * x, 4),
+        "m/s" => (x, 4),
         _ => (x, 5),
     };
     let told = if unit == "deg" { shown } else { x };
@@ -282,11 +335,12 @@ fn unit(u: Unknown) -> [&'static str; 2] {
         UnknownKind::Beats => ["_wingbeats", "wingbeats"],
         UnknownKind::WingLengths => ["_forward_m", "mm forward"],
         UnknownKind::Angle => ["_deg", "deg"],
+        UnknownKind::Speed => ["_m_s", "m/s"],
     }
 }
 
 /// A bound as it is given, `NAME=FROM..TO`: angles in degrees, relative changes as parts of 1, `feathering_lead` in
-/// wingbeats, `mass_centre` in wing lengths.
+/// wingbeats, `mass_centre` in wing lengths, speeds in m/s.
 pub(super) fn bound(text: &str) -> Result<Bound, String> {
     let parts = text.split_once('=').and_then(|(name, range)| {
         let (from, to) = range.split_once("..")?;

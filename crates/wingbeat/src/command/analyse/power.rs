@@ -2,7 +2,7 @@
 
 use clap::Args;
 use serde_json::{Map, json};
-use wingbeat::analysis::{Power, PowerQuantity, power_of_trim, power_with_wake};
+use wingbeat::analysis::{Glide, Power, PowerQuantity, power_of_trim, power_with_wake};
 use wingbeat::results::summary::prefix;
 
 use super::trimming::{Trimming, trimmed, trimmed_with_wake};
@@ -33,11 +33,26 @@ pub(crate) fn run(args: &PowerArgs) -> Result<(), Failure> {
             watched("power", || power_with_wake(&trim))?
         } else {
             let (_, trim) = trimmed(trimming, report)?;
+            if let Some(glide) = trim.glide()? {
+                tell_glide(report, &glide);
+            }
             watched("power", || power_of_trim(&trim))?
         };
         tell(report, &found, args.muscle);
         Ok(())
     })
+}
+
+/// The power of what glides.
+fn tell_glide(report: &mut Report, glide: &Glide) {
+    let (scale, prefix) = prefix(glide.power.abs());
+    line!(
+        report,
+        "  nothing beats, and height pays: weight times sink rate, {:.3} {}W",
+        glide.power / scale,
+        prefix.trim()
+    );
+    report.value("height_lost_watt", glide.power);
 }
 
 fn tell(report: &mut Report, p: &Power, muscle: f64) {

@@ -8,7 +8,8 @@ use wingbeat::analysis::wake::{
     WakeMemory, change_by_last_mode, elastic_modes, elastic_monodromy, wake_floquet,
 };
 use wingbeat::analysis::{
-    AnalysisError, LOADS, LinearModel, ModeSet, Plane, floquet_of_trim, linear_model, table_model,
+    AnalysisError, LOADS, LinearModel, ModeSet, Plane, floquet_of_trim, glides, linear_model,
+    table_model,
 };
 use wingbeat::case::LoadedCase;
 use wingbeat::case::derivative_case;
@@ -131,10 +132,14 @@ fn of_trim(args: &Trimming, report: &mut Report, file: Option<Target>) -> Result
     }
     line!(report, "\nModes of the full periodic orbit (Floquet):");
     modes(report, "floquet_modes", &orbit);
+    let period = 1e3 * trim.beat.period();
+    let unit = match glides(&trim.setup) {
+        false => format!("times in wingbeats of {period:.3} ms"),
+        true => format!("nothing beats, and beats and multipliers are of {period:.3} ms"),
+    };
     line!(
         report,
-        "\nAxes: level frame of the trimmed attitude, forward, right, down, about the mass centre. The air has no\nmemory; times in wingbeats of {:.3} ms.",
-        1e3 * trim.beat.period()
+        "\nAxes: level frame of the trimmed attitude, forward, right, down, about the mass centre. The air has no\nmemory; {unit}."
     );
     report.value("wingbeat_s", trim.beat.period());
     if let (Some(file), Some(averaged)) = (file, averaged) {

@@ -4,13 +4,14 @@ use std::ops::ControlFlow;
 use std::sync::atomic::Ordering;
 
 use serde_json::{Value, json};
-use wingbeat::analysis::{Lost, Sweep, Swept, TrimProblem, sweep_watched};
+use wingbeat::analysis::{Lost, Sweep, Swept, TrimProblem, Unknown, glides, sweep_watched};
 use wingbeat::case::LoadedCase;
 use wingbeat::draw::figures::swept::{SpeedRow, swept};
 use wingbeat::math::DVec3;
+use wingbeat::results::fixed::signed;
 
 use super::found::{sideslip_and_turn, values, why};
-use super::trimming::Trimming;
+use super::trimming::{Trimming, unused};
 use crate::command::output::failure::{FAILED, Failure, INTERRUPTED};
 use crate::command::output::report::{Report, line};
 use crate::command::output::target::Target;
@@ -28,7 +29,13 @@ pub(super) fn run(
 ) -> Result<(), Failure> {
     let case = args.load()?;
     args.without_memory(&case)?;
-    let problem = args.problem(&case)?;
+    let is_glide = glides(&case.setup);
+    if is_glide && figure.is_some() {
+        let why =
+            "it shows power and strokes, of which a glide has none; the table has its sink rates";
+        return Err(unused("figure", why));
+    }
+    let problem = args.problem_at(&case, if from.abs() > to.abs() { from } else { to })?;
     let share = |k: usize| k as f64 / (points - 1) as f64;
     let velocity = |k: usize| DVec3 {
         x: from + (to - from) * share(k),
@@ -36,7 +43,7 @@ pub(super) fn run(
     };
     let velocities: Vec<DVec3> = (0..points).map(velocity).collect();
     let found = watched(&case, &problem, &velocities)?;
-    tell(report, &case.name, &problem, &found);
+    tell(report, (&case.name, is_glide), &problem, &found);
     if let Some(file) = figure.filter(|_| !found.flights.is_empty()) {
         let rows: Vec<SpeedRow> = found.flights.iter().map(row).collect();
         let lost = found.lost.as_ref().map(|(velocity, _)| velocity.x);
@@ -91,30 +98,107 @@ fn row(flight: &Swept) -> SpeedRow {
         forward: flight.velocity.x,
         power: [p.aerodynamic, p.perfect_storage, p.no_storage].map(|x| p.body_specific(x)),
         stroke_amplitude: flight.stroke_amplitude,
-        frequency: 1.0 / flight.trim.beat.period(),
+        frequency: match flight.glide {
+            None => 1.0 / flight.trim.beat.period(),
+            Some(_) => 0.0, // nothing beats
+        },
         body_pitch: flight.trim.solution.body_pitch,
         wings_cross: crossing(flight).is_some(),
     }
 }
 
-fn tell(report: &mut Report, name: &str, problem: &TrimProblem, found: &Sweep) {
+fn tell(report: &mut Report, (name, is_glide): (&str, bool), problem: &TrimProblem, found: &Sweep) {
+    let is_unknown = problem.unknowns.contains(&Unknown::Climb);
     let up = match 0.0 - problem.velocity.z {
         0.0 => String::new(),
+        _ if is_unknown => String::new(),
         up => format!(", {up:.3} m/s up"),
     };
     let aside = sideslip_and_turn(problem);
     line!(report, "{name}: trimmed flights against speed{up}{aside}");
-    report.value("climb_m_s", 0.0 - problem.velocity.z);
+    let climb = (!is_unknown).then_some(0.0 - problem.velocity.z);
+    report.value("climb_m_s", climb);
     report.value("sideslip_m_s", problem.velocity.y);
     report.value("turn_rate_deg_s", problem.turn_rate.to_degrees());
-    table(report, found);
-    cheapest(report, found);
+    match is_glide {
+        true => polar(report, found),
+        false => {
+            table(report, found);
+            cheapest(report, found);
+        }
+    }
     crossings(report, &found.flights);
     end(report, found);
     untried(report, found);
     let flights: Vec<Value> = found.flights.iter().map(value).collect();
     report.value("case", name);
     report.value("flights", flights);
+}
+
+/// The speeds before the first flight, and why there is none.
+fn missed(report: &mut Report, found: &Sweep) {
+    for (velocity, lost) in &found.missed {
+        line!(
+            report,
+            "  {:>11.3}  NOT trimmed ({})",
+            velocity.x,
+            why(lost)
+        );
+    }
+    let missed = found.missed.iter();
+    let missed: Vec<Value> = missed
+        .map(|(v, lost)| json!({ "forward_m_s": v.x, "reason": why(lost) }))
+        .collect();
+    report.value("not_trimmed_before", missed);
+}
+
+/// Glides against speed.
+fn polar(report: &mut Report, found: &Sweep) {
+    line!(
+        report,
+        "  {:>11}{:>12}{:>13}{:>11}  unknowns",
+        "forward m/s",
+        "climb m/s",
+        "glide ratio",
+        "pitch deg"
+    );
+    missed(report, found);
+    for f in &found.flights {
+        let solution = &f.trim.solution;
+        let others = solution.unknowns.iter().copied();
+        let others: Vec<Unknown> = others
+            .filter(|u| ![Unknown::BodyPitch, Unknown::Climb].contains(u))
+            .collect();
+        let named = values(&others, solution).into_iter();
+        let named: Vec<String> = named
+            .map(|(name, x)| format!("{name} {}", signed(x.as_f64().unwrap_or(0.0), 4)))
+            .collect();
+        line!(
+            report,
+            "  {:>11.3}{:>12.4}{:>13.4}{:>11.2}  {}",
+            f.velocity.x,
+            0.0 - f.velocity.z,
+            f.glide.map_or(0.0, |g| g.ratio),
+            solution.body_pitch.to_degrees(),
+            named.join(", ")
+        );
+    }
+    let ends = [found.flights.first(), found.flights.last()];
+    let ends = ends.map(|f| f.map(|f| f.velocity.x));
+    for (what, key, flight) in [
+        ("least sink", "least_sink", found.least_sink()),
+        ("flattest glide", "flattest_glide", found.flattest()),
+    ] {
+        let Some(v) = flight.map(|f| f.velocity.x) else {
+            continue;
+        };
+        let note = match ends.contains(&Some(v)) {
+            true => ", the end of what was swept: look beyond it",
+            false => " of these",
+        };
+        line!(report, "  {what} at {v:.3} m/s{note}");
+        report.value(&format!("{key}_forward_m_s"), v);
+    }
 }
 
 fn table(report: &mut Report, found: &Sweep) {
@@ -129,19 +213,7 @@ fn table(report: &mut Report, found: &Sweep) {
         "frequency Hz",
         "pitch deg"
     );
-    for (velocity, lost) in &found.missed {
-        line!(
-            report,
-            "  {:>11.3}  NOT trimmed ({})",
-            velocity.x,
-            why(lost)
-        );
-    }
-    let missed = found.missed.iter();
-    let missed: Vec<Value> = missed
-        .map(|(v, lost)| json!({ "forward_m_s": v.x, "reason": why(lost) }))
-        .collect();
-    report.value("not_trimmed_before", missed);
+    missed(report, found);
     for r in found.flights.iter().map(row) {
         let [air, perfect, none] = r.power;
         line!(
@@ -279,6 +351,7 @@ fn value(flight: &Swept) -> Value {
         "frequency_hz": r.frequency,
         "body_pitch_deg": r.body_pitch.to_degrees(),
         "crossing_wings_part_of_beat": crossing(flight).map_or(0.0, |(_, part)| part),
+        "glide_ratio": flight.glide.map(|g| g.ratio),
         "unknowns": values(&flight.trim.solution.unknowns, &flight.trim.solution),
     })
 }

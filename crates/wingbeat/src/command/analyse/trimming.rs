@@ -4,7 +4,7 @@ use clap::Args;
 use wingbeat::analysis::wake::{WakeSettings, WakeTrim, check_alike, trim_with_wake};
 use wingbeat::analysis::{
     Beat, Bound, TRIM_STEPS, Trim, TrimProblem, TrimRequest, TrimSettings, UNKNOWNS, Unknown,
-    trim_within, turned_over, turned_over_with_wake,
+    glides, trim_within, turned_over, turned_over_with_wake,
 };
 use wingbeat::case::{IoError, LoadedCase};
 use wingbeat::math::DVec3;
@@ -43,14 +43,15 @@ const HEADING: &str = "Trim";
 pub(crate) struct Trimming {
     #[command(flatten)]
     case: CaseArgs,
-    /// What trim may choose: three things [default: body_pitch stroke_amplitude stroke_offset]; six, three of them
+    /// What trim may choose: three things [default: body_pitch stroke_amplitude stroke_offset; where nothing beats
+    /// body_pitch forward climb, and tail_incidence or mass_centre for speeds that are given]; six, three of them
     /// lateral, in turns, sideslip and of animals that differ right and left [default: these, body_roll,
     /// stroke_amplitude_difference, stroke_plane_difference]; those beyond for least power.
     #[arg(long, num_args = 3..=UNKNOWNS.len(), value_name = "NAME", value_parser = unknown, help_heading = HEADING)]
     unknowns: Option<Vec<Unknown>>,
     /// Between what an unknown must lie, e.g. stroke_amplitude=-0.2..0.2 or body_pitch=20..60 (may be repeated):
     /// angles in degrees, relative changes as parts of 1, feathering_lead in wingbeats, mass_centre in wing lengths
-    /// forward.
+    /// forward, speeds in m/s.
     #[arg(long, value_name = "NAME=FROM..TO", value_parser = found::bound, help_heading = HEADING)]
     bound: Vec<Bound>,
     /// Mean velocity forward (n1), m/s [default: 0].
@@ -85,6 +86,9 @@ pub(crate) struct Trimming {
     #[command(flatten)]
     pub(super) report: ReportArgs,
 }
+
+/// What to try where the incidences of a glider have no glide that is found.
+const GLIDE_BY_SPEED: &str = "where these incidences have no glide, or none near the speed and pitch of the case, a speed that is given has one more often (--forward): tail_incidence or mass_centre then follow from it";
 
 /// Trimming failed; the best point found was reported.
 fn not_trimmed() -> Failure {
@@ -162,9 +166,18 @@ impl Trimming {
 
     /// What is asked of the trim.
     pub(super) fn problem(&self, case: &LoadedCase) -> Result<TrimProblem, Failure> {
+        self.problem_at(case, self.forward.unwrap_or(0.0))
+    }
+
+    /// The same at a mean velocity forward [m/s].
+    pub(super) fn problem_at(
+        &self,
+        case: &LoadedCase,
+        forward: f64,
+    ) -> Result<TrimProblem, Failure> {
         let request = TrimRequest {
             velocity: DVec3::new(
-                self.forward.unwrap_or(0.0),
+                forward,
                 self.sideslip.unwrap_or(0.0),
                 -self.climb.unwrap_or(0.0),
             ),
@@ -214,13 +227,25 @@ pub(crate) fn trimmed(args: &Trimming, report: &mut Report) -> Result<(LoadedCas
     args.without_hold()?;
     let problem = args.problem(&case)?;
     let found = watched("trimming", || trim_within(&case.setup, &problem))?;
-    found::tell(report, &case, &problem, (&found.solution, &found.setup));
+    let flown = TrimProblem {
+        velocity: found.velocity,
+        ..problem
+    };
+    found::tell(report, &case, &flown, (&found.solution, &found.setup));
     match found.solution.is_as_asked() {
         true => {
+            if let Some(glide) = found.glide()? {
+                found::tell_glide(report, &glide);
+            }
             found::warn_of_turned(report, turned_over(&found)?);
             Ok((case, found))
         }
-        false => Err(not_trimmed()),
+        false => {
+            if glides(&case.setup) && found.solution.unknowns.contains(&Unknown::Forward) {
+                tell!("{GLIDE_BY_SPEED}");
+            }
+            Err(not_trimmed())
+        }
     }
 }
 
@@ -281,6 +306,7 @@ pub(crate) fn trimmed_with_wake(
             Ok((case, found))
         }
         false => {
+            found::tell_rough(report, &found);
             found::advise_slower(&problem);
             Err(not_trimmed())
         }

@@ -35,7 +35,7 @@ pub(crate) fn tell_held(report: &mut Report, setup: &FlightSetup) {
         entry!(
             report,
             "held",
-            "`{}`: constant angles beside wings that beat; trim, motion.adjust and feedback leave them as they are",
+            "`{}`: constant angles beside wings that beat; motion.adjust and feedback leave them as they are, and trim but for tail_incidence",
             held.join("`, `")
         );
     }

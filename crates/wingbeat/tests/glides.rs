@@ -1,0 +1,79 @@
+//! What the commands say of a flyer in which nothing beats.
+
+use std::fs;
+use std::path::Path;
+
+use serde_json::Value;
+
+use crate::support::{Scratch, refused, said};
+
+const GLIDER: &str = r#"
+format = 1
+name = "glider"
+time = { step_s = 2e-3, steps = 50 }
+air.model = "blade_element"
+air.density_kg_m3 = 1.225
+air.blade.centre_of_pressure.fixed = 0.25
+air.blade.own = { lift = 2.2, drag_0 = 0.03, drag_90 = 2.0 }
+output.frames_every = 0
+body = { mass_kg = 0.03, centre_m = [0, 0, 0], inertia_about_centre_kg_m2 = [1e-4, 3e-4, 3.5e-4, 0, 0, 0] }
+[wing.right]
+hinge_m = [2e-3, 0, 0]
+mass_kg = 1e-11
+planform.outline = { leading_m = [[0, 0], [0.25, 0]], trailing_m = [[0, -0.08], [0.25, -0.08]] }
+mesh = { chordwise = 1, spanwise = 10 }
+motion.psi.constant_deg = 4
+[wing.right_tail]
+hinge_m = [-0.25, 0, 0]
+mass_kg = 1e-11
+planform.outline = { leading_m = [[0, 0], [0.1, 0]], trailing_m = [[0, -0.05], [0.1, -0.05]] }
+mesh = { chordwise = 1, spanwise = 4 }
+"#;
+
+fn object(dir: &Path, args: &[&str]) -> Value {
+    serde_json::from_str(&said(dir, args)).unwrap()
+}
+
+#[test]
+fn balances_height_pays_for_the_drag_of_a_glide() {
+    let scratch = Scratch::new("glides");
+    let dir = &scratch.0;
+    fs::write(dir.join("g.toml"), GLIDER).unwrap();
+    let power = object(dir, &["power", "g.toml", "--json"]);
+    let number = |key: &str| power[key].as_f64().unwrap();
+    let sink = -number("climb_m_s");
+    let lost = number("height_lost_watt");
+    // The trim is found to residuals of 1e-9.
+    assert!((lost / (0.03 * 9.81 * sink) - 1.0).abs() < 1e-8, "{lost}");
+    assert!((number("forward_m_s") / sink / number("glide_ratio") - 1.0).abs() < 1e-8);
+    let peak = power["power"]["peak"]["watt"].as_f64().unwrap();
+    assert!(peak.abs() < 1e-9 * lost, "{peak:e}");
+    // At the speed of that glide the elevator stays where it is.
+    let forward = power["forward_m_s"].to_string();
+    let args = ["trim", "g.toml", "--json", "--forward", &forward];
+    let elevator = object(dir, &args)["unknowns"]["tail_incidence_deg"].clone();
+    assert!(elevator.as_f64().unwrap().abs() < 1e-6, "{elevator}");
+    let modes = object(dir, &["stability", "g.toml", "--json"]);
+    let names = modes["floquet_modes"].as_array().unwrap().iter();
+    let names: Vec<&str> = names.map(|m| m["name"].as_str().unwrap()).collect();
+    assert!(names.contains(&"stable phugoid") && names.contains(&"stable short period"));
+}
+
+#[test]
+fn behaves_a_sweep_of_a_glider_has_its_polar_and_no_figure_of_power() {
+    let scratch = Scratch::new("polar");
+    let dir = &scratch.0;
+    fs::write(dir.join("g.toml"), GLIDER).unwrap();
+    let sweep = ["trim", "g.toml", "--sweep", "5", "7", "--points", "3"];
+    let polar = object(dir, &[&sweep[..], &["--json"]].concat());
+    let flights = polar["flights"].as_array().unwrap();
+    assert_eq!(flights.len(), 3);
+    for flight in flights {
+        let [forward, climb, ratio] =
+            ["forward_m_s", "climb_m_s", "glide_ratio"].map(|k| flight[k].as_f64().unwrap());
+        assert!((forward / -climb / ratio - 1.0).abs() < 1e-8);
+        assert!(flight["unknowns"]["tail_incidence_deg"].is_number());
+    }
+    let error = refused(dir, 2, &[&sweep[..], &["--figure", "p.svg"]].concat());
+    assert!(error.contains("sink rates"), "{error}");
+}
