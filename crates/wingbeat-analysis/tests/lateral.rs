@@ -289,7 +289,7 @@ fn limit_least_power_lies_at_a_default_bound() {
         Unknown::StrokeOffset,
         Unknown::BodyPitch,
     ];
-    let found = trim_within(&fly(), &problem).unwrap().solution;
+    let found = trim_within(&smooth(fly()), &problem).unwrap().solution;
     assert!(found.is_as_asked());
     assert_eq!(found.unknowns, problem.unknowns);
     let offset = found.value(Unknown::StrokeOffset).unwrap();

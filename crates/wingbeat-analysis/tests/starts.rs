@@ -4,7 +4,7 @@ use crate::common;
 
 use std::sync::Arc;
 
-use common::{fly, hover, moth};
+use common::{fly, hover, moth, smooth};
 use wingbeat_analysis::control::{
     Design, LawDesign, Limits, Route, Stiffness, Target, Timing, Weights,
 };
@@ -234,7 +234,7 @@ fn invariant_regulated_flight_comes_back_however_the_strokes_start() {
     let law = LawDesign::Regulator(Weights::default());
     for parts in [1, 4] {
         for beats in [0.0, 1.0, 0.7, 2.0] {
-            let [place, way] = steered(moth(), law, parts, beats);
+            let [place, way] = steered(smooth(moth()), law, parts, beats);
             println!("regulator, {parts} looks, start over {beats}: {place} {way}");
             assert!(
                 place.length() < 1.5e-3,
@@ -251,7 +251,7 @@ fn invariant_stabilised_flight_comes_to_rest_however_the_strokes_start() {
     let law = LawDesign::Stabiliser(Stiffness::default());
     for parts in [1, 4] {
         for beats in [0.0, 1.0, 0.7, 2.0] {
-            let [place, way] = steered(fly(), law, parts, beats);
+            let [place, way] = steered(smooth(fly()), law, parts, beats);
             println!("stabiliser, {parts} looks, start over {beats}: {place} {way}");
             assert!(
                 place.z.abs() < 0.02,

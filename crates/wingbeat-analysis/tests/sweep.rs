@@ -206,7 +206,7 @@ fn invariant_least_power_of_a_fast_flight_whatever_the_order_of_unknowns() {
             velocity: DVec3::new(3.0, 0.0, 0.0),
             ..hover(40)
         };
-        let found = trim_within(&moth(), &problem).unwrap();
+        let found = trim_within(&smooth(moth()), &problem).unwrap();
         assert!(found.solution.is_as_asked(), "{unknowns:?}");
         power_of_trim(&found).unwrap().perfect_storage
     };

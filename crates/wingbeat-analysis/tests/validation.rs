@@ -154,7 +154,7 @@ fn invariant_averaged_modes_in_a_stream_are_those_of_flight_through_still_air() 
 #[test]
 fn limit_averaged_modes_of_heavy_bodies_are_floquets() {
     let apart = |heavier: f64| {
-        let mut setup = fly();
+        let mut setup = smooth(fly());
         setup.gravity /= heavier;
         setup.animal.body.mass *= heavier;
         setup.animal.body.first_moment *= heavier;

@@ -127,7 +127,7 @@ fn order_beat_map_is_fourth_order() {
     // Faster than the wing tips, so that no strip comes to rest in the air: there the coefficients
     // have a kink, and any method loses its order.
     let at = |steps: usize| {
-        let beat = Beat::new(&fly(), steps).unwrap();
+        let beat = Beat::new(&smooth(fly()), steps).unwrap();
         let velocity = DVec3::new(6.0, 0.0, 0.0);
         beat.advance(&beat.state(DVec3::ZERO, r2(0.8), velocity, DVec3::ZERO))
             .unwrap()
@@ -149,7 +149,7 @@ fn scale(i: usize) -> f64 {
 
 #[test]
 fn agrees_monodromy_with_long_flights_and_its_determinant_with_the_trace() {
-    let trimmed = trim(&fly(), &hover(100)).unwrap();
+    let trimmed = trim(&smooth(fly()), &hover(100)).unwrap();
     let (beat, y) = (&trimmed.beat, trimmed.state.clone());
     // In all thirteen numbers of the state.
     let map = |x: &[f64]| -> Result<Vec<f64>, AnalysisError> { beat.advance(x) };

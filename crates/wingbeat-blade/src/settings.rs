@@ -53,7 +53,7 @@ pub enum Rotation {
     /// [Sane & Dickinson 2002]. U is the speed with the sign of u, so the force jumps where u
     /// changes sign while w does not vanish.
     SaneDickinson,
-    /// Thin-airfoil theory for whichever edge meets the air, smooth for every motion: the force `rho Gamma` across the
+    /// Thin-airfoil theory for whichever edge meets the air, continuous for every motion: the force `rho Gamma` across the
     /// velocity (Kutta & Joukowski) with `C_rot = pi (1/4 + (1/2 - x0) cos alpha)`, the cosine negative where the air
     /// comes from behind, and the moment against feathering, `-(pi/16) rho c^3 abs(u) q dr` [Theodorsen 1935]. Every
     /// [`Unsteady`] law has both.

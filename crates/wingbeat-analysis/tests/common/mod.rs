@@ -7,7 +7,7 @@ pub mod quasi_steady;
 use wingbeat_air::Wind;
 use wingbeat_analysis::control::STATES;
 use wingbeat_analysis::*;
-use wingbeat_blade::BladeSettings;
+use wingbeat_blade::{BladeSettings, Rotation};
 use wingbeat_flight::*;
 use wingbeat_math::{DMat3, DVec3, MassProperties};
 use wingbeat_model::motion::{AngleLaw, AngleLaws, Fourier, SmoothSquare, Start, WingMotion};
@@ -45,6 +45,17 @@ pub fn fly() -> FlightSetup {
     let mut animal = drosophila_melanogaster(&options).unwrap();
     animal.parts.clear();
     flying(animal, options.frequency, HOVER_BODY_PITCH)
+}
+
+/// The flyer with one coefficient of feathering, about a quarter of the chord that of thin-airfoil theory from ahead. By
+/// the default law the air turns to the other edge at once where it comes broadside or a section comes to rest, and
+/// methods lose their order there; this one is smooth.
+pub fn smooth(mut setup: FlightSetup) -> FlightSetup {
+    let AirModel::BladeElement(options) = &mut setup.air else {
+        panic!("blade elements");
+    };
+    options.blade.rotation = Rotation::Coefficient(0.5 * std::f64::consts::PI);
+    setup
 }
 
 /// The hawkmoth of the preset `hawkmoth-blade` without its body's surface: wings of 5.7 % of the mass.

@@ -103,7 +103,7 @@ pub enum RotationCase {
     /// Left out.
     None,
     /// Circulation of feathering by thin-airfoil theory for whichever edge meets the air, with its moment against
-    /// feathering, as `unsteady` laws always have both: smooth.
+    /// feathering, as `unsteady` laws always have both. It is continuous for every motion.
     Circulation,
     /// A force normal to the wing (Sane & Dickinson 2002). It jumps where the air along a chord reverses while it
     /// meets the wing broadside: flights are as good as their steps, derivatives and modes of flight are none. It has
