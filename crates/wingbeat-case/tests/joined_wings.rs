@@ -366,3 +366,63 @@ fn behaves_a_wing_that_revolves_backwards_is_named() {
             .is_empty()
     );
 }
+
+/// Two pairs that beat against each other on one hinge line, each joined at the roots.
+const CLAP: &str = r#"
+format = 1
+[time]
+steps_per_beat = 40
+beats = 0.1
+[motion]
+frequency_hz = 10
+start = "impulsive"
+[flight]
+mode = "tethered"
+[air]
+body = false
+shed = ["trailing", "tip"]
+[body]
+mass_kg = 0.015
+inertia_about_centre_kg_m2 = [1e-5, 1e-5, 1e-5, 0, 0, 0]
+[wing.upper-right]
+hinge_m = [0, 0, 0]
+joined = true
+mass_kg = 1e-4
+motion.phi.fourier = { mean_deg = -23, cosine_deg = [15] }
+planform.rectangle = { chord_m = 0.04, span_m = 0.1 }
+mesh = { chordwise = 3, spanwise = 4 }
+[wing.lower-right]
+hinge_m = [0, 0, 0]
+joined = true
+mass_kg = 1e-4
+motion.phi.fourier = { mean_deg = 23, cosine_deg = [-15] }
+planform.rectangle = { chord_m = 0.04, span_m = 0.1 }
+mesh = { chordwise = 3, spanwise = 4 }
+"#;
+
+/// Wings of one hinge and mesh are told apart by what they are called: half the air is that of all of it, and roots that
+/// are joined, each pair by itself, have no gap.
+#[test]
+fn exact_two_pairs_on_one_hinge_are_mirrored_pair_by_pair() {
+    let [half, whole] = [true, false].map(|mirror| {
+        let setup = setup(CLAP, &[&format!("air.mirror={mirror}")]).unwrap();
+        let doubts = setup.doubts();
+        let unjoined = doubts.iter().find(|d| d.said.contains("not joined"));
+        assert!(unjoined.is_none(), "{unjoined:?}");
+        let mut flight = Simulation::new(setup).unwrap();
+        while !flight.finished() {
+            flight.step().unwrap();
+        }
+        flight
+            .record()
+            .air
+            .iter()
+            .map(|w| w.force)
+            .collect::<Vec<DVec3>>()
+    });
+    let most = whole.iter().fold(0.0_f64, |m, f| m.max(f.length()));
+    for (a, b) in half.iter().zip(&whole) {
+        // Sums of the same terms in another order.
+        assert!(a.distance(*b) < 1e-11 * most, "{a} {b}");
+    }
+}

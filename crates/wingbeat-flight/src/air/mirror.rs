@@ -4,7 +4,7 @@ use wingbeat_air::{MirrorPairs, Plane};
 use wingbeat_dynamics::BodyMotion;
 use wingbeat_math::{DVec3, mirrored};
 use wingbeat_model::mesh::QuadMesh;
-use wingbeat_model::{Animal, PairOnPart, Wing};
+use wingbeat_model::{Animal, PairOnPart, Wing, mirror_name};
 
 /// The pairs of an animal that is its own mirror image in the plane of axes 1 and 3 of the body, at rest at
 /// `root`, in the order of the lattice's surfaces: wings, parts of the body, parts of segments, strips through
@@ -25,7 +25,7 @@ pub fn mirror_pairs(
     let wing_nodes = first_of(0, animal.wings.iter().map(|w| w.mesh.nodes.len()));
     let wing_panels = first_of(0, animal.wings.iter().map(|w| w.mesh.rows * w.mesh.cols));
     for wing in &animal.wings {
-        let other = animal.wings.iter().position(|o| is_image(wing, o))?;
+        let other = image_of(animal, wing)?;
         let nodes = wing.mesh.nodes.len();
         pairs.node.extend((0..nodes).map(|k| wing_nodes[other] + k));
         let panels = wing.mesh.rows * wing.mesh.cols;
@@ -47,12 +47,8 @@ pub fn mirror_pairs(
 
 /// Pairs of wings that are mirror images of each other.
 pub fn wing_pairs(animal: &Animal) -> Vec<[usize; 2]> {
-    let image = |wing: &Wing| animal.wings.iter().position(|o| is_image(wing, o));
-    let pairs = animal
-        .wings
-        .iter()
-        .enumerate()
-        .filter_map(|(k, wing)| Some([k, image(wing)?]));
+    let wings = animal.wings.iter().enumerate();
+    let pairs = wings.filter_map(|(k, wing)| Some([k, image_of(animal, wing)?]));
     pairs.filter(|[a, b]| a < b).collect()
 }
 
@@ -117,6 +113,15 @@ fn first_of(from: usize, counts: impl Iterator<Item = usize>) -> Vec<usize> {
     counts
         .scan(from, |next, n| Some(std::mem::replace(next, *next + n)))
         .collect()
+}
+
+/// The mirror image of a wing: of several with its mesh on one hinge, which their motions tell apart, that which is
+/// called so.
+fn image_of(animal: &Animal, wing: &Wing) -> Option<usize> {
+    let images = || (animal.wings.iter().enumerate()).filter(|(_, other)| is_image(wing, other));
+    let name = mirror_name(&wing.name);
+    let named = images().find(|(_, other)| name.as_ref().is_some_and(|n| *n == *other.name));
+    named.or_else(|| images().next()).map(|(k, _)| k)
 }
 
 /// Whether `other` has the mesh and the hinge of `wing` in mirror image.

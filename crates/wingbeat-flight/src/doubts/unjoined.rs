@@ -13,8 +13,8 @@ const SAME: f64 = 1e-6;
 
 impl FlightSetup {
     /// Says which wings of a lattice have roots that meet ([`roots_meet`]) and neither are joined nor shed there, with a
-    /// gap between their outermost filaments, and what to do about it; wings with joints of their own, whose motion is
-    /// not known beforehand, are left out.
+    /// gap between their outermost filaments, and what to do about it. Left out are those that are joined to others,
+    /// both of them, and wings with joints of their own, whose motion is not known beforehand.
     pub fn unjoined_roots(&self) -> Vec<String> {
         let air = match self.air.lattice() {
             Some(air) if !air.lattice.shedding.root => air,
@@ -22,7 +22,9 @@ impl FlightSetup {
         };
         let pairs = pairs(self.prescribed_wings().into_iter());
         let goes_on = self.goes_on(air);
-        let ends = |pair: [usize; 2]| !pair.into_iter().all(|w| goes_on(w, EdgeKind::Root));
+        let is_joined = |w: usize| air.joined.iter().any(|pair| pair.contains(&w));
+        let goes_on = |w: usize| is_joined(w) || goes_on(w, EdgeKind::Root);
+        let ends = |pair: [usize; 2]| !pair.into_iter().all(goes_on);
         let apart = pairs.filter(|pair| !are_joined(&air.joined, *pair) && ends(*pair));
         let wings = &self.animal.wings;
         let reach = |w: usize| wings[w].mesh.columns == Spacing::Cosine || air.lattice.inset == 0.0;
