@@ -298,3 +298,15 @@ fn behaves_starting_steps_that_have_not_converged_are_named() {
     assert_eq!(doubted.verdict, Verdict::Amber);
     assert_eq!(summary(2e-3).verdict, Verdict::Red);
 }
+
+/// What constant loads carry is no lift of the air: a tenth of the weight of 0.94 mg.
+#[test]
+fn behaves_what_loads_carry_is_said() {
+    let hang = "load=[{ frame = \"inertial\", force_newton = [0, 0, -9.2e-7] }]";
+    let said = |set: &[&str]| says(&flown(&preset("fruit-fly-blade", set)), "carry 0.10");
+    assert!(said(&[hang, "time.beats=0.1"]));
+    assert!(!says(
+        &flown(&preset("fruit-fly-blade", &["time.beats=0.1"])),
+        "of the weight; the lift"
+    ));
+}

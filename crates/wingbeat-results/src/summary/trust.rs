@@ -59,6 +59,7 @@ pub(super) fn warnings(
     air(setup, doubts, summary, &mut list);
     deformation(setup, &mut list);
     feedback(setup, summary, &mut list);
+    loads(setup, &mut list);
     euler_angles(setup, summary, &mut list);
     steps(setup, summary, &mut list);
     mode(setup, summary, &mut list);
@@ -85,6 +86,18 @@ fn air(setup: &FlightSetup, doubts: &[Doubt], summary: &Summary, list: &mut Warn
         AirModel::Derivatives(_) => list.note("The air is a table of stability derivatives: linear about its reference flight, and wrong far from it."),
         AirModel::Own(_) => list.note("The air is a model of your own: wingbeat vouches for the motion under its loads, not for the loads."),
         AirModel::External(_) => list.note("The air was computed by another program: wingbeat vouches for the motion under its loads, not for the loads."),
+    }
+}
+
+/// What of the weight constant loads carry.
+fn loads(setup: &FlightSetup, list: &mut Warnings) {
+    let weight = setup.animal.mass() * setup.gravity.length();
+    let borne = setup.lift_of_loads();
+    if weight > 0.0 && borne.abs() >= 0.005 * weight {
+        list.note(format!(
+            "Constant loads (buoyancy, [[load]]) carry {:.3} of the weight; the lift of the air is without them.",
+            borne / weight
+        ));
     }
 }
 

@@ -60,6 +60,7 @@ fn look(args: &CheckArgs, report: &mut Report) -> Result<(), IoError> {
     tell_mixed(report, &case.mixed_angles());
     tell_adjusted(report, &case.adjusted_tables());
     expectation::tell(report, &estimate);
+    expectation::tell_borne(report, &case.setup);
     // A flight that fails on trial fails of a wrong unit more often than of its steps.
     let cost = cost.inspect_err(|_| warn())?;
     entry!(report, "cost", "{cost}");

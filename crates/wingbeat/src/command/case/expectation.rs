@@ -42,6 +42,20 @@ pub(crate) fn tell_held(report: &mut Report, setup: &FlightSetup) {
     report.value("held_wings", held);
 }
 
+/// What of the weight constant loads carry.
+pub(crate) fn tell_borne(report: &mut Report, setup: &FlightSetup) {
+    let weight = setup.animal.mass() * setup.gravity.length();
+    let borne = (weight > 0.0).then(|| setup.lift_of_loads() / weight);
+    if let Some(borne) = borne.filter(|b| b.abs() >= 0.005) {
+        entry!(
+            report,
+            "borne",
+            "{borne:.2} weights: constant loads (buoyancy, [[load]]), beside the lift of the air"
+        );
+    }
+    report.value("loads_over_weight", borne);
+}
+
 /// The numbers of a flight, a line each.
 pub(crate) fn tell(report: &mut Report, e: &Estimate) {
     for w in &e.wings {
