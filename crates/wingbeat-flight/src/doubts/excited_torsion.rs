@@ -1,10 +1,16 @@
 //! Torsion of elastic wings that quasi-steady blade elements excite.
 //!
-//! A section in a stream U turns about an elastic axis a c behind its leading edge. By thin-airfoil theory, the force
-//! of circulation at a quarter of the chord follows the downwash of 3/4, and the added mass gives `m U q` at mid chord:
-//! the moment `pi rho c^3 U q ((a - 1/4) (3/4 - a) - (1/2 - a)/4)`, which drives the motion where
-//! `a > (5 - sqrt 5)/8 = 0.35`. With the couple `-(pi/16) rho c^3 U q` [Theodorsen 1935], which laws with
-//! one coefficient leave out, it damps for every a up to 1/2. Behind that a wake that lags is what damps. Where wings bend, too,
+//! A section in a stream U turns with the rate q about an elastic axis a c behind its leading edge. The normal force
+//! `2 pi s` times the angle and the circulation `C_rot c^2 q` act at the centre of pressure, x_cp c behind the edge, and
+//! the added mass gives `m U q` at mid chord. Of a section that feathers about an axis x0 c behind the edge:
+//!
+//! `pi rho c^3 U q ((a - x_cp) (s (x0 - a) + C_rot / pi) - (1/2 - a)/4 - k)`, which drives the motion where positive.
+//!
+//! With the couple `-(pi/16) rho c^3 U q` k is 1/16 [Theodorsen 1935]; laws with one coefficient leave it out. Thin-airfoil
+//! theory has s = 1, x_cp = 1/4 and C_rot = pi (3/4 - x0): without the couple `a > (5 - sqrt 5)/8 = 0.35` is driven, with
+//! it a > 1/2. The less lift a law has, the less it damps, as the circulation of turning stays: with the default
+//! coefficients (s = 0.594, drag included) the border is 0.416 where the wing feathers about its leading edge, and 0.448
+//! about a quarter of the chord. Behind the border a wake that lags is what damps. Where wings bend, too,
 //! without the couple those grow whose elastic axis or mass lies behind a quarter of the chord: a wing of 0.3 x 0.08 m at
 //! 5 m/s by 15 1/s with the axis at 0.25 and the mass at 0.5, by 3 and 23 1/s with both at 0.3 and 0.4; with both at 0.25
 //! it decays.
@@ -29,9 +35,6 @@ use crate::setup::{AirModel, FlightSetup};
 /// Elastic axis or mass behind the leading edge over the chord, behind which a wing is driven without the couple \[1\].
 const DRIVEN: f64 = 0.251;
 
-/// Elastic axis from which on torsion is driven with the couple \[1\].
-const DRIVEN_WITH_COUPLE: f64 = 0.5;
-
 /// Instants of a beat at which speeds are looked at.
 const INSTANTS: usize = 50;
 
@@ -45,23 +48,29 @@ impl FlightSetup {
         let AirModel::BladeElement(air) = &self.air else {
             return None;
         };
-        let rotation = air.blade.rotation;
-        if air.blade.unsteady.is_some() || rotation == Rotation::None {
+        if air.blade.unsteady.is_some() {
             return None;
         }
-        let has_couple = air.blade.damps_feathering();
         let wings = self.animal.wings.iter();
-        let driven = wings.filter(|w| self.is_driven(w, &air.blade));
-        let wings: Vec<&str> = driven.map(|w| &w.name[..]).collect();
-        let (why, remedy) = match has_couple {
-            false => (
-                "leave out the moment of thin-airfoil theory against feathering, and what is left",
-                "air.blade.rotation = \"circulation\" without rotation_coefficient, air.blade.unsteady = \"peters\"",
-            ),
-            true => (
-                "have no wake that lags, and what is left about an elastic axis behind mid chord",
-                "air.blade.unsteady = \"peters\"",
-            ),
+        let driven: Vec<&Wing> = wings.filter(|w| self.is_driven(w, &air.blade)).collect();
+        let wings: Vec<&str> = driven.iter().map(|w| &w.name[..]).collect();
+        let why = match air.blade.damps_feathering() {
+            false => {
+                "leave out the moment of thin-airfoil theory against feathering, and what is left"
+            }
+            true => {
+                "have no wake that lags, and what is left about an elastic axis so far behind the centre of pressure"
+            }
+        };
+        let with_moment = BladeSettings {
+            rotation: Rotation::Circulation,
+            ..air.blade
+        };
+        let remedy = match driven.iter().any(|w| self.is_driven(w, &with_moment)) {
+            false => {
+                "air.blade.rotation = \"circulation\" without rotation_coefficient, air.blade.unsteady = \"peters\""
+            }
+            true => "air.blade.unsteady = \"peters\"",
         };
         (!wings.is_empty()).then(|| {
             format!(
@@ -76,12 +85,14 @@ impl FlightSetup {
         wing.structure.as_ref().is_some_and(|made| {
             let damping = made.damping;
             let is_damped = damping.strain_rate > 0.0 || damping.mass > 0.0;
-            let has_couple = blade.damps_feathering();
+            let bending_adds =
+                !is_damped && !blade.damps_feathering() && blade.rotation != Rotation::None;
             match &made.members {
-                Members::Beam(beam) if is_damped => self.gains(wing, beam, (damping, blade)) > 0.0,
-                Members::Beam(beam) if has_couple => beam.axis_fraction >= DRIVEN_WITH_COUPLE,
-                Members::Beam(beam) => beam.axis_fraction.max(beam.mass_fraction) > DRIVEN,
-                Members::Shell(_) => !has_couple && !is_damped,
+                Members::Beam(beam) => {
+                    let behind = beam.axis_fraction.max(beam.mass_fraction) > DRIVEN;
+                    bending_adds && behind || self.gains(wing, beam, (damping, blade)) > 0.0
+                }
+                Members::Shell(_) => bending_adds,
             }
         })
     }
@@ -128,8 +139,8 @@ impl FlightSetup {
 /// another one, `feathering` chords behind, by the rate of twist and over `pi rho c^3 U` \[1\]: drives where it
 /// is positive.
 fn drive(blade: &BladeSettings, a: f64, feathering: f64) -> f64 {
-    let [lift, more] = [0.0, SMALL].map(|alpha| blade.translation.at(alpha)[0]);
-    let slope = (more - lift) / (2.0 * PI * SMALL);
+    let [[lift, drag], [more, _]] = [0.0, SMALL].map(|alpha| blade.translation.at(alpha));
+    let slope = ((more - lift) / SMALL + drag) / (2.0 * PI);
     let circulation = match blade.rotation {
         Rotation::None => 0.0,
         Rotation::Coefficient(c) => c / PI,
@@ -144,5 +155,6 @@ fn drive(blade: &BladeSettings, a: f64, feathering: f64) -> f64 {
     } else {
         0.0
     };
-    (a - 0.25) * (slope * (feathering - a) + circulation) - mass - couple
+    let lever = a - blade.centre_of_pressure.edge_on();
+    lever * (slope * (feathering - a) + circulation) - mass - couple
 }
