@@ -301,14 +301,13 @@ impl BladeWing {
         );
         let (mass, v) = (strip.added_mass(rho), s.at_middle(x));
         let impulse = mass * v.dot(s.e[2]);
-        let inertia = match law.has_inertia() {
+        let inertia = match law.is_kirchhoff() {
             true => strip.added_inertia(rho),
             false => 0.0,
         };
         let mut force = -mass * s.normal_velocity_rate(x) * s.e[2];
         let mut couple = DVec3::new(0.0, -inertia * s.q_rate, 0.0);
-        match law {
-            AddedMassModel::Section if self.has_suction() => {}
+        match self.added_by_velocities() {
             AddedMassModel::None | AddedMassModel::Normal => {}
             AddedMassModel::Section => force -= impulse * s.turn.y * s.e[0],
             AddedMassModel::Impulse => {
@@ -386,7 +385,7 @@ impl BladeWing {
     fn add_mass_answer(&self, strip: &Strip, s: &SectionState, to: &mut SectionAnswer) {
         let (rho, x) = (self.settings().density, strip.x_mid() * s.d);
         let mass = strip.added_mass(rho);
-        let inertia = match self.settings().added_mass.has_inertia() {
+        let inertia = match self.settings().added_mass.is_kirchhoff() {
             true => strip.added_inertia(rho),
             false => 0.0,
         };

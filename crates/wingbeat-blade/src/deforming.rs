@@ -218,8 +218,7 @@ impl BladeWing {
         through: impl Fn(DVec3) -> DVec3,
         sum: &mut DeformingLoad,
     ) {
-        let add = match self.settings().added_mass {
-            AddedMassModel::Section if self.has_suction() => return,
+        let add = match self.added_by_velocities() {
             AddedMassModel::None | AddedMassModel::Normal => return,
             AddedMassModel::Section => Self::add_chordwise,
             AddedMassModel::Impulse => Self::add_turning_strip,
@@ -265,7 +264,7 @@ impl BladeWing {
             let [spin, spin_rate] = s.spin;
             let rate = v_rate.dot(n) + v.dot(spin.cross(n));
             let force = -strip.added_mass(self.settings().density) * rate;
-            let inertia = match self.settings().added_mass.has_inertia() {
+            let inertia = match self.settings().added_mass.is_kirchhoff() {
                 true => strip.added_inertia(self.settings().density),
                 false => 0.0,
             };

@@ -6,7 +6,7 @@ use wingbeat_math::DVec2;
 
 use crate::coefficients::Translation;
 use crate::feathering::RotationCoefficient;
-use crate::settings::{BladeSettings, CentreOfPressure, Rotation};
+use crate::settings::{BladeSettings, Rotation};
 use crate::strip::Strip;
 
 /// Two strips and what their forces need; the second may be one that feels nothing.
@@ -76,7 +76,7 @@ impl StripPair {
             lever: [0, 1].map(|part| lanes(&|s| rotation(s).lever()[part] * s.chord)),
             couple: lanes(&|s| PI / 16.0 * rho * s.chord.powi(3) * s.width),
             x_mid: lanes(&Strip::x_mid),
-            chordwise: lanes(&|s| match settings.added_mass.acts_along_chord() {
+            chordwise: lanes(&|s| match settings.added_mass.is_kirchhoff() {
                 true => s.added_mass(rho),
                 false => 0.0,
             }),
@@ -165,8 +165,8 @@ fn with_law(
     for (k, pair) in pairs.iter().enumerate() {
         let PairMotion { u, w, q } = motion(k, pair);
         let speed = (u * u + w * w).map(f64::sqrt);
-        // At rest both are zero, and so is every force.
-        let inverse = speed.max(DVec2::splat(f64::MIN_POSITIVE)).recip();
+        // At rest, and where the square of the speed is too small for a number, both are zero, and so is every force.
+        let inverse = speed.map(|s| if s == 0.0 { 0.0 } else { s.recip() });
         let (cos, sin) = (u * inverse, w * inverse);
         let [lift, drag] = law(sin.abs(), cos.abs());
         let pressure = pair.pressure * (speed * speed);
@@ -179,7 +179,7 @@ fn with_law(
             false => [strength * w, -strength * u],
         };
         let normal = normal + r3;
-        let behind = centre_of_pressure(settings.centre_of_pressure, sin, cos);
+        let behind = settings.centre_of_pressure.behind_leading_edge(sin, cos);
         let x_cp = pair.x_leading - pair.chord * behind;
         let mut damping = pair.viscous * (viscous[0] + viscous[1] * q.abs()) * q;
         let mut along = along + r1;
@@ -200,26 +200,4 @@ fn with_law(
         };
         put(k, pair, force);
     }
-}
-
-/// Centre of pressure behind the leading edge over the chord.
-#[inline]
-fn centre_of_pressure(law: CentreOfPressure, sin: DVec2, cos: DVec2) -> DVec2 {
-    let from_edge_met = match law {
-        CentreOfPressure::Cosine => return 0.5 - 0.25 * cos,
-        CentreOfPressure::Fixed(x) => DVec2::splat(x),
-        CentreOfPressure::Chen2016 => {
-            let of = |k: usize| {
-                let alpha = sin[k].abs().atan2(cos[k].abs());
-                0.25 + 0.25 / (1.0 + (5.0 * (1.0 - 4.0 * alpha / PI)).exp())
-            };
-            DVec2::new(of(0), of(1))
-        }
-    };
-    // Air from behind meets the trailing edge.
-    let part = |k: usize| match cos[k] < 0.0 {
-        true => 1.0 - from_edge_met[k],
-        false => from_edge_met[k],
-    };
-    DVec2::new(part(0), part(1))
 }

@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use wingbeat_math::DVec3;
+use wingbeat_math::{DVec2, DVec3};
 
 use crate::coefficients::{Translation, find_set};
 use crate::error::{BladeError, require};
@@ -94,14 +94,39 @@ pub struct ViscousMoment {
     pub quadratic: f64,
 }
 
-impl AddedMassModel {
-    /// Whether the section's added moment of inertia belongs to it.
-    pub(crate) fn has_inertia(self) -> bool {
-        matches!(self, Self::Impulse | Self::Section)
+impl CentreOfPressure {
+    /// Place behind the leading edge over the chord where the air comes edge-on from ahead \[1\].
+    pub fn edge_on(self) -> f64 {
+        self.behind_leading_edge(DVec2::ZERO, DVec2::ONE).x
     }
 
-    /// Whether the force `-m q w` along the chord belongs to it.
-    pub(crate) fn acts_along_chord(self) -> bool {
+    /// Places behind the leading edge over the chord by sine and cosine of the angles of attack \[1\], of two strips.
+    #[inline]
+    pub(crate) fn behind_leading_edge(self, sin: DVec2, cos: DVec2) -> DVec2 {
+        let from_edge_met = match self {
+            Self::Cosine => return 0.5 - 0.25 * cos,
+            Self::Fixed(x) => DVec2::splat(x),
+            Self::Chen2016 => {
+                let of = |k: usize| {
+                    let alpha = sin[k].abs().atan2(cos[k].abs());
+                    0.25 + 0.25 / (1.0 + (5.0 * (1.0 - 4.0 * alpha / PI)).exp())
+                };
+                DVec2::new(of(0), of(1))
+            }
+        };
+        // Air from behind meets the trailing edge.
+        let part = |k: usize| match cos[k] < 0.0 {
+            true => 1.0 - from_edge_met[k],
+            false => from_edge_met[k],
+        };
+        DVec2::new(part(0), part(1))
+    }
+}
+
+impl AddedMassModel {
+    /// Whether it is that of Kirchhoff's equations: with the section's added moment of inertia and the force `-m q v`
+    /// along the chord.
+    pub(crate) fn is_kirchhoff(self) -> bool {
         matches!(self, Self::Impulse | Self::Section)
     }
 }

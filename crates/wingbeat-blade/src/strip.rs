@@ -86,26 +86,30 @@ impl Strip {
     /// The part of a surface between two lines along its chord: their ends at the leading and at the trailing
     /// edge \[m\], wing frame, root first; `side` +1 right, -1 left.
     ///
-    /// In the plane of axes 1 and 2 chord and width are along these axes. Elsewhere the chord is the line
-    /// between the middles of both edges, and the width is across it.
+    /// In the plane of axes 1 and 2 chord and width are along these axes: through the middle of the part, with its area.
+    /// Elsewhere the chord is the line between the middles of both edges, and the width is across it.
     pub fn between(leading: [DVec3; 2], trailing: [DVec3; 2], side: f64) -> PlacedStrip {
         let [lead, trail] = [leading, trailing].map(|[a, b]| 0.5 * (a + b));
         let chord = (lead - trail).length();
+        let along = 0.5 * ((leading[1] - leading[0]) + (trailing[1] - trailing[0]));
         let heights = leading.iter().chain(&trailing).map(|x| x.z.abs());
         if heights.fold(0.0, f64::max) <= FLAT * chord {
+            // Where the lines are not along axis 1, the edges go on at the mean sweep to the middle of the part.
+            let y = 0.5 * (lead.y + trail.y);
+            let beside = 0.5 * (trail.y - lead.y) * along.x / along.y;
+            let x_leading = lead.x + beside;
             return PlacedStrip {
                 strip: Self {
-                    y: lead.y,
-                    x_leading: lead.x,
-                    chord: lead.x - trail.x,
-                    width: (leading[1].y - leading[0].y).abs(),
+                    y,
+                    x_leading,
+                    chord: x_leading - (trail.x - beside),
+                    width: along.y.abs(),
                 },
-                axis: DVec3::new(0.0, lead.y, 0.0),
+                axis: DVec3::new(0.0, y, 0.0),
                 turn: DMat3::IDENTITY,
             };
         }
         let e1 = (lead - trail) / chord;
-        let along = 0.5 * ((leading[1] - leading[0]) + (trailing[1] - trailing[0]));
         let across = along - along.dot(e1) * e1;
         let e2 = side * across.normalize_or_zero();
         let x_leading = e1.dot(lead);

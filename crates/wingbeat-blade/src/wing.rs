@@ -49,7 +49,7 @@ impl AddedMoments {
             a.mxx += m * x * x;
             a.mxy += m * x * y;
             a.myy += m * y * y;
-            if settings.added_mass.has_inertia() {
+            if settings.added_mass.is_kirchhoff() {
                 a.inertia += s.added_inertia(settings.density);
             }
         }
@@ -94,6 +94,15 @@ impl BladeWing {
         self.settings.unsteady.is_some()
     }
 
+    /// The law of what the added mass does by velocities beside the strips' own forces: none of `section` where their
+    /// suction holds all of it.
+    pub(crate) fn added_by_velocities(&self) -> AddedMassModel {
+        match self.settings.added_mass {
+            AddedMassModel::Section if self.has_suction() => AddedMassModel::None,
+            law => law,
+        }
+    }
+
     /// Whether it carries air along.
     pub fn has_added_mass(&self) -> bool {
         self.settings.added_mass != AddedMassModel::None
@@ -122,8 +131,7 @@ impl BladeWing {
         if !wind.is_calm() {
             return sum + self.turning_load_in(motion, |p| v - wind.velocity(p));
         }
-        match self.settings.added_mass {
-            AddedMassModel::Section if self.has_suction() => {}
+        match self.added_by_velocities() {
             AddedMassModel::None | AddedMassModel::Normal => {}
             AddedMassModel::Section => self.add_chordwise_added_mass(v, motion.w, &mut sum),
             AddedMassModel::Impulse => self.add_turning_impulse(v, motion.w, &mut sum),

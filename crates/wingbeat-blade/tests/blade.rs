@@ -55,6 +55,40 @@ fn only_translation(law: Translation) -> BladeSettings {
     }
 }
 
+/// The square of speeds below 1e-162 m/s is no number: what is left of the loads goes with the speed itself.
+#[test]
+fn limit_air_whose_speed_has_no_square_exerts_no_force() {
+    let laws = SETS.iter().map(|set| set.law);
+    let centres = [
+        CentreOfPressure::Cosine,
+        CentreOfPressure::Fixed(0.3),
+        CentreOfPressure::Chen2016,
+    ];
+    for (translation, centre_of_pressure) in laws.flat_map(|l| centres.map(|c| (l, c))) {
+        let wing = BladeSettings {
+            translation,
+            centre_of_pressure,
+            ..BladeSettings::insect(RHO)
+        };
+        let wing = self::wing(wing, 3, 1.0);
+        for speed in (-210..-155).map(|k| 10_f64.powi(k)) {
+            let v = speed * DVec3::new(0.6, 0.0, -0.8);
+            for rate in [0.0, 1.0] {
+                // A tenth of a kilogram of air goes along: with rate 1/s the loads are less than the speed in N and N m.
+                let load = wing.velocity_load(&motion(v, rate * DVec3::Y));
+                let largest = load.force.abs().max(load.moment.abs()).max_element();
+                let still = wing.velocity_load(&motion(DVec3::ZERO, rate * DVec3::Y));
+                let still = still.force.abs().max(still.moment.abs()).max_element();
+                assert!(
+                    load.force.is_finite() && load.moment.is_finite(),
+                    "{speed:e}"
+                );
+                assert!(largest <= still + speed, "{speed:e} {rate}: {load:?}");
+            }
+        }
+    }
+}
+
 #[test]
 fn exact_revolving_wing_integrates_r2_c() {
     // A rectangular wing revolving at W with angle of attack a: L = 1/2 rho C_L W^2 c int r^2 dr.

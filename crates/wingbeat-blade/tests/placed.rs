@@ -116,9 +116,9 @@ fn invariant_a_mesh_turned_about_the_hinge_is_a_frame_turned_about_it() {
 
 #[test]
 fn exact_strips_in_the_plane_of_the_wing_are_measured_along_its_axes() {
-    let skewed = Strip::between(
+    let placed = Strip::between(
         [DVec3::new(0.1, 0.2, 0.0), DVec3::new(0.08, 0.4, 0.0)],
-        [DVec3::new(-0.2, 0.25, 0.0), DVec3::new(-0.18, 0.42, 0.0)],
+        [DVec3::new(-0.2, 0.2, 0.0), DVec3::new(-0.18, 0.4, 0.0)],
         1.0,
     );
     let strip = Strip {
@@ -127,8 +127,48 @@ fn exact_strips_in_the_plane_of_the_wing_are_measured_along_its_axes() {
         chord: 0.5 * (0.1 + 0.08) - 0.5 * (-0.2 - 0.18),
         width: 0.4 - 0.2,
     };
-    assert!(skewed.is_flat());
-    assert_eq!(skewed.strip, strip);
+    assert!(placed.is_flat());
+    assert_eq!(placed.strip, strip);
+}
+
+/// Parts between lines that are not along axis 1: with the area of the part, whichever edge is the longer, and
+/// those of a swept strip through its middle, as sections along axis 1 have it.
+#[test]
+fn exact_strips_between_skewed_lines_have_the_area_of_the_part() {
+    for side in [1.0, -1.0] {
+        for [l0, l1, t0, t1] in [
+            [[0.1, 0.2], [0.08, 0.4], [-0.2, 0.25], [-0.18, 0.42]],
+            [[0.1, 0.25], [0.1, 0.42], [-0.2, 0.2], [-0.2, 0.4]],
+            [[0.1, 0.2], [0.1, 0.2], [-0.2, 0.2], [-0.2, 0.4]],
+        ] {
+            let corners = [l0, l1, t1, t0].map(|[x, y]| DVec3::new(x, side * y, 0.0));
+            let [a, b, c, d] = corners;
+            let area = 0.5 * (c - a).cross(d - b).z.abs();
+            let placed = Strip::between([a, b], [d, c], side);
+            let (s, middle) = (placed.strip, 0.25 * (a + b + c + d));
+            assert!(placed.is_flat());
+            // Rounding.
+            assert!(
+                (s.chord * s.width / area - 1.0).abs() < 1e-14,
+                "{s:?} {area}"
+            );
+            assert!((s.y - middle.y).abs() < 1e-15 && (s.x_mid() - middle.x).abs() < 1e-15);
+        }
+    }
+    // Edges that are swept by 45 degrees, 0.3 apart along axis 1, between lines along axis 1 and at 45 degrees to it.
+    let strip = |dy: f64| {
+        let edge = |x: f64, dy: f64| [0.2, 0.4].map(|y| DVec3::new(x - (y + dy), y + dy, 0.0));
+        Strip::between(edge(0.1, dy), edge(-0.2, -dy), 1.0).strip
+    };
+    let [along, skewed] = [strip(0.0), strip(0.15)];
+    for (a, b) in [
+        (along.y, skewed.y),
+        (along.x_leading, skewed.x_leading),
+        (along.chord, skewed.chord),
+        (along.width, skewed.width),
+    ] {
+        assert!((a - b).abs() < 1e-15, "{along:?} {skewed:?}"); // Rounding.
+    }
 }
 
 /// A strip that lies on `turn`, and ways between its sides \[m\] with their first two time derivatives: one along

@@ -1,10 +1,19 @@
-//! Torsion of elastic wings that quasi-steady blade elements excite.
+//! Torsion of elastic wings that blade elements excite.
 //!
-//! A section in a stream U turns about an elastic axis a c behind its leading edge. By thin-airfoil theory, the force
-//! of circulation at a quarter of the chord follows the downwash of 3/4, and the added mass gives `m U q` at mid chord:
-//! the moment `pi rho c^3 U q ((a - 1/4) (3/4 - a) - (1/2 - a)/4)`, which drives the motion where
-//! `a > (5 - sqrt 5)/8 = 0.35`. With the couple `-(pi/16) rho c^3 U q` [Theodorsen 1935], which laws with
-//! one coefficient leave out, it damps for every a up to 1/2. Behind that a wake that lags is what damps. Where wings bend, too,
+//! A section in a stream U turns with the rate q about an elastic axis a c behind its leading edge. The normal force
+//! `2 pi s` times the angle and the circulation `C_rot c^2 q` act at the centre of pressure, x_cp c behind the edge, and
+//! the added mass gives `m U q` at mid chord. Of a section that feathers about an axis x0 c behind the edge:
+//!
+//! `pi rho c^3 U q ((a - x_cp) (s (x0 - a) + C_rot / pi) - (1/2 - a)/4 - k)`, which drives the motion where positive.
+//!
+//! With the couple `-(pi/16) rho c^3 U q` k is 1/16 [Theodorsen 1935]; laws with one coefficient leave it out. Thin-airfoil
+//! theory has s = 1, x_cp = 1/4 and C_rot = pi (3/4 - x0): without the couple `a > (5 - sqrt 5)/8 = 0.35` is driven, with
+//! it a > 1/2. The less lift a law has, the less it damps, as the circulation of turning stays: with the default
+//! coefficients (s = 0.594, drag included) the border is 0.416 where the wing feathers about its leading edge, and 0.448
+//! about a quarter of the chord. Behind the border a wake that lags is what damps: by
+//! Theodorsen's function F + i G of the reduced frequency k_r of the torsion, `s (x0 - a)` becomes
+//! `s (F (x0 - a) - (1 - F) C_rot / pi + G / (2 k_r))`. With s = 1 that damps ahead of and behind mid chord; with the
+//! default coefficients and slow air (F = 1/2) up to 0.444 and 0.485 only. Where wings bend, too,
 //! without the couple those grow whose elastic axis or mass lies behind a quarter of the chord: a wing of 0.3 x 0.08 m at
 //! 5 m/s by 15 1/s with the axis at 0.25 and the mass at 0.5, by 3 and 23 1/s with both at 0.3 and 0.4; with both at 0.25
 //! it decays.
@@ -16,7 +25,7 @@
 
 use std::f64::consts::PI;
 
-use wingbeat_blade::{AddedMassModel, BladeSettings, PlacedStrip, Rotation};
+use wingbeat_blade::{AddedMassModel, BladeSettings, PlacedStrip, Rotation, Unsteady};
 use wingbeat_math::DVec3;
 use wingbeat_model::deformation::SpanLaw;
 use wingbeat_model::{Members, Wing, WingBeam};
@@ -29,9 +38,6 @@ use crate::setup::{AirModel, FlightSetup};
 /// Elastic axis or mass behind the leading edge over the chord, behind which a wing is driven without the couple \[1\].
 const DRIVEN: f64 = 0.251;
 
-/// Elastic axis from which on torsion is driven with the couple \[1\].
-const DRIVEN_WITH_COUPLE: f64 = 0.5;
-
 /// Instants of a beat at which speeds are looked at.
 const INSTANTS: usize = 50;
 
@@ -39,34 +45,55 @@ const INSTANTS: usize = 50;
 const SMALL: f64 = 1e-6;
 
 impl FlightSetup {
-    /// Says which elastic wings have not enough damping of their own for what quasi-steady blade elements do to
-    /// their torsion; none of other air.
+    /// Says which elastic wings have not enough damping of their own for what blade elements do to their torsion; none
+    /// of other air.
     pub fn excited_torsion(&self) -> Option<String> {
         let AirModel::BladeElement(air) = &self.air else {
             return None;
         };
-        let rotation = air.blade.rotation;
-        if air.blade.unsteady.is_some() || rotation == Rotation::None {
-            return None;
-        }
-        let has_couple = air.blade.damps_feathering();
         let wings = self.animal.wings.iter();
-        let driven = wings.filter(|w| self.is_driven(w, &air.blade));
-        let wings: Vec<&str> = driven.map(|w| &w.name[..]).collect();
-        let (why, remedy) = match has_couple {
-            false => (
-                "leave out the moment of thin-airfoil theory against feathering, and what is left",
-                "air.blade.rotation = \"circulation\" without rotation_coefficient, air.blade.unsteady = \"peters\"",
-            ),
-            true => (
-                "have no wake that lags, and what is left about an elastic axis behind mid chord",
-                "air.blade.unsteady = \"peters\"",
-            ),
+        let driven: Vec<&Wing> = wings.filter(|w| self.is_driven(w, &air.blade)).collect();
+        let wings: Vec<&str> = driven.iter().map(|w| &w.name[..]).collect();
+        let why = match (air.blade.unsteady, air.blade.damps_feathering()) {
+            (Some(_), _) => {
+                "wakes of blade elements damp less than these coefficients and the circulation of feathering drive about an elastic axis so far from the centre of pressure, which"
+            }
+            (None, false) => {
+                "quasi-steady blade elements leave out the moment of thin-airfoil theory against feathering, and what is left"
+            }
+            (None, true) => {
+                "quasi-steady blade elements have no wake that lags, and what is left about an elastic axis so far behind the centre of pressure"
+            }
         };
+        let with_moment = BladeSettings {
+            rotation: Rotation::Circulation,
+            ..air.blade
+        };
+        let with_wakes = BladeSettings {
+            unsteady: Some(Unsteady::Peters { states: 8 }),
+            ..air.blade
+        };
+        let others = [
+            (
+                with_moment,
+                "air.blade.rotation = \"circulation\" without rotation_coefficient",
+            ),
+            (with_wakes, "air.blade.unsteady = \"peters\""),
+        ];
+        let helps = |blade: &BladeSettings| !driven.iter().any(|w| self.is_driven(w, blade));
+        let mut remedies: Vec<&str> = others
+            .iter()
+            .filter(|(blade, _)| helps(blade))
+            .map(|(_, said)| *said)
+            .collect();
+        if remedies.is_empty() {
+            remedies.push("an elastic axis farther forward (structure.beam.axis_fraction)");
+        }
         (!wings.is_empty()).then(|| {
             format!(
-                "quasi-steady blade elements {why} makes the torsion of elastic wings grow, in steps of any size (wings {}, whose own damping, if they have any, takes less): take {remedy}, or give more structure.damping_s",
-                names(wings, ", ")
+                "{why} makes the torsion of elastic wings grow, in steps of any size (wings {}, whose own damping, if they have any, takes less): take {}, or give more structure.damping_s",
+                names(wings, ", "),
+                remedies.join(", ")
             )
         })
     }
@@ -76,12 +103,14 @@ impl FlightSetup {
         wing.structure.as_ref().is_some_and(|made| {
             let damping = made.damping;
             let is_damped = damping.strain_rate > 0.0 || damping.mass > 0.0;
-            let has_couple = blade.damps_feathering();
+            let bending_adds =
+                !is_damped && !blade.damps_feathering() && blade.rotation != Rotation::None;
             match &made.members {
-                Members::Beam(beam) if is_damped => self.gains(wing, beam, (damping, blade)) > 0.0,
-                Members::Beam(beam) if has_couple => beam.axis_fraction >= DRIVEN_WITH_COUPLE,
-                Members::Beam(beam) => beam.axis_fraction.max(beam.mass_fraction) > DRIVEN,
-                Members::Shell(_) => !has_couple && !is_damped,
+                Members::Beam(beam) => {
+                    let behind = beam.axis_fraction.max(beam.mass_fraction) > DRIVEN;
+                    bending_adds && behind || self.gains(wing, beam, (damping, blade)) > 0.0
+                }
+                Members::Shell(_) => bending_adds,
             }
         })
     }
@@ -100,7 +129,6 @@ impl FlightSetup {
         let past: Vec<_> = instants.map(|t| self.air_past(wing, &motion, t)).collect();
         let (strips, report) = (strips(wing), wing.report());
         let [root, tip] = [wing.root() * report.length, report.length];
-        let rho = blade.density;
         let of_strip = |s: &PlacedStrip| {
             let (c, r) = (s.strip.chord, s.strip.y.abs());
             let wave = 0.5 * PI / (tip - root);
@@ -108,28 +136,88 @@ impl FlightSetup {
             let speed =
                 |past: &dyn Fn(DVec3) -> DVec3| (past(s.axis) * (DVec3::ONE - DVec3::Y)).length();
             let speeds: f64 = past.iter().map(|p| speed(p)).sum();
-            let drive = drive(blade, beam.axis_fraction, s.strip.x_leading / c);
-            let viscous = blade.viscous.map_or(0.0, |v| PI / 16.0 * v.linear);
             let value = |law: &SpanLaw| law.at(r / tip, root / tip);
             let even = wing.mass.mass * c / report.area;
             let mass = beam.mass.as_ref().map_or(even, value);
             let own = beam.inertia.as_ref().map_or(mass * c * c / 12.0, value);
             let behind = (beam.mass_fraction - beam.axis_fraction) * c;
-            let air = rho * c.powi(3) * (PI * speeds / INSTANTS as f64 * drive - viscous * c);
-            let by_rate = air - damping.mass * (own + mass * behind * behind);
-            let stiffness = value(&beam.torsion) * (wave * slope).powi(2);
-            s.strip.width * (by_rate * twist * twist - damping.strain_rate * stiffness)
+            TwistingStrip {
+                chord: c,
+                feathering: s.strip.x_leading / c,
+                speed: speeds / INSTANTS as f64,
+                square: s.strip.width * twist * twist,
+                inertia: s.strip.width * (own + mass * behind * behind) * twist * twist,
+                stiffness: s.strip.width * value(&beam.torsion) * (wave * slope).powi(2),
+            }
+        };
+        let strips: Vec<TwistingStrip> = strips.iter().map(of_strip).collect();
+        let a = beam.axis_fraction;
+        let (inertia, stiffness) = strips.iter().fold((0.0, 0.0), |(inertia, stiffness), s| {
+            let added = s.added_inertia(blade, a);
+            (inertia + s.inertia + added, stiffness + s.stiffness)
+        });
+        let omega = (stiffness / inertia).sqrt();
+        let of_strip = |s: &TwistingStrip| {
+            s.gains_of_air(blade, a, omega)
+                - damping.mass * s.inertia
+                - damping.strain_rate * s.stiffness
         };
         strips.iter().map(of_strip).sum()
     }
 }
 
+/// A strip of a wing whose torsion is a quarter of a wave, over the square of the twist of the tip.
+struct TwistingStrip {
+    /// Chord \[m\].
+    chord: f64,
+    /// Feathering axis behind the leading edge over the chord \[1\].
+    feathering: f64,
+    /// Mean speed through the air along chord and normal \[m/s\].
+    speed: f64,
+    /// Width times the square of the twist \[m\].
+    square: f64,
+    /// Inertia of its own about the elastic axis [kg m2].
+    inertia: f64,
+    /// Stiffness against twist \[N m\].
+    stiffness: f64,
+}
+
+impl TwistingStrip {
+    /// Added inertia about an elastic axis `a` chords behind the leading edge [kg m2].
+    fn added_inertia(&self, blade: &BladeSettings, a: f64) -> f64 {
+        let own = match blade.added_mass {
+            AddedMassModel::None => return 0.0,
+            AddedMassModel::Normal => 0.0,
+            AddedMassModel::Impulse | AddedMassModel::Section => 1.0 / 32.0,
+        };
+        let mass = 0.25 * PI * blade.density * self.chord.powi(4);
+        self.square * mass * ((0.5 - a).powi(2) + own)
+    }
+
+    /// Power that it takes from the air in torsion of the frequency `omega` [rad/s] about an elastic axis `a` chords
+    /// behind the leading edge, over the square of the rate of twist of the tip \[N m s\].
+    fn gains_of_air(&self, blade: &BladeSettings, a: f64, omega: f64) -> f64 {
+        let c = self.chord;
+        let reduced = 0.5 * omega * c / self.speed;
+        let wake = match blade.unsteady {
+            Some(law) if self.speed > 0.0 => {
+                let [f, g] = law.indicial().answer(reduced);
+                [f, g / (2.0 * reduced)]
+            }
+            _ => [1.0, 0.0],
+        };
+        let drive = drive(blade, a, self.feathering, wake);
+        let viscous = blade.viscous.map_or(0.0, |v| PI / 16.0 * v.linear);
+        self.square * blade.density * c.powi(3) * (PI * self.speed * drive - viscous * c)
+    }
+}
+
 /// The moment of the air about an elastic axis a c behind the leading edge of a section that feathers about
 /// another one, `feathering` chords behind, by the rate of twist and over `pi rho c^3 U` \[1\]: drives where it
-/// is positive.
-fn drive(blade: &BladeSettings, a: f64, feathering: f64) -> f64 {
-    let [lift, more] = [0.0, SMALL].map(|alpha| blade.translation.at(alpha)[0]);
-    let slope = (more - lift) / (2.0 * PI * SMALL);
+/// is positive. `wake` is F and G / (2 k_r) of Theodorsen's function, 1 and 0 of quasi-steady air.
+fn drive(blade: &BladeSettings, a: f64, feathering: f64, [in_phase, lag]: [f64; 2]) -> f64 {
+    let [[lift, drag], [more, _]] = [0.0, SMALL].map(|alpha| blade.translation.at(alpha));
+    let slope = ((more - lift) / SMALL + drag) / (2.0 * PI);
     let circulation = match blade.rotation {
         Rotation::None => 0.0,
         Rotation::Coefficient(c) => c / PI,
@@ -144,5 +232,7 @@ fn drive(blade: &BladeSettings, a: f64, feathering: f64) -> f64 {
     } else {
         0.0
     };
-    (a - 0.25) * (slope * (feathering - a) + circulation) - mass - couple
+    let lever = a - blade.centre_of_pressure.edge_on();
+    let downwash = in_phase * (feathering - a) - (1.0 - in_phase) * circulation + lag;
+    lever * (slope * downwash + circulation) - mass - couple
 }
