@@ -90,7 +90,9 @@ impl FlightSetup {
     pub fn flown_crossings(&self) -> Option<FlownCrossings> {
         let wings = self.animal.wings.len();
         let is_open = self.feedback.is_some() || self.prescribed_wings().len() < wings;
-        (is_open && wings > 1).then(|| FlownCrossings::new(&self.animal, &self.joined_pairs()))
+        let tips = self.air.lattice().map_or(&[][..], |air| &air.joined_tips);
+        (is_open && wings > 1)
+            .then(|| FlownCrossings::new(&self.animal, &self.joined_pairs(), tips))
     }
 
     /// Says which wings passed through each other as they were flown, and what to do about it.
