@@ -1,5 +1,6 @@
 //! Wings that pass through each other: no animal's do, and no vortex lattice says what the air does then.
 
+pub(crate) mod bent;
 mod cut;
 pub(crate) mod depth;
 pub(crate) mod flown;
@@ -379,7 +380,7 @@ mod tests {
                 (w.hinge_b, motion.at(t).c)
             };
             let poses: Vec<_> = flown.wings.iter().map(pose).collect();
-            counted.see(&poses);
+            counted.see(&poses, std::iter::empty());
         }
         assert_eq!(counted.found(), crossings(&flown, &[0, 1], &[]));
         let far = animal(vec![flapping(), wing(0.9, 0.0, 7.0)]);

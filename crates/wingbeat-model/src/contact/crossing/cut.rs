@@ -119,7 +119,8 @@ mod tests {
         // The whole animal is turned, too: nothing is round.
         let (about, place) = (turn([13.0, -7.0, 31.0]), DVec3::new(0.3, -0.7, 0.11));
         let turned = |(x, r)| (place + about * x, about * r);
-        counted.see(&[(DVec3::ZERO, turn([0.0; 3])), hand].map(turned));
+        let poses = [(DVec3::ZERO, turn([0.0; 3])), hand].map(turned);
+        counted.see(&poses, std::iter::empty());
         !counted.found().is_empty()
     }
 

@@ -1,13 +1,16 @@
 //! Wings that pass through each other as they are flown.
 
-use super::{Crossing, Shared, Sheet, are_joined, edge_gap, meet, pairs};
-use crate::animal::Animal;
+use super::bent::{Bending, Column, bend};
+use super::{Crossing, LINES, Shared, Sheet, are_joined, edge_gap, meet, pairs};
+use crate::animal::{Animal, Wing};
 use wingbeat_math::{DMat3, DVec3};
 
-/// Counts how often wings pass through each other as they are flown, shapes at rest.
+/// Counts how often wings pass through each other as they are flown, elastic wings with the shapes that loads give them.
 #[derive(Clone, Debug)]
 pub struct FlownCrossings {
     sheets: Vec<Sheet>,
+    /// Of elastic wings.
+    columns: Vec<Option<Vec<Column>>>,
     pairs: Vec<Pair>,
     /// Instants that were looked at.
     instants: usize,
@@ -26,6 +29,10 @@ impl FlownCrossings {
     /// same way those of which the first carries the second at its tip, `tips`.
     pub fn new(animal: &Animal, joined: &[[usize; 2]], tips: &[[usize; 2]]) -> Self {
         let wings = &animal.wings;
+        let elastic = |w: &Wing| {
+            let is_elastic = w.structure.is_some();
+            is_elastic.then(|| Column::all(&w.mesh, LINES))
+        };
         let pair = |of: [usize; 2]| {
             let meshes = of.map(|w| &wings[w].mesh);
             let roots = are_joined(joined, of).then(|| Shared::roots(meshes));
@@ -42,17 +49,33 @@ impl FlownCrossings {
         };
         Self {
             sheets: wings.iter().map(Sheet::new).collect(),
+            columns: wings.iter().map(elastic).collect(),
             pairs: pairs(0..wings.len()).map(pair).collect(),
             instants: 0,
         }
     }
 
-    /// Looks at an instant: places of the hinges \[m\] and attitudes of all wings in one frame.
-    pub fn see(&mut self, poses: &[(DVec3, DMat3)]) {
+    /// Looks at an instant: places of the hinges \[m\] and attitudes of all wings in one frame, and how the elastic ones
+    /// are bent, in their order.
+    pub fn see(&mut self, poses: &[(DVec3, DMat3)], bent: impl Iterator<Item = Bending>) {
         self.instants += 1;
+        let mut bent = bent;
+        let wings = self.sheets.iter().zip(&self.columns).zip(poses);
+        let placed = wings.map(|((sheet, columns), pose)| {
+            let bending = columns.as_ref().and_then(|c| Some((c, bent.next()?)));
+            match bending {
+                None => sheet.placed(*pose),
+                Some((columns, bending)) => {
+                    let mut nodes = sheet.nodes.clone();
+                    bend(&mut nodes, columns, &bending);
+                    nodes.iter().map(|x| pose.0 + pose.1 * *x).collect()
+                }
+            }
+        });
+        let nodes: Vec<Vec<DVec3>> = placed.collect();
         for pair in &mut self.pairs {
             let sheets = pair.wings.map(|w| &self.sheets[w]);
-            let nodes = pair.wings.map(|w| self.sheets[w].placed(poses[w]));
+            let nodes = pair.wings.map(|w| nodes[w].clone());
             pair.met += usize::from(meet(sheets, nodes, pair.shared));
         }
     }
