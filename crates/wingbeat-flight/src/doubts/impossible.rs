@@ -86,11 +86,14 @@ impl FlightSetup {
     }
 
     /// Counts how often wings pass through each other as they are flown, where that is not known beforehand:
-    /// under feedback, or with wings on joints of their own.
+    /// under feedback, with wings on joints of their own, or with elastic ones.
     pub fn flown_crossings(&self) -> Option<FlownCrossings> {
         let wings = self.animal.wings.len();
-        let is_open = self.feedback.is_some() || self.prescribed_wings().len() < wings;
-        (is_open && wings > 1).then(|| FlownCrossings::new(&self.animal, &self.joined_pairs()))
+        let has_joints = self.prescribed_wings().len() < wings;
+        let is_open = self.feedback.is_some() || has_joints || self.animal.is_elastic();
+        let tips = self.air.lattice().map_or(&[][..], |air| &air.joined_tips);
+        (is_open && wings > 1)
+            .then(|| FlownCrossings::new(&self.animal, &self.joined_pairs(), tips))
     }
 
     /// Says which wings passed through each other as they were flown, and what to do about it.
@@ -109,6 +112,9 @@ impl FlightSetup {
         let has_joints = found.wings.iter().any(|&w| self.has_own_joint(w));
         if !crossings(&self.animal, &found.wings, &joined).is_empty() {
             return self.apart(found, are_joined(&joined, found.wings));
+        }
+        if self.feedback.is_none() && !has_joints {
+            return "loads bend them so far: make them stiffer (structure), move the hinges apart (hinge_m), or let them beat less far towards each other".to_owned();
         }
         let limits = "limit the commands (control.amplitude_limit, control.angle_limit_deg)";
         match (has_joints, self.feedback.is_some()) {

@@ -1,6 +1,9 @@
 //! Wings that pass through each other: no animal's do, and no vortex lattice says what the air does then.
 
+pub(crate) mod bent;
+mod cut;
 pub(crate) mod depth;
+pub(crate) mod flown;
 
 use crate::animal::{Animal, Wing};
 use crate::mesh::GridMesh;
@@ -69,21 +72,32 @@ pub fn nearest_nodes(animal: &Animal, wings: [usize; 2]) -> f64 {
 
 /// How far the roots of two joined wings may part \[m\]: half the width of the narrowest panel there.
 pub fn root_gap(meshes: [&GridMesh; 2]) -> f64 {
-    let width = |mesh: &GridMesh, i: usize| {
-        let [root, next] = [0, 1].map(|j| mesh.nodes[mesh.node(i, j)]);
-        root.distance(next)
+    edge_gap(meshes, [false; 2])
+}
+
+/// Half the width \[m\] of the narrowest panel at the roots of two wings, or at their tips.
+fn edge_gap(meshes: [&GridMesh; 2], is_tip: [bool; 2]) -> f64 {
+    let width = |w: usize, i: usize| {
+        let mesh = meshes[w];
+        let columns = if is_tip[w] {
+            [mesh.cols - 1, mesh.cols]
+        } else {
+            [0, 1]
+        };
+        let [edge, next] = columns.map(|j| mesh.nodes[mesh.node(i, j)]);
+        edge.distance(next)
     };
     let rows = 0..=meshes[0].rows.min(meshes[1].rows);
-    let widths = rows.flat_map(|i| meshes.map(|m| width(m, i)));
+    let widths = rows.flat_map(|i| [0, 1].map(|w| width(w, i)));
     0.5 * widths.fold(f64::INFINITY, f64::min)
 }
 
 fn part_of_time(wings: [&Wing; 2], is_joined: bool) -> f64 {
     let sheets = wings.map(Sheet::new);
-    let gap = is_joined.then(|| root_gap(wings.map(|w| &w.mesh)));
+    let shared = is_joined.then(|| Shared::roots(wings.map(|w| &w.mesh)));
     let met = instants(wings).filter(|&t| {
         let nodes = [0, 1].map(|w| sheets[w].at(t));
-        meet(sheets.each_ref(), nodes, gap)
+        meet(sheets.each_ref(), nodes, shared)
     });
     met.count() as f64 / instants(wings).count() as f64
 }
@@ -100,18 +114,17 @@ pub(crate) fn instants(wings: [&Wing; 2]) -> impl Iterator<Item = f64> {
     (0..instants).map(move |k| beat * k as f64 / INSTANTS as f64)
 }
 
-/// Whether two sheets with these nodes pass through each other, roots at most `gap` \[m\] apart being joined.
-fn meet(sheets: [&Sheet; 2], [mut a, mut b]: [Vec<DVec3>; 2], gap: Option<f64>) -> bool {
-    if let Some(gap) = gap {
-        join(sheets, [&mut a, &mut b], gap);
+/// Whether two sheets with these nodes pass through each other, the edge that they share being joined.
+fn meet(sheets: [&Sheet; 2], [mut a, mut b]: [Vec<DVec3>; 2], shared: Option<Shared>) -> bool {
+    if let Some(shared) = shared {
+        shared.join(sheets, [&mut a, &mut b]);
     }
     pass_through(sheets, [&a, &b])
 }
 
 /// Whether two sheets with these nodes pass through each other.
 fn pass_through([one, other]: [&Sheet; 2], [a, b]: [&[DVec3]; 2]) -> bool {
-    overlap(a, b, between_middles(a, b)) >= 0.0
-        && (one.passes(a, other, b) || other.passes(b, one, a))
+    overlap(a, b, between_middles(a, b)) >= 0.0 && cut::is_cut([one, other], [a, b])
 }
 
 /// From the middle of the first nodes to that of the second \[m\].
@@ -129,86 +142,34 @@ fn overlap(a: &[DVec3], b: &[DVec3], way: DVec3) -> f64 {
     last - first
 }
 
-/// Counts how often wings pass through each other as they are flown, shapes at rest.
-#[derive(Clone, Debug)]
-pub struct FlownCrossings {
-    sheets: Vec<Sheet>,
-    pairs: Vec<Pair>,
-    /// Instants that were looked at.
-    instants: usize,
+/// Two edges along the chord that are one: the roots of two wings, or the tip of one and the root of the other.
+#[derive(Clone, Copy, Debug)]
+struct Shared {
+    /// Of which of the two wings it is the tip.
+    is_tip: [bool; 2],
+    /// How far they are apart where they are still one \[m\].
+    gap: f64,
 }
 
-/// Two wings, how near their roots are taken for joined \[m\], and at how many instants they met.
-#[derive(Clone, Debug)]
-struct Pair {
-    wings: [usize; 2],
-    gap: Option<f64>,
-    met: usize,
-}
+impl Shared {
+    fn roots(meshes: [&GridMesh; 2]) -> Self {
+        let (is_tip, gap) = ([false; 2], root_gap(meshes));
+        Self { is_tip, gap }
+    }
 
-impl FlownCrossings {
-    /// For all pairs of wings of the animal; those `joined` as in [`crossings`].
-    pub fn new(animal: &Animal, joined: &[[usize; 2]]) -> Self {
-        let wings = &animal.wings;
-        let pair = |of: [usize; 2]| {
-            let meshes = of.map(|w| &wings[w].mesh);
-            Pair {
-                wings: of,
-                gap: are_joined(joined, of).then(|| root_gap(meshes)),
-                met: 0,
+    /// Puts the edges of two sheets midway between them, where they are at most the gap apart.
+    fn join(&self, sheets: [&Sheet; 2], [a, b]: [&mut [DVec3]; 2]) {
+        let rows = sheets[0].rows.min(sheets[1].rows);
+        let node = |i: usize, w: usize| match self.is_tip[w] {
+            true => (i + 1) * sheets[w].columns - 1,
+            false => i * sheets[w].columns,
+        };
+        let ends = || (0..rows).map(|i| [node(i, 0), node(i, 1)]);
+        if ends().all(|[m, n]| a[m].distance(b[n]) <= self.gap) {
+            for [m, n] in ends() {
+                let middle = 0.5 * (a[m] + b[n]);
+                (a[m], b[n]) = (middle, middle);
             }
-        };
-        Self {
-            sheets: wings.iter().map(Sheet::new).collect(),
-            pairs: pairs(0..wings.len()).map(pair).collect(),
-            instants: 0,
-        }
-    }
-
-    /// Looks at an instant: places of the hinges \[m\] and attitudes of all wings in one frame.
-    pub fn see(&mut self, poses: &[(DVec3, DMat3)]) {
-        self.instants += 1;
-        for pair in &mut self.pairs {
-            let sheets = pair.wings.map(|w| &self.sheets[w]);
-            let nodes = pair.wings.map(|w| self.sheets[w].placed(poses[w]));
-            pair.met += usize::from(meet(sheets, nodes, pair.gap));
-        }
-    }
-
-    /// What was counted so far: instants, then those at which each pair met.
-    pub fn counts(&self) -> Vec<usize> {
-        let met = self.pairs.iter().map(|p| p.met);
-        std::iter::once(self.instants).chain(met).collect()
-    }
-
-    /// Goes on from [`Self::counts`] of the same wings.
-    pub fn count_on(&mut self, counts: &[usize]) {
-        let [instants, met @ ..] = counts else { return };
-        self.instants = *instants;
-        for (pair, met) in self.pairs.iter_mut().zip(met) {
-            pair.met = *met;
-        }
-    }
-
-    /// The pairs that passed through each other, and in which part of the instants.
-    pub fn found(&self) -> Vec<Crossing> {
-        let met = self.pairs.iter().filter(|p| p.met > 0);
-        let crossing = |p: &Pair| Crossing {
-            wings: p.wings,
-            part: p.met as f64 / self.instants as f64,
-        };
-        met.map(crossing).collect()
-    }
-}
-
-/// Puts the roots of two sheets midway between them, where they are at most `gap` \[m\] apart.
-fn join(sheets: [&Sheet; 2], [a, b]: [&mut [DVec3]; 2], gap: f64) {
-    let rows = sheets[0].rows.min(sheets[1].rows);
-    let roots = || (0..rows).map(|i| [0, 1].map(|w| i * sheets[w].columns));
-    if roots().all(|[m, n]| a[m].distance(b[n]) <= gap) {
-        for [m, n] in roots() {
-            let middle = 0.5 * (a[m] + b[n]);
-            (a[m], b[n]) = (middle, middle);
         }
     }
 }
@@ -257,11 +218,6 @@ impl Sheet {
         self.nodes.iter().map(|x| hinge + r * *x).collect()
     }
 
-    /// Whether a line of this sheet, whose nodes are at `a`, passes through the other, whose are at `b`.
-    fn passes(&self, a: &[DVec3], other: &Self, b: &[DVec3]) -> bool {
-        self.piercing(a, other, b).next().is_some()
-    }
-
     /// Lines of this sheet, whose nodes are at `a`, that pass through the other, whose are at `b`, with the triangle
     /// that each passes through first.
     fn piercing<'a>(
@@ -270,18 +226,30 @@ impl Sheet {
         other: &'a Self,
         b: &'a [DVec3],
     ) -> impl Iterator<Item = ([usize; 2], [DVec3; 3])> + 'a {
-        let touch = TOUCH * (self.size + other.size);
-        let lines = self.lines();
-        let low = b.iter().copied().fold(DVec3::INFINITY, DVec3::min);
-        let high = b.iter().copied().fold(DVec3::NEG_INFINITY, DVec3::max);
-        let near =
-            move |x: DVec3, y: DVec3| x.min(y).cmple(high).all() && x.max(y).cmpge(low).all();
-        let near = lines.filter(move |[m, n]| near(a[*m], a[*n]));
-        near.filter_map(move |line| {
+        let touch = self.touch(other);
+        self.near(a, b).filter_map(move |line| {
             let mut triangles = other.triangles().map(|t| t.map(|n| b[n]));
             let pierced = triangles.find(|t| pierces(line.map(|n| a[n]), *t, touch));
             pierced.map(|triangle| (line, triangle))
         })
+    }
+
+    /// What is no more than a touch of the other sheet \[m\].
+    fn touch(&self, other: &Self) -> f64 {
+        TOUCH * (self.size + other.size)
+    }
+
+    /// Lines of this sheet, whose nodes are at `a`, that reach into the box around `b`.
+    fn near<'a>(
+        &'a self,
+        a: &'a [DVec3],
+        b: &[DVec3],
+    ) -> impl Iterator<Item = [usize; 2]> + use<'a> {
+        let low = b.iter().copied().fold(DVec3::INFINITY, DVec3::min);
+        let high = b.iter().copied().fold(DVec3::NEG_INFINITY, DVec3::max);
+        let near =
+            move |x: DVec3, y: DVec3| x.min(y).cmple(high).all() && x.max(y).cmpge(low).all();
+        self.lines().filter(move |[m, n]| near(a[*m], a[*n]))
     }
 
     /// Nodes at the ends of the lines between neighbours.
@@ -311,24 +279,33 @@ fn lines(panels: usize, most: usize) -> Vec<usize> {
 }
 
 /// Whether the line passes through the triangle, and does not only `touch` \[m\] it.
-pub(crate) fn pierces([x, y]: [DVec3; 2], [a, b, c]: [DVec3; 3], touch: f64) -> bool {
+pub(crate) fn pierces(line: [DVec3; 2], triangle: [DVec3; 3], touch: f64) -> bool {
+    pierced(line, triangle, touch).is_some()
+}
+
+/// Where the line passes through the triangle, if it does and does not only `touch` \[m\] it.
+fn pierced([x, y]: [DVec3; 2], [a, b, c]: [DVec3; 3], touch: f64) -> Option<DVec3> {
     let normal = (b - a).cross(c - a);
     let area = normal.length();
     if area <= touch * touch {
-        return false;
+        return None;
     }
     let n = normal / area;
     let [over, under] = [x, y].map(|p| (p - a).dot(n));
     if over * under >= 0.0 || over.abs().min(under.abs()) <= touch {
-        return false;
+        return None;
     }
     let p = x.lerp(y, over / (over - under));
     let inside = |[u, v]: [DVec3; 2]| (v - u).cross(p - u).dot(n) >= -EDGE * area;
-    [[a, b], [b, c], [c, a]].into_iter().all(inside)
+    [[a, b], [b, c], [c, a]]
+        .into_iter()
+        .all(inside)
+        .then_some(p)
 }
 
 #[cfg(test)]
 mod tests {
+    use super::flown::FlownCrossings;
     use super::*;
     use crate::motion::{AngleLaw, Fourier};
     use crate::{MassInput, Planform, Side, WingShape};
@@ -392,7 +369,7 @@ mod tests {
         let slow = animal(vec![flapping(), wing(0.5, 0.0, 0.7)]);
         assert!((crossings(&slow, &[0, 1], &[])[0].part - 1.0 / 3.0).abs() < 0.02);
         let flown = animal(vec![flapping(), wing(0.5, 0.0, 7.0)]);
-        let mut counted = FlownCrossings::new(&flown, &[]);
+        let mut counted = FlownCrossings::new(&flown, &[], &[]);
         for k in 0..INSTANTS {
             let t = k as f64 / INSTANTS as f64 / 7.0;
             let pose = |w: &Wing| {
@@ -403,7 +380,7 @@ mod tests {
                 (w.hinge_b, motion.at(t).c)
             };
             let poses: Vec<_> = flown.wings.iter().map(pose).collect();
-            counted.see(&poses);
+            counted.see(&poses, std::iter::empty());
         }
         assert_eq!(counted.found(), crossings(&flown, &[0, 1], &[]));
         let far = animal(vec![flapping(), wing(0.9, 0.0, 7.0)]);

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 use wingbeat_flight::{ElasticRecord, FlightSetup, Record};
-use wingbeat_model::{Members, Wing};
+use wingbeat_model::{Bending, Members, Wing};
 
 use super::verdict::Warnings;
 
@@ -86,6 +86,19 @@ impl Bent {
 
 fn elastic(setup: &FlightSetup) -> impl Iterator<Item = &Wing> {
     (setup.animal.wings.iter()).filter(|w| w.structure.is_some())
+}
+
+/// The shape of an elastic wing as a record has it.
+pub(super) fn bending(wing: &Wing, now: &ElasticRecord) -> Bending {
+    let is_held = match wing.structure.as_ref().map(|s| &s.members) {
+        Some(Members::Shell(s)) => s.clamps_root || s.clamps_perimeter,
+        _ => true,
+    };
+    Bending {
+        sections: now.sections.map(|s| [s.deflection, s.twist, s.camber]),
+        tip: now.tip.truncate(),
+        is_held,
+    }
 }
 
 fn is_held_at_the_root_alone(wing: &Wing) -> bool {

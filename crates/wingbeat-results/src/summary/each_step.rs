@@ -7,7 +7,7 @@ use wingbeat_math::{DVec3, EulerSequence};
 use wingbeat_model::FlownCrossings;
 
 use super::alternation::Alternation;
-use super::bent::Bent;
+use super::bent::{self, Bent};
 use super::driven::DrivenWork;
 use super::extent::Extent;
 use super::held::Departures;
@@ -113,7 +113,9 @@ impl EachStep {
                 let attitude = EulerSequence::WING_132.rotation(DVec3::from_slice(&q[3..]));
                 (DVec3::from_slice(q), attitude)
             };
-            crossings.see(&of_wings.map(pose).collect::<Vec<_>>());
+            let elastic = setup.animal.wings.iter().filter(|w| w.structure.is_some());
+            let bent = elastic.zip(&r.elastic).map(|(w, e)| bent::bending(w, e));
+            crossings.see(&of_wings.map(pose).collect::<Vec<_>>(), bent);
         }
     }
 }

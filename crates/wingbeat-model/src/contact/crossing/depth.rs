@@ -1,6 +1,6 @@
 //! How deep wings reach through each other.
 
-use super::{Sheet, between_middles, instants, join, overlap, pass_through, root_gap};
+use super::{Shared, Sheet, between_middles, instants, overlap, pass_through};
 use crate::animal::Animal;
 use wingbeat_math::DVec3;
 
@@ -16,11 +16,11 @@ const PART: f64 = 1e-9;
 pub fn crossing_depth(animal: &Animal, wings: [usize; 2], is_joined: bool) -> f64 {
     let wings = wings.map(|w| &animal.wings[w]);
     let sheets = wings.map(Sheet::new);
-    let gap = is_joined.then(|| root_gap(wings.map(|w| &w.mesh)));
+    let shared = is_joined.then(|| Shared::roots(wings.map(|w| &w.mesh)));
     let deeper = |deepest: f64, t: f64| {
         let [mut a, mut b] = [0, 1].map(|w| sheets[w].at(t));
-        if let Some(gap) = gap {
-            join(sheets.each_ref(), [&mut a, &mut b], gap);
+        if let Some(shared) = shared {
+            shared.join(sheets.each_ref(), [&mut a, &mut b]);
         }
         let [one, other] = &sheets;
         let across = one.depth(&a, other, &b).max(other.depth(&b, one, &a));
