@@ -16,10 +16,12 @@ pub fn command(campaign: &Campaign, i: usize) -> String {
     let raw = campaign.raw();
     let is_trimmed = raw.tasks.contains(&Task::Trim);
     let verb = if is_trimmed { "trim" } else { "run" };
-    let mut text = format!(
-        "wingbeat {verb} {}",
-        shell_path(Path::new(campaign.base().origin()))
-    );
+    let origin = campaign.base().origin();
+    let case = match origin.strip_prefix("preset ") == Some(&raw.case) {
+        true => &raw.case,
+        false => origin,
+    };
+    let mut text = format!("wingbeat {verb} {}", shell_path(Path::new(case)));
     for set in campaign.overrides(i) {
         let _ = write!(text, " --set {}", shell(&set)); // a string takes everything
     }
