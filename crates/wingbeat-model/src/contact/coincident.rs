@@ -1,7 +1,8 @@
 //! Wings that lie in each other: they pass through nothing, and are in one place.
 
 use crate::animal::{Animal, Wing};
-use crate::contact::crossing::{Sheet, instants, pairs};
+use crate::contact::crossing::{instants, pairs};
+use crate::contact::sheet::Sheet;
 use crate::contact::touching::distance;
 use wingbeat_math::{DMat3, DVec3};
 

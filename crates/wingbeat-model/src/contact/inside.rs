@@ -4,7 +4,8 @@
 use std::f64::consts::PI;
 
 use crate::animal::Animal;
-use crate::contact::crossing::{INSTANTS, Sheet, pierces};
+use crate::contact::crossing::INSTANTS;
+use crate::contact::sheet::{Sheet, pierces};
 use crate::mesh::QuadMesh;
 use wingbeat_math::DVec3;
 

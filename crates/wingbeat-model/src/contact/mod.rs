@@ -4,4 +4,5 @@
 pub(crate) mod coincident;
 pub(crate) mod crossing;
 pub(crate) mod inside;
+pub(crate) mod sheet;
 pub(crate) mod touching;

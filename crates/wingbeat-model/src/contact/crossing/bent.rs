@@ -1,6 +1,6 @@
 //! The shape of a wing that loads bend, from its sections at quarters of its length.
 
-use super::lines;
+use crate::contact::sheet::lines;
 use crate::mesh::GridMesh;
 use wingbeat_math::{DMat3, DVec2, DVec3};
 
@@ -89,7 +89,7 @@ pub(super) fn bend(nodes: &mut [DVec3], columns: &[Column], bending: &Bending) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::contact::crossing::LINES;
+    use crate::contact::sheet::LINES;
     use crate::{Planform, Side, WingShape};
 
     /// A cantilever of length 1 under a force at its tip is bent by `(3 s^2 - s^3) / 2` of the displacement there, a

@@ -4,7 +4,7 @@
 //! within the other, or at an edge of it, too, as of wings that are mirror images. Two edges that cross each other
 //! at points only touch: an arm and the hand that feathers at its tip are each on its side of the edge that was one.
 
-use super::{Sheet, pierced};
+use crate::contact::sheet::{Sheet, pierced};
 use wingbeat_math::DVec3;
 
 /// How near an edge a point is on it, over the longest ways across both wings \[1\]: 0.01 % of them, about what

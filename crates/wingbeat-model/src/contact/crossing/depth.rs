@@ -1,7 +1,8 @@
 //! How deep wings reach through each other.
 
-use super::{Shared, Sheet, between_middles, instants, overlap, pass_through};
+use super::{Shared, between_middles, instants, overlap, pass_through};
 use crate::animal::Animal;
+use crate::contact::sheet::Sheet;
 use wingbeat_math::DVec3;
 
 /// How exactly the way by which a wing is moved is found, over that by which it is surely apart \[1\].

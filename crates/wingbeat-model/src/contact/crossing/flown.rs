@@ -1,8 +1,9 @@
 //! Wings that pass through each other as they are flown.
 
 use super::bent::{Bending, Column, bend};
-use super::{Crossing, LINES, Shared, Sheet, are_joined, edge_gap, meet, pairs};
+use super::{Crossing, Shared, are_joined, edge_gap, meet, pairs};
 use crate::animal::{Animal, Wing};
+use crate::contact::sheet::{LINES, Sheet};
 use wingbeat_math::{DMat3, DVec3};
 
 /// Counts how often wings pass through each other as they are flown, elastic wings with the shapes that loads give them.
