@@ -17,13 +17,13 @@ leading_m = [[0, 0.05], [1.0, 0.05]]
 trailing_m = [[0, -0.15], [1.0, -0.15]]
 [wing.right.mesh]
 chordwise = 1
-spanwise = 24
+spanwise = 12
 [wing.right.structure]
 spectral_radius = 1.0
 [wing.right.structure.beam]
 axis_fraction = 0.4
 mass_fraction = 0.4
-elements = 16
+elements = 8
 flap_newton_m2 = [2.0, 2.0]
 torsion_newton_m2 = [1.0, 1.0]
 lag_newton_m2 = [200.0, 200.0]

@@ -4,7 +4,7 @@ use serde_json::json;
 
 use crate::browser::Browser;
 use crate::support::{Scratch, flown, wingbeat};
-use crate::{RUN, content, lent};
+use crate::{RUN, content, lent, lent_flat};
 
 #[test]
 fn behaves_time_can_be_chosen_while_it_plays() {
@@ -136,7 +136,7 @@ fn behaves_prints_are_light() {
 /// Two fingers on a plot zoom it and leave the time; one that taps or moves changes the time.
 #[test]
 fn behaves_a_pinch_on_a_plot_leaves_the_time() {
-    let Some(mut browser) = lent() else {
+    let Some(mut browser) = lent_flat() else {
         return;
     };
     browser.open(&RUN.join("flight.html"), "frame=3");
@@ -184,7 +184,7 @@ fn stepped(browser: &mut Browser, flight: usize) -> [f64; 2] {
 #[test]
 fn behaves_two_flights_keep_step() {
     let scratch = Scratch::new("browser-pair");
-    let Some(mut browser) = lent() else {
+    let Some(mut browser) = lent_flat() else {
         return;
     };
     for out in ["a", "b"] {

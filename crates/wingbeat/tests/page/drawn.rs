@@ -4,13 +4,13 @@ use serde_json::json;
 use wingbeat::results::frames::Frame;
 
 use crate::support::{Scratch, flown};
-use crate::{RUN, content, lent};
+use crate::{RUN, content, lent, lent_flat};
 
 /// Bodies are posed by matrices, not drawn from the frames: a node of the page is the node of the frame.
 #[test]
 fn exact_the_page_poses_the_parts_of_an_animal_with_joints() {
     let scratch = Scratch::new("browser-joints");
-    let Some(mut browser) = lent() else {
+    let Some(mut browser) = lent_flat() else {
         return;
     };
     let args = ["run", "fruit-fly-abdomen", "--quiet", "--out", "run"];
@@ -46,7 +46,7 @@ fn exact_the_page_poses_the_parts_of_an_animal_with_joints() {
 #[test]
 fn exact_surfaces_of_a_straight_vortex_are_its_cylinder() {
     let scratch = Scratch::new("browser-cylinder");
-    let Some(mut browser) = lent() else {
+    let Some(mut browser) = lent_flat() else {
         return;
     };
     let args = ["run", "fruit-fly-vacuum", "--quiet", "--out", "run"];
@@ -84,7 +84,7 @@ fn exact_surfaces_of_a_straight_vortex_are_its_cylinder() {
 #[test]
 fn exact_wakes_have_the_half_strokes_of_their_wings() {
     let scratch = Scratch::new("browser-four");
-    let Some(mut browser) = lent() else {
+    let Some(mut browser) = lent_flat() else {
         return;
     };
     let args = ["run", "dragonfly", "--quiet", "--out", "run"];
@@ -124,7 +124,7 @@ fn exact_wakes_have_the_half_strokes_of_their_wings() {
     let short = browser.value(
         "(() => { const k = flight.frames.findIndex((f, k) => strokesOf(k).length > 1);
           seek(k); drawAll();
-          const clock = byId('clock').getBoundingClientRect(), buttons = [...document.querySelectorAll('#views > *')].map((b) => b.getBoundingClientRect());
+          const clock = byId('clock').getBoundingClientRect(), buttons = [...document.querySelectorAll('#views > :not([hidden])')].map((b) => b.getBoundingClientRect());
           if (!buttons.every((b) => b.left >= clock.right || b.top >= clock.bottom)) throw Error('under the buttons');
           return shortStrokes(k).map((w) => w[0]).sort(); })()",
     );
@@ -143,7 +143,7 @@ fn exact_wakes_have_the_half_strokes_of_their_wings() {
 #[test]
 fn exact_joined_wings_shed_no_root_vortex() {
     let scratch = Scratch::new("browser-joined");
-    let Some(mut browser) = lent() else {
+    let Some(mut browser) = lent_flat() else {
         return;
     };
     let args = [

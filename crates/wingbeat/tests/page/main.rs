@@ -67,23 +67,35 @@ fn started(folder: &Path, flags: &[&str]) -> Option<Browser> {
     browser
 }
 
-/// Browsers that wait for a next test: to start one takes longer than most tests do.
-static IDLE: Mutex<Vec<Browser>> = Mutex::new(vec![]);
+/// Browsers that wait for a next test, with WebGL and without: to start one takes longer than most tests do.
+static IDLE: Mutex<[Vec<Browser>; 2]> = Mutex::new([vec![], vec![]]);
 
-/// A browser without flags, for one test; after one that fails there is no next.
-struct Lent(Option<Browser>);
+/// A browser for one test, and whether it has no WebGL; after one that fails there is no next.
+struct Lent(Option<Browser>, bool);
 
+/// One that draws the scene as users see it.
 fn lent() -> Option<Lent> {
+    lent_of(false)
+}
+
+/// One without WebGL, for what does not depend on how the scene is drawn: where no graphics card compiles them, the
+/// programs of the scene take longer than all the rest.
+fn lent_flat() -> Option<Lent> {
+    lent_of(true)
+}
+
+fn lent_of(flat: bool) -> Option<Lent> {
     static STARTED: AtomicUsize = AtomicUsize::new(0);
-    let idle = IDLE.lock().unwrap().pop();
+    let idle = IDLE.lock().unwrap()[usize::from(flat)].pop();
     idle.or_else(|| {
         let number = STARTED.fetch_add(1, Ordering::Relaxed);
         let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("browser-{number}"));
         let _ = fs::remove_dir_all(&folder);
         fs::create_dir_all(&folder).unwrap();
-        started(&folder, &[])
+        let flags: &[&str] = if flat { &["--disable-3d-apis"] } else { &[] };
+        started(&folder, flags)
     })
-    .map(|browser| Lent(Some(browser)))
+    .map(|browser| Lent(Some(browser), flat))
 }
 
 impl Deref for Lent {
@@ -103,7 +115,7 @@ impl DerefMut for Lent {
 impl Drop for Lent {
     fn drop(&mut self) {
         if !std::thread::panicking() {
-            IDLE.lock().unwrap().extend(self.0.take());
+            IDLE.lock().unwrap()[usize::from(self.1)].extend(self.0.take());
         }
     }
 }
@@ -162,8 +174,7 @@ fn exact_the_page_works_in_a_browser() {
 
 #[test]
 fn behaves_without_webgl_the_flight_is_drawn_flat_and_says_so() {
-    let scratch = Scratch::new("browser-flat");
-    let Some(mut browser) = started(&scratch.0, &["--disable-3d-apis"]) else {
+    let Some(mut browser) = lent_flat() else {
         return;
     };
     browser.open(&RUN.join("flight.html"), "frame=3");
@@ -199,7 +210,7 @@ fn behaves_without_webgl_the_flight_is_drawn_flat_and_says_so() {
 #[test]
 fn behaves_any_description_is_shown() {
     let scratch = Scratch::new("browser-words");
-    let Some(mut browser) = lent() else {
+    let Some(mut browser) = lent_flat() else {
         return;
     };
     let words = &format!(
