@@ -225,3 +225,34 @@ fn refuses_strokes_that_differ_beside_the_mirror_by_their_key() {
     assert!(said.contains("motion.difference"), "{said}");
     assert!(said.contains("air.mirror = false"), "{said}");
 }
+
+/// A wing on a body of its own side: the other wing hangs on that of the other side, which is not made from the first.
+#[test]
+fn refuses_one_rotor_for_the_wings_of_both_sides() {
+    let mass = "mass_kg = 1e-4, centre_m = [0, 0, 0], inertia_about_centre_kg_m2 = [1e-9, 1e-9, 1e-9, 0, 0, 0]";
+    let rotor = |side: &str, y: f64| {
+        [
+            format!("segment.rotor-{side}={{ {mass} }}"),
+            format!(
+                "joint.shaft-{side}={{ child = \"rotor-{side}\", kind = \"revolute\", at_m = [0, {y}, 0], axis = [0, 0, 1], element = [{{ direction = 0, stiffness_newton_m_per_rad = 1e-3 }}] }}"
+            ),
+        ]
+    };
+    let wing = "joint.stroke={ child = \"right\", parent = \"rotor-right\", kind = \"revolute\", at_m = [0, 0, 0], axis = [0, 1, 0], element = [{ direction = 0, stiffness_newton_m_per_rad = 1e-4 }] }";
+    let right = rotor("right", 6e-3);
+    let one: Vec<&str> = right.iter().map(String::as_str).chain([wing]).collect();
+    let said = load(&one).unwrap_err();
+    let words = [
+        "joint.stroke.parent",
+        "segment.rotor-left",
+        "wing.right.mirror = false",
+    ];
+    assert!(words.iter().all(|w| said.contains(w)), "{said}");
+    let left = rotor("left", -6e-3);
+    let both: Vec<&str> = one
+        .into_iter()
+        .chain(left.iter().map(String::as_str))
+        .collect();
+    let setup = load(&both).unwrap().setup;
+    assert_eq!(setup.joints.len(), 4);
+}

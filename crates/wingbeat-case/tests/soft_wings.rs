@@ -1,7 +1,10 @@
 //! What is doubted of wings that loads bend.
 
+use std::path::Path;
+
 use crate::common::preset;
 use wingbeat_analysis::estimate;
+use wingbeat_case::LoadedCase;
 
 fn doubts(set: &[&str]) -> String {
     let coarse = [
@@ -73,4 +76,24 @@ fn behaves_damping_that_creeps_is_named_by_its_key() {
         fast.contains(strain_rates) && !fast.contains(momentum),
         "{fast}"
     );
+}
+
+/// Goland's wing with its stiffness in N mm2: no matter is so stiff, while its first frequency is that of torsion still.
+#[test]
+fn behaves_beams_stiffer_than_any_matter_are_doubted() {
+    let text = include_str!("../../wingbeat-verify/data/goland-strips.toml");
+    let with = |set: &[String]| {
+        let case = LoadedCase::from_text("goland", text, Path::new("."), set).unwrap();
+        estimate(&case.setup).doubts.join("\n")
+    };
+    let doubt = "no matter is so stiff for its weight";
+    assert!(!with(&[]).contains(doubt), "{}", with(&[]));
+    let wing = "wing.right.structure.beam";
+    for key in [
+        "flap_newton_m2=[9.77e12, 9.77e12]",
+        "torsion_newton_m2=[9.87e11, 9.87e11]",
+    ] {
+        let said = with(&[format!("{wing}.{key}")]);
+        assert!(said.contains(doubt), "{key}: {said}");
+    }
 }

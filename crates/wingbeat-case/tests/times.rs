@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 use std::fs;
 use std::path::Path;
 
-use wingbeat_case::LoadedCase;
+use wingbeat_case::{FittedTable, LoadedCase};
 
 use crate::common::refusal;
 
@@ -27,12 +27,16 @@ fn law(name: &str, header: &str, rows: &str, more: &str) -> String {
     format!("wing.right.motion.phi={{ table = {{ file = {file:?}, {more} }} }}")
 }
 
-fn doubt(law: String) -> Option<String> {
-    let case = LoadedCase::find("fruit-fly-tethered", &[law]).unwrap();
+fn fitted(set: &[String]) -> FittedTable {
+    let case = LoadedCase::find("fruit-fly-tethered", set).unwrap();
     let [fit] = &case.fitted_tables()[..] else {
         panic!("one table is fitted")
     };
-    fit.doubt()
+    fit.clone()
+}
+
+fn doubt(law: String) -> Option<String> {
+    fitted(&[law]).doubt()
 }
 
 /// Wingbeats at 200 Hz that are read at 190 Hz: the frequency with which they repeat is found. Where the
@@ -60,6 +64,26 @@ fn exact_the_frequency_of_a_table_is_found_where_it_is_misread() {
         "{said}"
     );
     assert!(!said.contains("is likely to be wrong"), "{said}");
+}
+
+/// Strokes filmed at 200 Hz that are flown at another frequency: this is said where that is near, as where it was
+/// forgotten, in whatever unit the times are; not of strokes that are flown far slower.
+#[test]
+fn behaves_a_table_that_is_flown_at_another_frequency_says_so() {
+    let steady = filmed(|_| 0.2);
+    let flown = |frequency: f64, more: &str| {
+        let table = law("flown.csv", "time_ms,phi_deg", &steady, more);
+        fitted(&[table, format!("motion.frequency_hz={frequency}")]).other_frequency()
+    };
+    let timed = "beats_per_unit = 0.2, harmonics = 4";
+    for frequency in [199.5, 200.0, 20.0] {
+        assert_eq!(flown(frequency, timed), None);
+    }
+    let said = flown(212.3, timed).expect("that");
+    assert!(
+        said.contains("is not motion.frequency_hz = 212.3"),
+        "{said}"
+    );
 }
 
 /// The wingbeats of a table that does not fit, and what a unit of its column asks for.

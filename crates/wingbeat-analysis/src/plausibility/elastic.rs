@@ -37,6 +37,13 @@ const WEIGHT: Limit = Limit::at_most(
 /// `1.8751^4 / 8` [Blevins, Formulas for natural frequency and mode shape, 1979, table 8-1].
 const CANTILEVER: f64 = 1.5453;
 
+/// Stiffness over mass per length and the square of half the chord \[m2/s2\]: modulus over density of a spar as thick as
+/// the chord is long, less than of any other. Carbon fibres have 1.3e8, diamond 3.4e8.
+const MATTER: Limit = Limit::at_most(
+    3.4e8,
+    "no matter is so stiff for its weight; are EI and GJ in N m2, masses in kg?",
+);
+
 const THICKNESS: Limit = Limit::at_most(0.25, "no sheet; is it in m?");
 
 const OFFSET: Limit = Limit::at_most(2.0, "it lies far outside the wing; is offset_m in m?");
@@ -162,6 +169,9 @@ pub(super) fn doubts(wing: &Wing, w: &WingEstimate, gravity: f64, list: &mut Dou
     if let (Members::Beam(beam), true) = (&structure.members, list.0.len() == before) {
         each_way(wing, beam, w, list);
     }
+    if let (Members::Beam(beam), true) = (&structure.members, list.0.len() == before) {
+        matter(wing, beam, list);
+    }
     if w.hides_frequency {
         list.0.push("its stiffnesses differ by more than numbers of 16 digits hold: steps will find no solution; are EI and GJ in N m2, EA and GA in N, moduli in Pa?".to_owned());
     }
@@ -188,6 +198,18 @@ fn each_way(wing: &Wing, beam: &WingBeam, w: &WingEstimate, list: &mut Doubts) {
         );
         let high = omega / (2.0 * PI * beat);
         list.see(&Limit { low: 0.0, ..RATIO }, &what, high, "");
+    }
+}
+
+/// Whether there is matter for these stiffnesses, at half of the length.
+fn matter(wing: &Wing, beam: &WingBeam, list: &mut Doubts) {
+    let report = wing.report();
+    let massive = wing.mass.mass / report.length * (0.5 * report.mean_chord).powi(2);
+    for (what, law) in [("flap", &beam.flap), ("torsion", &beam.torsion)] {
+        let what = format!(
+            "structure.beam.{what}_newton_m2 over mass per length and half the chord squared"
+        );
+        list.see(&MATTER, &what, law.at(0.5, 0.0) / massive, " m2/s2");
     }
 }
 

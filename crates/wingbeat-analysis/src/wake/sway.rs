@@ -7,14 +7,12 @@ use wingbeat_flight::PrescribedMotion;
 use wingbeat_math::{DVec3, DriftingFourier, EulerSequence};
 use wingbeat_model::Start;
 
-/// Harmonics that are kept: bodies are smooth.
-const HARMONICS: usize = 12;
-
-/// Amplitude over the largest one of place or attitude below which a coefficient is none: roundings.
+/// Amplitude over the largest one of place or attitude from which on the highest harmonics are left out.
 const NONE: f64 = 1e-9;
 
 /// The motion through `roots`, which are even in time, both ends of a beat of `frequency` \[Hz\] among them:
-/// places with their mean velocity, attitudes without what they have changed by.
+/// places with their mean velocity, attitudes without what they have changed by. It has all harmonics that so many
+/// roots tell apart: elastic wings that ring shake the body many times a beat.
 pub(super) fn sway(roots: &[BodyMotion], frequency: f64) -> PrescribedMotion {
     let angles = |root: &BodyMotion| EulerSequence::BODY_231.angles(root.r);
     let mut position = series(roots, |root| root.p, frequency);
@@ -59,9 +57,7 @@ fn series(
         }
         sums.map(|s| s * 2.0 / steps as f64)
     };
-    let all: Vec<[DVec3; 2]> = (1..=HARMONICS.min((steps - 1) / 2))
-        .map(coefficients)
-        .collect();
+    let all: Vec<[DVec3; 2]> = (1..=(steps - 1) / 2).map(coefficients).collect();
     std::array::from_fn(|i| DriftingFourier {
         constant: mean[i],
         rate: drift[i] * steps as f64 * frequency,

@@ -20,6 +20,8 @@ pub struct FittedTable {
     pub span: f64,
     /// Wingbeats in one unit of its first column, as it is given \[1\]; none of phases.
     pub beats_per_unit: Option<f64>,
+    /// Frequency at which they are flown \[Hz\].
+    pub frequency: f64,
     /// Wingbeats in one unit with which the series follows the samples much better \[1\]; none where there is
     /// none near.
     pub better_beats_per_unit: Option<f64>,
@@ -37,6 +39,9 @@ const NOISE_DEG: f64 = 3.0;
 /// A sample farther off than so many times the root mean square is none of the others' kind; of two hundred
 /// with normal noise the farthest is at 3.
 const OUTLIER: f64 = 5.0;
+
+/// Frequencies that differ by less are the same, rounded \[1\].
+const SAME_FREQUENCY: f64 = 5e-3;
 
 /// Samples of a single beat do not go on for longer, rounding aside \[wingbeats\].
 const ONE_BEAT: f64 = 1.001;
@@ -66,6 +71,21 @@ impl FittedTable {
             )
         });
         coarse.or(noise)
+    }
+
+    /// That the wings beat at a frequency near that of the samples, but not at it: where the wingbeats in a unit are
+    /// those in a second, a millisecond or a microsecond.
+    pub fn other_frequency(&self) -> Option<String> {
+        let (beats, frequency) = (self.beats_per_unit?, self.frequency);
+        let ratios = [1.0, 1e3, 1e6].map(|unit| unit * beats / frequency);
+        let near = ratios
+            .into_iter()
+            .find(|r| (0.75..1.0 / 0.75).contains(r))?;
+        ((near - 1.0).abs() > SAME_FREQUENCY).then(|| {
+            format!(
+                "beats_per_unit = {beats} is not motion.frequency_hz = {frequency}: the strokes are flown at that"
+            )
+        })
     }
 
     /// What may be wrong with the times of a table of more than one wingbeat.
@@ -142,7 +162,8 @@ impl LoadedCase {
             let key = format!("wing.{name}.motion.{angle}.table");
             let beats = self.number_at(&format!("{key}.beats_per_unit"));
             let rows = radians(table.rows_deg.as_ref()?);
-            left_of(key, &rows, table.harmonics?, beats)
+            let frequency = self.raw.motion.frequency_hz.value();
+            left_of(key, &rows, table.harmonics?, (beats, frequency))
         };
         motion.angles().filter_map(fitted).collect()
     }
@@ -153,7 +174,7 @@ fn left_of(
     key: String,
     rows: &[(f64, f64)],
     harmonics: usize,
-    beats_per_unit: Option<f64>,
+    (beats_per_unit, frequency): (Option<f64>, f64),
 ) -> Option<FittedTable> {
     let (series, left) = Fourier::fitted("", rows, harmonics).ok()?;
     let rms = root_mean_square(left.iter().copied());
@@ -167,6 +188,7 @@ fn left_of(
         samples: left.len(),
         span: rows[rows.len() - 1].0 - rows[0].0,
         beats_per_unit,
+        frequency,
         better_beats_per_unit: better,
         residual_deg: rms.to_degrees(),
         farthest: [farthest.1, rows[farthest.0].0],

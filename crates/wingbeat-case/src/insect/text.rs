@@ -94,9 +94,6 @@ density_kg_m3 = 1.225
 
 [air.blade]
 coefficients = \"dickson-2008\"  # measured on a fruit fly's wing
-
-[output]
-frames_every = 0
 ";
 
 fn lattice() -> String {

@@ -26,7 +26,7 @@ pub(crate) fn build_all(case: &Case, animal: &Animal) -> Built<Vec<Joint>> {
     for (name, joint) in &case.joint {
         let carries = carries(case, joint);
         joints.push(build(case, animal, name, joint, carries)?);
-        if let Some((name, image)) = mirrored(case, animal, name, joint) {
+        if let Some((name, image)) = mirrored(case, animal, name, joint)? {
             joints.push(build(case, animal, &name, &image, carries)?);
         }
     }

@@ -11,25 +11,33 @@ use crate::raw::{
 
 /// The joint of a right wing for a left wing that has none, and the other way round, unless that wing is not to
 /// be mirrored: points and displacements are mirrored, axes of rotation too, so that equal angles are mirror
-/// images. A spherical joint has no axes: the first and third component of its rotation vector change sign.
+/// images. A spherical joint has no axes: the first and third component of its rotation vector change sign. Both
+/// hang on one body of the middle or each on that of its side; a body of one side without its counterpart is refused.
 pub(crate) fn mirrored(
     case: &Case,
     animal: &Animal,
     name: &str,
     joint: &JointCase,
-) -> Option<(String, JointCase)> {
+) -> Built<Option<(String, JointCase)>> {
     let is_wing = |n: &str| animal.wings.iter().any(|w| w.name == n);
-    let counterpart = mirror_name(&joint.child).filter(|t| is_wing(t) && is_wing(&joint.child))?;
+    let counterpart = mirror_name(&joint.child).filter(|t| is_wing(t) && is_wing(&joint.child));
+    let Some(counterpart) = counterpart else {
+        return Ok(None);
+    };
     let alone = case.wing.get(&joint.child).and_then(|w| w.mirror) == Some(false);
     if alone || case.joint.values().any(|j| j.child == counterpart) {
-        return None;
+        return Ok(None);
     }
     let turning = |x: [f64; 3]| wingbeat_math::mirrored_axial(x.into()).into();
     let slides = matches!(joint.kind, JointKind::Prismatic | JointKind::PointOnLine);
-    let parent = joint.parent.as_deref().and_then(|p| {
-        let other = mirror_name(p).filter(|t| body_names(animal).contains(&t.as_str()));
-        other.or(Some(p.to_owned()))
-    });
+    let parent = match joint.parent.as_deref() {
+        Some(p) => Some(counterpart_of(
+            animal,
+            name,
+            [p, &joint.child, &counterpart],
+        )?),
+        None => None,
+    };
     let mut image = JointCase {
         parent,
         child: counterpart.clone(),
@@ -46,7 +54,33 @@ pub(crate) fn mirrored(
         reverse_turns(&mut image);
     }
     let name = mirror_name(name).unwrap_or_else(|| format!("{name}-{counterpart}"));
-    Some((name, image))
+    Ok(Some((name, image)))
+}
+
+/// The body that the wing `counterpart` hangs on where `child` hangs on `parent` by the joint `name`.
+fn counterpart_of(
+    animal: &Animal,
+    name: &str,
+    [parent, child, counterpart]: [&str; 3],
+) -> Built<String> {
+    let Some(other) = mirror_name(parent) else {
+        return Ok(parent.to_owned());
+    };
+    if body_names(animal).contains(&other.as_str()) {
+        return Ok(other);
+    }
+    Err(Fault::new(
+        format!("joint.{name}.parent"),
+        format!(
+            "wing.{counterpart}, the mirror image of wing.{child}, is given no joint and there is no {other:?}: it would \
+             hang on {parent:?}, too"
+        ),
+        "a body without a side in its name, or one that both sides have",
+        format!(
+            "add segment.{other} with its joint; or wing.{child}.mirror = false for a flyer of one wing; or, if both \
+             wings do hang on it, rename {parent:?}"
+        ),
+    ))
 }
 
 /// Refuses strokes of right and left wings that differ, and joints whose springs, dampers or stops do, where one

@@ -22,7 +22,7 @@ pub(super) const POSES: &[HistoryQuantity] = &[
     scalar("{s}_{c}", Unit::Metre, "position of the origin of {s}",
         |r, s, c| Real(&mut r.coordinates[6 * s + c])).along(Place, Frame::Inertial).symbol("q"),
     scalar("{s}_{c}", Unit::Radian,
-        "Euler angle of {s}, without jumps: of the two triples of an attitude, with whole turns, the one nearest to the row before (the first to zero)",
+        "Euler angle of {s} (phi is the pitch of the body, theta yaw, psi roll), without jumps: of the two triples of an attitude, with whole turns, the one nearest to the row before (the first to zero)",
         |r, s, c| Real(&mut r.coordinates[6 * s + 3 + c])).along(Angles, Frame::Attitude).symbol("q"),
 ];
 

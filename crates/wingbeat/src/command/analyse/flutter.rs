@@ -296,6 +296,9 @@ fn alone(c: &Condition) -> String {
     )
 }
 
+/// Speeds this far apart, over the onset between them, tell it coarsely \[1\]: growth over speed is no straight line.
+const WIDE: f64 = 0.1;
+
 /// Onsets and ends between speeds.
 fn between(report: &mut Report, conditions: &[Condition], found: &[Onset], is_complete: bool) {
     for c in found {
@@ -308,6 +311,14 @@ fn between(report: &mut Report, conditions: &[Condition], found: &[Onset], is_co
             c.between[0],
             c.between[1]
         );
+        if c.between[1] - c.between[0] > WIDE * c.speed {
+            line!(
+                report,
+                "Growth was taken as a straight line between these two; --speeds {}:{}:5 looks closer.",
+                c.between[0],
+                c.between[1]
+            );
+        }
     }
     let likely = likely(conditions);
     for c in &likely {

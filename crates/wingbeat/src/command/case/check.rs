@@ -126,17 +126,20 @@ fn tell_gaps(report: &mut Report, gaps: &[TableGaps]) {
     report.value("table_gaps", gaps.iter().map(value).collect::<Vec<_>>());
 }
 
-/// What is left between samples of angles and the series fitted to them.
+/// What is left between samples of angles and the series fitted to them, and whether wings beat at another
+/// frequency than in these.
 fn tell_fits(report: &mut Report, fits: &[FittedTable]) {
     for fit in fits {
         entry!(
             report,
             "fit",
-            "{}: {} harmonics leave {:.3} deg (rms) of {} samples",
+            "{}: {} harmonics leave {:.3} deg (rms) of {} samples{}",
             fit.key,
             fit.harmonics,
             fit.residual_deg,
-            fit.samples
+            fit.samples,
+            fit.other_frequency()
+                .map_or(String::new(), |text| format!("; {text}"))
         );
     }
     let value = |f: &FittedTable| {
