@@ -8,6 +8,7 @@ use wingbeat_analysis::control::{
     Stiffness, Weights, disturbed,
 };
 use wingbeat_analysis::episode::{Draw, Recovery, Start, Task, Tumbles};
+use wingbeat_analysis::wake::{WakeMemory, WakeSettings, trim_with_wake, wake_floquet};
 use wingbeat_analysis::*;
 use wingbeat_blade::BodyDrag;
 use wingbeat_flight::AirModel;
@@ -173,6 +174,50 @@ fn invariant_modes_of_flight_in_streams() {
                         // Neighbouring exponents are hundredths apart.
                         assert!((a.1 - b.1).abs() < 1e-5, "{stream}: {a:?} {b:?}");
                     }
+                }
+            }
+        }
+    }
+}
+
+/// Modes by flights of hold and release at the same speed through the air, in still air and in streams: exponents and
+/// shapes.
+#[test]
+fn invariant_modes_by_flights_in_streams() {
+    const FORWARD: f64 = 0.5;
+    let of = |stream: f64| {
+        let mut setup = fly();
+        setup.time.step = 0.005 / STEPS as f64;
+        if let AirModel::BladeElement(air) = &mut setup.air {
+            air.blade.free_stream = DVec3::new(stream, 0.0, 0.0);
+        }
+        for wing in &mut setup.animal.wings {
+            wing.motion.start = wingbeat_model::Start::Impulsive;
+        }
+        let mut problem = hover(STEPS);
+        problem.velocity = DVec3::new(FORWARD + stream, 0.0, 0.0);
+        let settings = WakeSettings {
+            held_beats: 1,
+            tolerance: 1e-7,
+            ..WakeSettings::default()
+        };
+        let found = trim_with_wake(&setup, &problem, &settings).expect("a trim");
+        assert!(found.solution.converged, "{:?}", found.solution.residual);
+        [WakeMemory::Given, WakeMemory::Carried].map(|m| wake_floquet(&found, m).expect("modes"))
+    };
+    let still = of(0.0);
+    for stream in [-FORWARD, 3.0] {
+        for (a, b) in still.iter().zip(&of(stream)) {
+            for (a, b) in a.modes.iter().zip(&b.modes) {
+                assert_eq!((&a.name, a.plane), (&b.name, b.plane), "{stream}");
+                let apart = [a.growth - b.growth, a.frequency - b.frequency];
+                let apart = apart.map(|x| (x * a.wingbeat).abs());
+                println!("{stream} {} {apart:?}", a.name);
+                // Trims to 1e-7, differences over steps of 1e-3.
+                assert!(apart.iter().all(|x| *x < 1e-5), "{stream}: {apart:?}");
+                for (a, b) in a.vector.iter().zip(&b.vector) {
+                    // Neighbouring exponents are hundredths apart.
+                    assert!((a.1 - b.1).abs() < 1e-3, "{stream}: {a:?} {b:?}");
                 }
             }
         }

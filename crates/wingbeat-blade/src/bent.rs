@@ -1,8 +1,8 @@
 //! Wings that loads bend: every strip a section through the nodes of two columns of the wing's mesh.
 //!
 //! Three weighted sums of the nodes say how a section lies: its place `p = sum a r`, its chord `d = sum b r`
-//! (forward, of length one at rest), and what lies between its two sides, `s = sum g r`. Chord, normal and span
-//! of the section follow, with their velocities and accelerations; the loads are those of the flat wing in
+//! (forward, of length one at rest, and along the chord of the strip also where lines of nodes are not), and what lies
+//! between its two sides, `s = sum g r`. Chord, normal and span of the section follow, with their velocities and accelerations; the loads are those of the flat wing in
 //! these axes, and go back to the nodes by the same weights: force, moment and power are the same on both
 //! sides. Of what a section does beside moving as a flat one, camber, they know nothing.
 //!
@@ -18,7 +18,7 @@ use crate::lag::{Lag, StripWind};
 use crate::pair::{PairMotion, StripPair};
 use crate::settings::AddedMassModel;
 use crate::slowed::{front, slowed_forces};
-use crate::strip::Strip;
+use crate::strip::{PlacedStrip, Strip};
 use crate::wind::LocalWind;
 use crate::wing::BladeWing;
 
@@ -30,6 +30,9 @@ struct NodeWeight {
     chord: f64,
     span: f64,
 }
+
+/// How far lines of nodes go across the chord over how far they go along it, where that is rounding \[1\].
+const ALONG: f64 = 1e-9;
 
 /// A section of the mesh.
 #[derive(Clone, Debug, PartialEq)]
@@ -92,7 +95,8 @@ impl MeshSection {
         let last = rows.len() - 1;
         let side = (rest[outer[0]].y - rest[inner[0]].y).signum();
         let edge = |i: usize| rows[i].map(|n| rest[n]);
-        let e1 = Strip::between(edge(0), edge(last), side).turn.x_axis;
+        let placed = Strip::between(edge(0), edge(last), side);
+        let e1 = placed.turn.x_axis;
         let x: Vec<f64> = rows
             .iter()
             .map(|[a, b]| 0.5 * (e1.dot(rest[*a]) + e1.dot(rest[*b])))
@@ -122,6 +126,25 @@ impl MeshSection {
             edges: [x[0], x[last]],
             side,
         }
+        .along_chord(rest, &placed)
+    }
+
+    /// The same with its chord and its edges those of the strip, which lies so at rest: where the lines of nodes are not
+    /// along the chord, what they are across it is the way between the sides.
+    fn along_chord(mut self, rest: &[DVec3], placed: &PlacedStrip) -> Self {
+        let [e1, e2, _] = [0, 1, 2].map(|k| placed.turn.col(k));
+        let [_, d, s] = self.sums(rest);
+        let across = d.dot(e2) / s.dot(e2);
+        if (across * s.length()).abs() < ALONG {
+            return self;
+        }
+        let length = (d - across * s).dot(e1);
+        for share in &mut self.shares {
+            share.chord = (share.chord - across * share.span) / length;
+        }
+        let strip = &placed.strip;
+        self.edges = [strip.x_leading, strip.x_leading - strip.chord];
+        self
     }
 
     /// The three sums of `of`.

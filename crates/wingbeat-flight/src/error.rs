@@ -24,7 +24,7 @@ pub enum FlightError {
     WingStructure(#[from] wingbeat_model::structure::WingStructureError),
     /// Shape and loads of elastic wings did not come to agree.
     #[error(
-        "t = {time:.6e} s: shape and loads of {} did not agree after {passes} passes: unbalanced forces {unbalanced:.2e} of those at the nodes, allowed {tolerance:.0e}; try a smaller step (time.steps_per_beat, or time.step_s), more damping (structure.damping_s), or look whether the wing is too soft for its loads, touches itself, or is so stiff in one way (EI, GJ, EA or moduli in other units) that rounding of its shape outweighs its loads: `wingbeat check` doubts that",
+        "t = {time:.6e} s: shape and loads of {} did not agree after {passes} passes: unbalanced forces {unbalanced:.2e} of those at the nodes, allowed {tolerance:.0e}; try {remedy}",
         wings.join(" and ")
     )]
     ElasticNotConverged {
@@ -38,6 +38,8 @@ pub enum FlightError {
         unbalanced: f64,
         /// Allowed.
         tolerance: f64,
+        /// What to try.
+        remedy: &'static str,
     },
     /// The vortex lattice cannot be built or evaluated.
     #[error(transparent)]

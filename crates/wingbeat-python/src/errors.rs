@@ -191,9 +191,8 @@ fn flight(error: &FlightError) -> (&'static str, ErrorFields) {
             ("FlightError", about("control", remedy))
         }
         FlightError::External(_) => ("FlightError", about("air", "see what the air says")),
-        FlightError::ElasticNotConverged { .. } => {
-            let remedy = "a smaller step (time.steps_per_beat), more damping (structure.damping_s)";
-            ("FlightError", about("time.steps_per_beat", remedy))
+        FlightError::ElasticNotConverged { remedy, .. } => {
+            ("FlightError", about("time.steps_per_beat", *remedy))
         }
         FlightError::Asymmetric { .. } => {
             let remedy = "compute both halves: air.mirror = false";

@@ -15,6 +15,8 @@ mod excited;
 mod free_bodies;
 #[path = "elastic/hinge.rs"]
 mod hinge;
+#[path = "elastic/jumps.rs"]
+mod jumps;
 #[path = "elastic/leading_edges.rs"]
 mod leading_edges;
 #[path = "elastic/mirrored.rs"]

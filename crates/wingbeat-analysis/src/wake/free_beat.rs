@@ -2,9 +2,11 @@
 
 use wingbeat_dynamics::BodyMotion;
 use wingbeat_flight::{FlightSetup, MotionMode, Record, Simulation, StartState};
+use wingbeat_math::DVec3;
 
 use crate::AnalysisError;
 use crate::beat::level::{Level, Perturbation};
+use crate::stability::disturbance::Disturbance;
 use crate::stability::modes::Scales;
 
 /// How a flight that was trimmed starts.
@@ -40,10 +42,20 @@ pub(super) fn steps_per_beat(setup: &FlightSetup) -> Result<usize, AnalysisError
     ))
 }
 
-/// What the flyer of `setup` looks like from `level`.
+/// What the flyer of `setup` looks like from `level`, its velocity that through the air.
 pub(super) fn seen(setup: &FlightSetup, level: &Level, r: &Record) -> Perturbation {
-    let velocity = r.momentum / setup.animal.mass();
+    let velocity = r.momentum / setup.animal.mass() - stream(setup);
     Perturbation::seen(level, r.root_rotation(), velocity, r.root_angular_velocity)
+}
+
+/// Velocity of the undisturbed air, N components [m/s].
+fn stream(setup: &FlightSetup) -> DVec3 {
+    setup.air.stream().unwrap_or_default()
+}
+
+/// The trimmed flight of `setup` disturbed by `by`, its velocity that through the air.
+pub(super) fn disturbance(setup: &FlightSetup, level: &Level, by: &Perturbation) -> Disturbance {
+    Disturbance::new(level, by, stream(setup))
 }
 
 /// The motion into which the root is released, from that at the end of the hold.

@@ -4,7 +4,7 @@ use wingbeat_dynamics::BodyMotion;
 use wingbeat_flight::{AirModel, MotionMode, Record};
 
 use super::differences::{departures, map_between};
-use super::free_beat::{free_beat, level, scales, seen, steps_per_beat};
+use super::free_beat::{disturbance, free_beat, level, scales, seen, steps_per_beat};
 use super::trim::WakeTrim;
 use crate::AnalysisError;
 use crate::beat::level::Perturbation;
@@ -20,8 +20,9 @@ pub enum WakeMemory {
     /// The disturbed motion during the hold: the wake goes with it.
     Carried,
 }
+
 /// The derivative of the free beat by the nine components of [`Perturbation`] at the release, 9 x 9
-/// by rows, about the trimmed flight.
+/// by rows, about the trimmed flight. Velocities in it are those through the air: in a stream it is that of still air.
 ///
 /// # Errors
 /// A flight that fails; disturbances that do not reach all nine components.
@@ -34,7 +35,7 @@ pub fn wake_monodromy(trim: &WakeTrim, memory: WakeMemory) -> Result<Vec<f64>, A
     }
     let (level, sizes) = (level(&trim.setup), scales(&trim.setup).array());
     let fly = |k: usize, size: f64| {
-        let by = Disturbance::new(&level, &Perturbation::component(k, size));
+        let by = disturbance(&trim.setup, &level, &Perturbation::component(k, size));
         let ends = disturbed(trim, &by, memory)?;
         Ok(ends.map(|r| seen(&trim.setup, &level, &r).to_array()))
     };

@@ -15,12 +15,11 @@ use wingbeat_math::{DQuat, DVec3, MassProperties, rotation_vector};
 use wingbeat_structure::{FrameMotion, MassBetween, Mode, NODE, slowest_modes};
 
 use super::differences::{departures, map_between};
-use super::free_beat::{level, scales, seen, steps_per_beat};
+use super::free_beat::{disturbance, level, scales, seen, steps_per_beat};
 use super::orbit::numbers;
 use super::trim::WakeTrim;
 use crate::AnalysisError;
 use crate::beat::level::{Level, Perturbation};
-use crate::stability::disturbance::Disturbance;
 use crate::stability::eigen::{Eigenpair, eigen};
 use crate::stability::modes::{ModeSet, Scales};
 use crate::vibration::moving::{enough, moving};
@@ -37,7 +36,7 @@ const SETTLING: usize = 4;
 /// A map of departures over one wingbeat.
 #[derive(Clone, Debug)]
 pub struct ElasticMonodromy {
-    /// By rows: the nine components of [`Perturbation`], then wing by wing displacements and velocities of the
+    /// By rows: the nine components of [`Perturbation`], the velocity that through the air, then wing by wing displacements and velocities of the
     /// modes, then strip by strip the states of their wakes, all over their natural sizes \[1\].
     pub matrix: Vec<f64>,
     /// Its order.
@@ -190,7 +189,7 @@ impl<'a> DisturbedFlights<'a> {
         setup.time.steps = SETTLING + self.steps;
         if k < BODY {
             let by = Perturbation::component(k, part * self.scales.array()[k]);
-            let by = Disturbance::new(&self.level, &by);
+            let by = disturbance(&self.trim.setup, &self.level, &by);
             setup.mode = MotionMode::Free(by.start(self.trim.start()));
         } else if k < BODY + self.shapes() {
             self.disturb(&mut past.wings, k - BODY, part);

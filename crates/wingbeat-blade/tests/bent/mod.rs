@@ -50,6 +50,34 @@ fn turned(added_mass: AddedMassModel, side: f64, turn: DMat3) -> Bent {
     }
 }
 
+/// A mesh whose lines of nodes are not along the chord, with the strips of the flat wing.
+fn skewed(added_mass: AddedMassModel, side: f64) -> Bent {
+    let node = |k: usize| {
+        let (i, j) = (k / (COLS + 1), (k % (COLS + 1)) as f64);
+        let s = i as f64 / ROWS as f64;
+        let aslant = (0.15 - 0.04 * j) * s;
+        DVec3::new(
+            0.075 - 0.05 * j - (0.3 - 0.02 * j) * s,
+            side * (0.1 + 0.2 * j + aslant),
+            0.0,
+        )
+    };
+    let nodes: Vec<DVec3> = (0..(ROWS + 1) * (COLS + 1)).map(node).collect();
+    let line = |i: usize, j: usize| [0, 1].map(|k| nodes[i * (COLS + 1) + j + k]);
+    let strip = |j: usize| Strip::between(line(0, j), line(ROWS, j), side).strip;
+    let column = |j: usize| -> Vec<usize> { (0..=ROWS).map(|i| i * (COLS + 1) + j).collect() };
+    let sections = (0..COLS).map(|j| MeshSection::new(&nodes, &column(j), &column(j + 1)));
+    let settings = BladeSettings {
+        added_mass,
+        ..BladeSettings::insect(RHO)
+    };
+    Bent {
+        sections: sections.collect(),
+        wing: BladeWing::new((0..COLS).map(strip).collect(), settings).unwrap(),
+        nodes,
+    }
+}
+
 const LAWS: [AddedMassModel; 4] = [
     AddedMassModel::None,
     AddedMassModel::Impulse,
@@ -104,35 +132,46 @@ fn exact_nodes_that_move_as_a_rigid_wing_carry_its_loads() {
         .iter()
         .flat_map(|q| wings.clone().map(move |w| (*q, w)))
     {
-        let bent = turned(law, side, q);
-        for m in motions() {
-            let acc = acceleration(&m);
-            let back = m.r.transpose();
-            let (v0, a0) = (back * m.v, back * acc.linear);
-            let v = |r: &DVec3| v0 + m.w.cross(*r);
-            let a = |r: &DVec3| a0 + acc.angular.cross(*r) + m.w.cross(m.w.cross(*r));
-            let moving: [Vec<DVec3>; 2] = [
-                bent.nodes.iter().map(v).collect(),
-                bent.nodes.iter().map(a).collect(),
-            ];
-            let forces = bent.forces(&bent.nodes, &moving[0], &moving[1]);
-            let own = BodyMotion {
-                r: m.r * q,
-                w: q.transpose() * m.w,
-                ..m
-            };
-            let own_acc = BodyAcceleration {
-                angular: q.transpose() * acc.angular,
-                ..acc
-            };
-            let flat = bent.wing.load(&own, &own_acc);
-            let rigid = Wrench {
-                force: q * flat.force,
-                moment: q * flat.moment,
-            };
-            let size: f64 = forces.iter().map(|f| f.length()).sum();
-            assert_same(&sum(&bent.nodes, &forces), &rigid, size);
-        }
+        carries_rigid_loads(&turned(law, side, q), q);
+    }
+}
+
+#[test]
+fn exact_nodes_in_skewed_lines_that_move_as_a_rigid_wing_carry_its_loads() {
+    for (law, side) in LAWS.iter().flat_map(|l| [(*l, 1.0), (*l, -1.0)]) {
+        carries_rigid_loads(&skewed(law, side), DMat3::IDENTITY);
+    }
+}
+
+/// Compares the loads of a wing turned by `q` whose nodes move as a rigid body with those of its strips.
+fn carries_rigid_loads(bent: &Bent, q: DMat3) {
+    for m in motions() {
+        let acc = acceleration(&m);
+        let back = m.r.transpose();
+        let (v0, a0) = (back * m.v, back * acc.linear);
+        let v = |r: &DVec3| v0 + m.w.cross(*r);
+        let a = |r: &DVec3| a0 + acc.angular.cross(*r) + m.w.cross(m.w.cross(*r));
+        let moving: [Vec<DVec3>; 2] = [
+            bent.nodes.iter().map(v).collect(),
+            bent.nodes.iter().map(a).collect(),
+        ];
+        let forces = bent.forces(&bent.nodes, &moving[0], &moving[1]);
+        let own = BodyMotion {
+            r: m.r * q,
+            w: q.transpose() * m.w,
+            ..m
+        };
+        let own_acc = BodyAcceleration {
+            angular: q.transpose() * acc.angular,
+            ..acc
+        };
+        let flat = bent.wing.load(&own, &own_acc);
+        let rigid = Wrench {
+            force: q * flat.force,
+            moment: q * flat.moment,
+        };
+        let size: f64 = forces.iter().map(|f| f.length()).sum();
+        assert_same(&sum(&bent.nodes, &forces), &rigid, size);
     }
 }
 

@@ -1,13 +1,14 @@
 //! Torsion of elastic wings that blade elements excite.
 //!
-//! A section in a stream U turns with the rate q about an elastic axis a c behind its leading edge. The normal force
+//! A section in a stream U turns with the rate q about an elastic axis a c behind the edge that meets the air: its leading
+//! edge, or the trailing edge where the air comes from behind; so all parts of the chord are counted. The normal force
 //! `2 pi s` times the angle and the circulation `C_rot c^2 q` act at the centre of pressure, x_cp c behind the edge, and
 //! the added mass gives `m U q` at mid chord. Of a section that feathers about an axis x0 c behind the edge:
 //!
 //! `pi rho c^3 U q ((a - x_cp) (s (x0 - a) + C_rot / pi) - (1/2 - a)/4 - k)`, which drives the motion where positive.
 //!
 //! With the couple `-(pi/16) rho c^3 U q` k is 1/16 [Theodorsen 1935]; laws with one coefficient leave it out. Thin-airfoil
-//! theory has s = 1, x_cp = 1/4 and C_rot = pi (3/4 - x0): without the couple `a > (5 - sqrt 5)/8 = 0.35` is driven, with
+//! theory has s = 1, x_cp = 1/4 and C_rot = pi (3/4 - x0), whichever edge is in front ([`Rotation::Circulation`]): without the couple `a > (5 - sqrt 5)/8 = 0.35` is driven, with
 //! it a > 1/2. The less lift a law has, the less it damps, as the circulation of turning stays: with the default
 //! coefficients (s = 0.594, drag included) the border is 0.416 where the wing feathers about its leading edge, and 0.448
 //! about a quarter of the chord. Behind the border a wake that lags is what damps: by
@@ -35,7 +36,7 @@ use super::said::names;
 use crate::air::strips;
 use crate::setup::{AirModel, FlightSetup};
 
-/// Elastic axis or mass behind the leading edge over the chord, behind which a wing is driven without the couple \[1\].
+/// Elastic axis or mass behind the edge that meets the air over the chord, behind which a wing is driven without the couple \[1\].
 const DRIVEN: f64 = 0.251;
 
 /// Instants of a beat at which speeds are looked at.
@@ -87,7 +88,9 @@ impl FlightSetup {
             .map(|(_, said)| *said)
             .collect();
         if remedies.is_empty() {
-            remedies.push("an elastic axis farther forward (structure.beam.axis_fraction)");
+            remedies.push(
+                "an elastic axis nearer to the edge that meets the air (structure.beam.axis_fraction)",
+            );
         }
         (!wings.is_empty()).then(|| {
             format!(
@@ -107,22 +110,19 @@ impl FlightSetup {
                 !is_damped && !blade.damps_feathering() && blade.rotation != Rotation::None;
             match &made.members {
                 Members::Beam(beam) => {
-                    let behind = beam.axis_fraction.max(beam.mass_fraction) > DRIVEN;
-                    bending_adds && behind || self.gains(wing, beam, (damping, blade)) > 0.0
+                    let strips = self.twisting_strips(wing, beam);
+                    let behind = |a: f64| from_edge_in_front(a, comes_from_behind(&strips));
+                    let is_behind =
+                        behind(beam.axis_fraction).max(behind(beam.mass_fraction)) > DRIVEN;
+                    bending_adds && is_behind || gains(&strips, beam, (damping, blade)) > 0.0
                 }
                 Members::Shell(_) => bending_adds,
             }
         })
     }
 
-    /// Power that the torsion of a wing gains, over the square of the rate of twist of its tip \[N m s\]: of
-    /// the air less what its damping takes.
-    fn gains(
-        &self,
-        wing: &Wing,
-        beam: &WingBeam,
-        (damping, blade): (Damping, &BladeSettings),
-    ) -> f64 {
+    /// The strips of a wing, twisted by a quarter of a wave, in its prescribed motion.
+    fn twisting_strips(&self, wing: &Wing, beam: &WingBeam) -> Vec<TwistingStrip> {
         let motion = wing.motion.impulsive();
         let duration = self.round(motion.frequency);
         let instants = (0..INSTANTS).map(|k| k as f64 / INSTANTS as f64 * duration);
@@ -133,9 +133,12 @@ impl FlightSetup {
             let (c, r) = (s.strip.chord, s.strip.y.abs());
             let wave = 0.5 * PI / (tip - root);
             let (twist, slope) = (wave * (r - root)).sin_cos();
-            let speed =
-                |past: &dyn Fn(DVec3) -> DVec3| (past(s.axis) * (DVec3::ONE - DVec3::Y)).length();
-            let speeds: f64 = past.iter().map(|p| speed(p)).sum();
+            let mut speeds = [0.0; 2];
+            for past in &past {
+                let air = past(s.axis) * (DVec3::ONE - DVec3::Y);
+                let is_from_behind = air.dot(s.turn.x_axis) > 0.0;
+                speeds[usize::from(is_from_behind)] += air.length() / INSTANTS as f64;
+            }
             let value = |law: &SpanLaw| law.at(r / tip, root / tip);
             let even = wing.mass.mass * c / report.area;
             let mass = beam.mass.as_ref().map_or(even, value);
@@ -144,26 +147,51 @@ impl FlightSetup {
             TwistingStrip {
                 chord: c,
                 feathering: s.strip.x_leading / c,
-                speed: speeds / INSTANTS as f64,
+                speeds,
                 square: s.strip.width * twist * twist,
                 inertia: s.strip.width * (own + mass * behind * behind) * twist * twist,
                 stiffness: s.strip.width * value(&beam.torsion) * (wave * slope).powi(2),
             }
         };
-        let strips: Vec<TwistingStrip> = strips.iter().map(of_strip).collect();
-        let a = beam.axis_fraction;
-        let (inertia, stiffness) = strips.iter().fold((0.0, 0.0), |(inertia, stiffness), s| {
-            let added = s.added_inertia(blade, a);
-            (inertia + s.inertia + added, stiffness + s.stiffness)
-        });
-        let omega = (stiffness / inertia).sqrt();
-        let of_strip = |s: &TwistingStrip| {
-            s.gains_of_air(blade, a, omega)
-                - damping.mass * s.inertia
-                - damping.strain_rate * s.stiffness
-        };
-        strips.iter().map(of_strip).sum()
+        strips.iter().map(of_strip).collect()
     }
+}
+
+/// Whether the air comes from behind more than from ahead.
+fn comes_from_behind(strips: &[TwistingStrip]) -> bool {
+    let mean = |from: usize| {
+        strips
+            .iter()
+            .map(|s| s.speeds[from] * s.square)
+            .sum::<f64>()
+    };
+    mean(1) > mean(0)
+}
+
+/// A place `x` behind the leading edge over the chord, counted from the edge that meets the air.
+fn from_edge_in_front(x: f64, from_behind: bool) -> f64 {
+    if from_behind { 1.0 - x } else { x }
+}
+
+/// Power that the torsion of a wing gains, over the square of the rate of twist of its tip \[N m s\]: of
+/// the air less what its damping takes.
+fn gains(
+    strips: &[TwistingStrip],
+    beam: &WingBeam,
+    (damping, blade): (Damping, &BladeSettings),
+) -> f64 {
+    let a = beam.axis_fraction;
+    let (inertia, stiffness) = strips.iter().fold((0.0, 0.0), |(inertia, stiffness), s| {
+        let added = s.added_inertia(blade, a);
+        (inertia + s.inertia + added, stiffness + s.stiffness)
+    });
+    let omega = (stiffness / inertia).sqrt();
+    let of_strip = |s: &TwistingStrip| {
+        s.gains_of_air(blade, a, omega)
+            - damping.mass * s.inertia
+            - damping.strain_rate * s.stiffness
+    };
+    strips.iter().map(of_strip).sum()
 }
 
 /// A strip of a wing whose torsion is a quarter of a wave, over the square of the twist of the tip.
@@ -172,8 +200,9 @@ struct TwistingStrip {
     chord: f64,
     /// Feathering axis behind the leading edge over the chord \[1\].
     feathering: f64,
-    /// Mean speed through the air along chord and normal \[m/s\].
-    speed: f64,
+    /// Mean speed through the air along chord and normal \[m/s\]: while the air comes from ahead, and from behind, each
+    /// over the whole time.
+    speeds: [f64; 2],
     /// Width times the square of the twist \[m\].
     square: f64,
     /// Inertia of its own about the elastic axis [kg m2].
@@ -198,29 +227,44 @@ impl TwistingStrip {
     /// behind the leading edge, over the square of the rate of twist of the tip \[N m s\].
     fn gains_of_air(&self, blade: &BladeSettings, a: f64, omega: f64) -> f64 {
         let c = self.chord;
-        let reduced = 0.5 * omega * c / self.speed;
+        let speed: f64 = self.speeds.iter().sum();
+        let reduced = 0.5 * omega * c / speed;
         let wake = match blade.unsteady {
-            Some(law) if self.speed > 0.0 => {
+            Some(law) if speed > 0.0 => {
                 let [f, g] = law.indicial().answer(reduced);
                 [f, g / (2.0 * reduced)]
             }
             _ => [1.0, 0.0],
         };
-        let drive = drive(blade, a, self.feathering, wake);
+        let axes = [a, self.feathering];
+        let of_air = |from_behind: bool| {
+            self.speeds[usize::from(from_behind)] * drive(blade, axes, from_behind, wake)
+        };
         let viscous = blade.viscous.map_or(0.0, |v| PI / 16.0 * v.linear);
-        self.square * blade.density * c.powi(3) * (PI * self.speed * drive - viscous * c)
+        self.square
+            * blade.density
+            * c.powi(3)
+            * (PI * (of_air(false) + of_air(true)) - viscous * c)
     }
 }
 
-/// The moment of the air about an elastic axis a c behind the leading edge of a section that feathers about
-/// another one, `feathering` chords behind, by the rate of twist and over `pi rho c^3 U` \[1\]: drives where it
-/// is positive. `wake` is F and G / (2 k_r) of Theodorsen's function, 1 and 0 of quasi-steady air.
-fn drive(blade: &BladeSettings, a: f64, feathering: f64, [in_phase, lag]: [f64; 2]) -> f64 {
+/// The moment of the air about an elastic axis of a section that feathers about another one, both behind its leading
+/// edge over the chord, by the rate of twist and over `pi rho c^3 U` \[1\]: drives where it is positive. `wake` is F and
+/// G / (2 k_r) of Theodorsen's function, 1 and 0 of quasi-steady air.
+fn drive(
+    blade: &BladeSettings,
+    axes: [f64; 2],
+    from_behind: bool,
+    [in_phase, lag]: [f64; 2],
+) -> f64 {
+    let [a, feathering] = axes.map(|x| from_edge_in_front(x, from_behind));
     let [[lift, drag], [more, _]] = [0.0, SMALL].map(|alpha| blade.translation.at(alpha));
     let slope = ((more - lift) / SMALL + drag) / (2.0 * PI);
     let circulation = match blade.rotation {
         Rotation::None => 0.0,
         Rotation::Coefficient(c) => c / PI,
+        // One coefficient whichever edge is in front.
+        Rotation::SaneDickinson if blade.unsteady.is_none() => 0.75 - axes[1],
         _ => 0.75 - feathering,
     };
     let mass = match blade.added_mass {

@@ -131,17 +131,14 @@ impl ElasticWings {
             let rest = |n: usize| w.followers[n].position(w.structure.rest());
             let [lead, trail] = w.tip;
             let middle = |of: &dyn Fn(usize) -> DVec3| of(lead).midpoint(of(trail));
-            let pitch = |of: &dyn Fn(usize) -> DVec3| {
-                let chord = of(lead) - of(trail);
-                (-chord.z).atan2(chord.x)
-            };
+            let shapes = [&ws.trial.configuration, w.structure.rest()];
             out.push(ElasticRecord {
                 tip: middle(&place) - middle(&rest),
-                twist: pitch(&place) - pitch(&rest),
-                sections: std::array::from_fn(|k| {
-                    let shapes = [&ws.trial.configuration, w.structure.rest()];
-                    w.stations[k].record(&w.followers, shapes)
-                }),
+                twist: w.stations[3].outer_twist(&w.followers, shapes),
+                sections: w
+                    .stations
+                    .each_ref()
+                    .map(|s| s.record(&w.followers, shapes)),
                 strain_energy: original.solver.strain_energy(),
                 strain_power: original.solver.strain_power(),
                 air_power: air_power(original),

@@ -14,6 +14,10 @@ use crate::interface::{Air, AirScratch, BentShape, Instant};
 /// Most passes.
 pub const MAX_PASSES: usize = 40;
 
+/// What to try where shape and loads do not agree, and where forces of the air jump.
+const REMEDY: &str = "a smaller step (time.steps_per_beat, or time.step_s), more damping (structure.damping_s), or look whether the wing is too soft for its loads, touches itself, or is so stiff in one way (EI, GJ, EA or moduli in other units) that rounding of its shape outweighs its loads: `wingbeat check` doubts that";
+const ACROSS_JUMPS: &str = "air.blade.rotation = \"circulation\", or a rotation_coefficient: the force of \"sane_dickinson\" jumps where the air along a chord reverses, and a step of an elastic wing that ends there may have no balance, whatever the step and the damping; else a smaller step (time.steps_per_beat, or time.step_s), more damping (structure.damping_s), or a stiffer wing";
+
 /// Passes after which the air is asked again how it answers to the motion of the wings.
 const RENEWAL: usize = 8;
 
@@ -160,6 +164,10 @@ impl ElasticWings {
             passes: s.passes,
             unbalanced: s.unbalanced,
             tolerance: self.tolerance(),
+            remedy: match self.air_jumps {
+                true => ACROSS_JUMPS,
+                false => REMEDY,
+            },
         }
     }
 

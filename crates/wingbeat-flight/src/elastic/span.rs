@@ -12,31 +12,60 @@ pub(super) struct Station {
     columns: [Vec<usize>; 2],
     /// Share of the second column \[1\].
     part: f64,
+    /// How far each goes along axis 2 at rest, from the trailing to the leading edge, over the way from one to the other
+    /// \[1\]: without as much of that way a column lies across the span, and bending does not turn it.
+    aslant: [f64; 2],
 }
+
+/// What is rounding of that.
+const ALONG: f64 = 1e-9;
 
 impl Station {
     /// The stations of a mesh of `rows` x `cols` panels with these nodes at rest.
     pub fn all(nodes: &[DVec3], [rows, cols]: [usize; 2]) -> [Self; 4] {
         let distance = |j: usize| (nodes[j].y - nodes[0].y).abs();
         let column = |j: usize| (0..=rows).map(|i| i * (cols + 1) + j).collect();
+        let ends = |j: usize| [0, rows].map(|i| nodes[i * (cols + 1) + j].y);
         STATIONS.map(|station| {
             let r = station * distance(cols);
             let j = (1..cols).find(|&j| distance(j) >= r).unwrap_or(cols);
+            let [a, b] = [j - 1, j].map(ends);
+            let way = 0.5 * (b[0] + b[1] - a[0] - a[1]);
+            let aslant = [a, b].map(|[lead, trail]| (lead - trail) / way);
             Self {
                 columns: [column(j - 1), column(j)],
                 part: (r - distance(j - 1)) / (distance(j) - distance(j - 1)),
+                aslant: aslant.map(|x| if x.abs() < ALONG { 0.0 } else { x }),
             }
         })
     }
 
+    /// Shapes and pitch angles \[rad\] of both columns in the configuration `at`.
+    fn shapes(&self, followers: &[Follower], at: &Configuration) -> [(SectionShape, f64); 2] {
+        let [a, b] = [0, 1].map(|k| SectionShape::new(&self.columns[k], followers, at));
+        let way = b.middle - a.middle;
+        let pitch = |shape: &SectionShape, aslant: f64| {
+            let chord = shape.chord - aslant * way;
+            (-chord.z).atan2(chord.x)
+        };
+        let pitches = [pitch(&a, self.aslant[0]), pitch(&b, self.aslant[1])];
+        [(a, pitches[0]), (b, pitches[1])]
+    }
+
+    /// Twist of the second column \[rad\] in the configuration `at`, against `rest`.
+    pub fn outer_twist(&self, followers: &[Follower], [at, rest]: [&Configuration; 2]) -> f64 {
+        let [now, before] = [at, rest].map(|c| self.shapes(followers, c)[1].1);
+        now - before
+    }
+
     /// The section in the configuration `at`, against `rest`.
     pub fn record(&self, followers: &[Follower], [at, rest]: [&Configuration; 2]) -> SectionRecord {
+        let [now, before] = [at, rest].map(|c| self.shapes(followers, c));
         let [a, b] = [0, 1].map(|k| {
-            let shape = |c: &Configuration| SectionShape::new(&self.columns[k], followers, c);
-            let (now, before) = (shape(at), shape(rest));
+            let ((now, pitch), (before, at_rest)) = (&now[k], &before[k]);
             [
-                now.middle - before.middle,
-                now.pitch - before.pitch,
+                now.middle.z - before.middle.z,
+                pitch - at_rest,
                 now.camber - before.camber,
             ]
         });
@@ -51,9 +80,9 @@ impl Station {
 
 /// The shape of one column of nodes.
 struct SectionShape {
-    /// Place of the middle between the edges along axis 3 \[m\].
-    middle: f64,
-    pitch: f64,
+    /// Middle between the edges \[m\], and what lies between them, forward.
+    middle: DVec3,
+    chord: DVec3,
     /// Largest height over the chord towards -axis 3, over the chord \[1\].
     camber: f64,
 }
@@ -71,8 +100,8 @@ impl SectionShape {
         let inner = nodes.len().saturating_sub(1);
         let heights = nodes[1.min(inner)..inner].iter().map(height);
         Self {
-            middle: lead.midpoint(trail).z,
-            pitch: (-chord.z).atan2(chord.x),
+            middle: lead.midpoint(trail),
+            chord,
             camber: heights.fold(0.0, higher) / chord.length().max(f64::MIN_POSITIVE),
         }
     }
@@ -97,6 +126,41 @@ mod tests {
             let followers = [0, 1, 2].map(follower);
             let camber = SectionShape::new(&[0, 1, 2], &followers, &at).camber;
             assert!((camber - 0.05).abs() < 1e-15, "{pitch}: {camber}");
+        }
+    }
+
+    /// Columns of nodes that are not along the chord: bending does not twist them, and twist is the angle by which
+    /// they turn.
+    #[test]
+    fn exact_twist_of_columns_aslant_to_the_chord() {
+        let nodes: Vec<DVec3> = (0..6)
+            .map(|k| {
+                let (i, j) = (f64::from(k / 2), f64::from(k % 2));
+                DVec3::new(
+                    0.1 - 0.3 * i - 0.2 * j,
+                    1.0 + 0.5 * j + (0.2 - 0.1 * j) * i,
+                    0.0,
+                )
+            })
+            .collect();
+        let configuration = |turn: DQuat| Configuration {
+            position: nodes.iter().map(|x| turn * *x).collect(),
+            rotation: vec![turn; 6],
+        };
+        let rest = configuration(DQuat::IDENTITY);
+        let follower = |n: usize| Follower::new(rest.position[n], &[(n, 1.0)], &rest);
+        let followers: Vec<Follower> = (0..6).map(follower).collect();
+        for (turn, twist) in [
+            (DQuat::from_rotation_x(-0.3), 0.0),
+            (DQuat::from_rotation_y(0.2), 0.2),
+        ] {
+            let at = configuration(turn);
+            for station in Station::all(&nodes, [2, 1]) {
+                let found = station.record(&followers, [&at, &rest]).twist;
+                let tip = station.outer_twist(&followers, [&at, &rest]);
+                assert!((found - twist).abs() < 1e-15, "{turn}: {found}");
+                assert!((tip - twist).abs() < 1e-15, "{turn}: {tip}");
+            }
         }
     }
 }

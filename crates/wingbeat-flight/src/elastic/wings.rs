@@ -26,6 +26,8 @@ pub struct ElasticWings {
     /// Whether wings hang on free joints, or the flyer is light as a whole: small moments of inertia turn small
     /// forces into accelerations.
     is_delicate: bool,
+    /// Whether forces of the air jump with the motion.
+    pub(super) air_jumps: bool,
 }
 
 impl ElasticWings {
@@ -44,6 +46,7 @@ impl ElasticWings {
             on_joints: false,
             is_driven: false,
             is_delicate: false,
+            air_jumps: false,
         })
     }
 
@@ -60,6 +63,14 @@ impl ElasticWings {
     /// The same, wings or joints driven if `is_driven`.
     pub fn driven(self, is_driven: bool) -> Self {
         Self { is_driven, ..self }
+    }
+
+    /// The same in air whose forces jump with the motion, if it `jumps`.
+    pub fn in_air(self, jumps: bool) -> Self {
+        Self {
+            air_jumps: jumps,
+            ..self
+        }
     }
 
     /// Whether wings hang on free joints and nothing is driven: what joints do is then little beside what it

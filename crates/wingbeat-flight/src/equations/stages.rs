@@ -47,6 +47,7 @@ pub fn stages(setup: &FlightSetup, law: &WingLaw<'_>) -> Result<Vec<Stage>, Flig
     let beat = setup.animal.wings.iter().any(|w| w.motion.frequency > 0.0);
     let is_driven = beat || setup.joints.iter().any(|j| j.law.is_some());
     let elastic = elastic.carried_by(on_joints, is_light).driven(is_driven);
+    let elastic = elastic.in_air(setup.air.jumps());
     let elastic = Arc::new(match setup.air.is_mirrored() {
         true => elastic.mirrored(&wing_pairs(&setup.animal)),
         false => elastic,

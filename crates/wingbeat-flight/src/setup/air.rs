@@ -6,7 +6,7 @@ use wingbeat_air::{
     AirSettings, CoreModel, Friction, LIQUID_DENSITY, LeadingEdge, LoadMethod, SheddingKinds, Wind,
     viscosity_of_density,
 };
-use wingbeat_blade::{BladeSettings, BodyDrag, DerivativeTable, Unsteady};
+use wingbeat_blade::{BladeSettings, BodyDrag, DerivativeTable, Rotation, Unsteady};
 use wingbeat_math::DVec3;
 
 use crate::interface::memory::AirMemory;
@@ -66,6 +66,14 @@ impl AirModel {
     /// Whether there is air.
     pub fn is_some(&self) -> bool {
         !matches!(self, Self::None)
+    }
+
+    /// Whether its forces jump where the air along a chord reverses.
+    pub(crate) fn jumps(&self) -> bool {
+        match self {
+            Self::BladeElement(options) => options.blade.rotation == Rotation::SaneDickinson,
+            _ => false,
+        }
     }
 
     /// Velocity of the undisturbed air, N components [m/s]; none where the model has no stream.

@@ -4,6 +4,7 @@ use wingbeat_air::{Plane, Points};
 use wingbeat_dynamics::BodyMotion;
 use wingbeat_math::DVec3;
 use wingbeat_model::{QuadMesh, Solid};
+use wingbeat_structure::{Configuration, FrameMotion, StaticSettings, equilibrium};
 
 use super::Simulation;
 use crate::air::LatticeAir;
@@ -63,6 +64,24 @@ impl Simulation {
     /// The wings that loads bend, as [`FlightState::wings`] has their states.
     pub fn elastic_wings(&self) -> &ElasticWings {
         &self.equations().elastic
+    }
+
+    /// Shape of elastic wing number `k` of [`Self::elastic_wings`] in equilibrium under its weight alone, its frame as it
+    /// is at the newest step and at rest.
+    ///
+    /// # Errors
+    /// No equilibrium.
+    pub fn bent_by_weight(&self, k: usize) -> Result<Configuration, FlightError> {
+        let wing = &self.elastic_wings().wings()[k];
+        let (structure, r) = (wing.structure(), self.scratch.motions[wing.wing() + 1].r);
+        let zero = [DVec3::ZERO; 2];
+        let frame = FrameMotion::from_inertial(r, [DVec3::ZERO, self.setup.gravity], zero);
+        let (none, settings) = (
+            |_: &Configuration, _: &mut [f64]| {},
+            StaticSettings::default(),
+        );
+        let found = equilibrium(structure, structure.rest(), &frame, &none, &settings);
+        Ok(found?)
     }
 
     /// Added mass of the air on elastic wing number `k` of [`Self::elastic_wings`] at the newest step: six

@@ -140,7 +140,7 @@ class Power:
 @dataclass(frozen=True)
 class WakeModel:
     """A wingbeat in air with a memory as a map of small disturbances of the body, ``x(T) = M x(0)``, in the axes of
-    :class:`LinearModel`.
+    :class:`LinearModel`; velocities are those through the air.
     """
 
     monodromy: NDArray[Any]

@@ -193,6 +193,31 @@ fn exact_torsion_of_measured_coefficients_is_doubted_where_it_grows() {
     }
 }
 
+/// Air from behind meets the trailing edge: torsion grows and decays as of the wing turned round, whose axes are as far
+/// behind the edge in front, on both sides of mid chord.
+#[test]
+fn exact_torsion_in_air_from_behind_is_doubted_where_it_grows() {
+    for (a, x0) in [(0.40, 0.25), (0.45, 0.25), (0.55, 0.25), (0.55, 0.6)] {
+        let k = (a - 0.25) * (0.75 - a) - 0.25 * (0.5 - a) - 1.0 / 16.0;
+        let beam = "wing.right.structure.beam";
+        let keys = [
+            format!("{beam}.axis_fraction={}", 1.0 - a),
+            format!("{beam}.mass_fraction={}", 1.0 - a),
+            format!("wing.right.planform.rectangle.axis_fraction={}", 1.0 - x0),
+            "air.stream_m_s=[5,0,0]".to_owned(),
+            "wing.right.motion.psi.constant_deg=0.02".to_owned(),
+        ];
+        let set: Vec<&str> = keys.iter().map(|k| &k[..]).collect();
+        let ([grown, omega], [g, o]) = (growth(&set), exact_of(a, [1.0, 0.25], k));
+        println!("{a} {x0} behind: growth {grown:.3} {g:.3}, frequency {omega:.2} {o:.2}");
+        // Errors of strips, elements and steps as above.
+        assert!((grown - g).abs() < 0.02 * g.abs(), "{a} {x0}: {grown} {g}");
+        assert!((omega / o - 1.0).abs() < 0.005, "{a} {x0}: {omega} {o}");
+        let said = doubted(&set);
+        assert_eq!(said.is_some(), g > 0.0, "{a} {x0}: {said:?}");
+    }
+}
+
 /// Wakes follow the downwash of theory, which less lift answers: with default coefficients they do not damp all that
 /// the circulation of feathering drives. Moments by Theodorsen's function 1/2, slow air.
 #[test]

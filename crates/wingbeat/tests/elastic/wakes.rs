@@ -91,7 +91,9 @@ fn fly_with(strips: usize, time: &str) -> LoadedCase {
 }
 
 fn trimmed(case: &LoadedCase) -> WakeTrim {
-    let mut problem = TrimProblem::straight(DVec3::new(1.0, 0.0, 0.0), 40_f64.to_radians());
+    // The speed through the air is 1 m/s.
+    let stream = case.setup.air.stream().unwrap_or_default();
+    let mut problem = TrimProblem::straight(DVec3::X + stream, 40_f64.to_radians());
     problem.settings = TrimSettings {
         steps: 40,
         ..TrimSettings::default()
@@ -191,4 +193,21 @@ fn invariant_modes_that_are_shown_on_any_number_of_strips() {
     assert!(few == many, "{shown:?}");
     // The fast subsidence among them, some -330 1/s in hover.
     assert!(a < -200.0 && (a / b - 1.0).abs() < 0.2, "{shown:?}");
+}
+
+/// The fly with wakes at the same speed through the air, in still air and in a stream: exponents and shapes.
+#[test]
+fn invariant_modes_of_a_fly_with_wakes_in_a_stream() {
+    let mut case = fly_forward(4);
+    *case.setup.air.stream_mut().expect("a stream") = DVec3::new(2.0, 0.0, 0.0);
+    let [still, stream] = [&*FLY, &trimmed(&case)].map(|t| elastic_floquet(t, 0).unwrap().modes);
+    assert_eq!(still.len(), stream.len());
+    for (a, b) in still.iter().zip(&stream) {
+        let apart = (a.growth - b.growth).hypot(a.frequency - b.frequency) * a.wingbeat;
+        let shapes = a.vector.iter().zip(&b.vector);
+        let off = shapes.map(|(a, b)| (a.1 - b.1).abs()).fold(0.0, f64::max);
+        println!("{}: {apart:e} {off:e}", a.name);
+        // Differences over steps of 1e-3, trims to 1e-8.
+        assert!(apart < 1e-5 && off < 1e-3, "{}: {apart:e} {off:e}", a.name);
+    }
 }

@@ -5,6 +5,10 @@
 //! bends more and more, stiffens, and no motion about its steady state grows. `d ln d / d ln q = 1 / (1 - q /
 //! q_D)` tells how near it is, and `q / d`, which falls along a straight line to 0 at `q_D`, where it lies
 //! [Southwell 1932].
+//!
+//! Under weight, too, it is bent by `(d_w + a q) / (1 - q / q_D)`, `d_w` the deflection by weight alone: what the air adds
+//! to that is `(a + d_w / q_D) q / (1 - q / q_D)`, along such a line again, which the whole deflection is not. So `d` is
+//! the part that the air adds ([`SteadyWing::by_air`](super::SteadyWing::by_air)).
 
 use super::condition::Condition;
 
@@ -24,7 +28,7 @@ const SMALL: f64 = 0.2;
 pub struct Steep {
     /// The two speeds [m/s].
     pub between: [f64; 2],
-    /// Displacement of the tip at both \[m\].
+    /// Displacement of the tip at both, less that under weight alone \[m\].
     pub tip: [f64; 2],
     /// Speed of static divergence by Southwell's line through both [m/s]; none where deflections are not small.
     pub divergence: Option<f64>,
@@ -39,21 +43,25 @@ pub fn steep(conditions: &[Condition]) -> Vec<Steep> {
 impl Steep {
     fn between(pair: [&Condition; 2]) -> Option<Self> {
         let speeds = pair.map(|c| c.speed);
-        let [tip, turn] = [
-            pair.map(|c| c.steady.tip.length()),
-            pair.map(|c| c.steady.turn.length()),
-        ];
+        let [first, last] = pair.map(|c| c.steady.by_air());
+        let by_air = [first?, last?];
+        let [tip, turn] = [0, 1].map(|k| by_air.map(|d| d[k].length()));
         let q = speeds.map(|v| v * v);
         let by_pressure = |d: [f64; 2]| (d[1] / d[0]).ln() / (q[1] / q[0]).ln();
-        // Loads that are not those of the air, weight say, may cancel them in either measure.
+        // Where loads of the air cancel each other in one measure, they do not in the other.
         let is_steep = by_pressure(tip).min(by_pressure(turn)) > STEEP;
-        let is_one_way = pair[0].steady.tip.dot(pair[1].steady.tip) > 0.0;
+        let is_one_way = (0..2).all(|k| by_air[0][k].dot(by_air[1][k]) > 0.0);
+        let turned = pair.iter().flat_map(|c| {
+            let by_weight = c.steady.by_weight.map(|d| d[1]);
+            by_weight.into_iter().chain([c.steady.turn])
+        });
+        let are_small = turned.chain([by_air[1][1]]).all(|t| t.length() < SMALL);
         let line = [0, 1].map(|k| q[k] / turn[k]);
         let square = q[0] + (q[1] - q[0]) * line[0] / (line[0] - line[1]);
         (q[1] > q[0] && is_steep && is_one_way && turn[1] > FELT).then(|| Self {
             between: speeds,
             tip,
-            divergence: (turn[1] < SMALL).then(|| square.sqrt()),
+            divergence: are_small.then(|| square.sqrt()),
         })
     }
 }

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use wingbeat_flight::elastic::{ElasticWing, ElasticWings};
 use wingbeat_flight::{AirModel, FlightError, FlightSetup, FlightState, MotionMode, Simulation};
 use wingbeat_math::{DVec3, rotation_vector};
-use wingbeat_structure::{FrameMotion, Mode, slowest_modes};
+use wingbeat_structure::{Configuration, FrameMotion, Mode, slowest_modes};
 
 use super::settings::FlutterSettings;
 use super::settling::{STEADY, Settling, drift};
@@ -34,10 +34,21 @@ pub struct SteadyWing {
     pub tip: DVec3,
     /// Rotation vector of the tip, wing components \[rad\].
     pub turn: DVec3,
+    /// Displacement \[m\] and rotation vector \[rad\] of the tip under weight alone, the wing as it is held, wing
+    /// components; none where it has no equilibrium so.
+    pub by_weight: Option<[DVec3; 2]>,
     /// Velocity of the fastest node of all elastic wings that is left over that of the stream \[1\].
     pub drift: f64,
     /// Angular frequencies of the leading modes about it without air [rad/s].
     pub vacuum: Vec<f64>,
+}
+
+impl SteadyWing {
+    /// What the air adds to the displacement \[m\] and the rotation vector \[rad\] of the tip under weight alone.
+    pub fn by_air(&self) -> Option<[DVec3; 2]> {
+        let [tip, turn] = self.by_weight?;
+        Some([self.tip - tip, self.turn - turn])
+    }
 }
 
 /// Elastic wings held in a stream of one speed.
@@ -174,7 +185,10 @@ impl ElasticRig {
         state: FlightState,
         settings: &FlutterSettings,
     ) -> Result<(FlightState, Vec<SteadyWing>), AnalysisError> {
-        let wings = (0..self.count()).map(|k| self.steady(&state, k, settings));
+        let weighs = self.setup.gravity != DVec3::ZERO;
+        let flight = weighs.then(|| Simulation::resume(self.setup.clone(), state.clone()));
+        let flight = flight.transpose()?;
+        let wings = (0..self.count()).map(|k| self.steady(&state, (k, flight.as_ref()), settings));
         let steady = wings.collect::<Result<_, _>>()?;
         Ok((state, steady))
     }
@@ -211,22 +225,31 @@ impl ElasticRig {
         setup
     }
 
+    /// Elastic wing number `k`; the `flight` in the same state where it has weight.
     fn steady(
         &self,
         state: &FlightState,
-        k: usize,
+        (k, flight): (usize, Option<&Simulation>),
         settings: &FlutterSettings,
     ) -> Result<SteadyWing, AnalysisError> {
-        let (at, rest) = (
-            &state.wings[k].structure.configuration,
-            self.wing(k).structure().rest(),
-        );
-        let tip = at.len() - 1;
+        let rest = self.wing(k).structure().rest();
+        let tip_moved = |at: &Configuration| {
+            let tip = at.len() - 1;
+            [
+                at.position[tip] - rest.position[tip],
+                rotation_vector(at.rotation[tip] * rest.rotation[tip].inverse()),
+            ]
+        };
+        let [tip, turn] = tip_moved(&state.wings[k].structure.configuration);
         let modes = leading(self, state, k, settings.modes)?;
         Ok(SteadyWing {
             wing: self.wing(k).wing(),
-            tip: at.position[tip] - rest.position[tip],
-            turn: rotation_vector(at.rotation[tip] * rest.rotation[tip].inverse()),
+            tip,
+            turn,
+            by_weight: match flight {
+                Some(flight) => flight.bent_by_weight(k).ok().as_ref().map(tip_moved),
+                None => Some([DVec3::ZERO; 2]),
+            },
             drift: drift(state, self.speed),
             vacuum: modes.iter().map(Mode::frequency).collect(),
         })

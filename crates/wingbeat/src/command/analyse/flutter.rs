@@ -136,6 +136,7 @@ fn values(c: &Condition, wing: &str) -> Value {
         "speed_m_s": c.speed,
         "tip_m": c.steady.tip.to_array(),
         "tip_turn_rad": c.steady.turn.to_array(),
+        "tip_by_weight_m": c.steady.by_weight.map(|[tip, _]| tip.to_array()),
         "drift": c.steady.drift,
         "vacuum_hz": c.steady.vacuum.iter().map(|w| w / TAU).collect::<Vec<_>>(),
         "modes": c.modes.iter().zip(&c.uncertainty).map(mode).collect::<Vec<_>>(),
@@ -228,8 +229,8 @@ fn rise(steep: &[Steep]) -> Option<String> {
         None => "lower speeds, whose deflections are small, tell where".to_owned(),
     };
     Some(format!(
-        "The steady deflection grows much faster than the dynamic pressure: at the tip from {:.3e} m at {low:.3} m/s to {:.3e} m at {high:.3} m/s, where the pressure grows {:.2} times. \
-         Wings with incidence pass static divergence in this way, bending far without a motion that grows ({at}); loads that cancel at the lower speed, as weight may, look the same.",
+        "The steady deflection grows much faster than the dynamic pressure: at the tip, but for that by weight, from {:.3e} m at {low:.3} m/s to {:.3e} m at {high:.3} m/s, where the pressure grows {:.2} times. \
+         Wings with incidence pass static divergence in this way, bending far without a motion that grows ({at}).",
         first.tip[0],
         last.tip[1],
         (high / low).powi(2)
