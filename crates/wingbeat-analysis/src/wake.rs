@@ -31,5 +31,5 @@ mod wings;
 pub use fewer::change_by_last_mode;
 pub use modes::{WakeMemory, wake_floquet, wake_modes, wake_monodromy};
 pub use orbit::check_alike;
-pub use trim::{WakeSettings, WakeTrim, trim_with_wake};
+pub use trim::{WakeSettings, WakeTrim, check_trim_with_wake, trim_with_wake};
 pub use wings::{ElasticMonodromy, elastic_floquet, elastic_modes, elastic_monodromy};

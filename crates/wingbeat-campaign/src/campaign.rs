@@ -4,9 +4,10 @@ use std::path::{Path, PathBuf};
 
 use sha2::{Digest, Sha256};
 use wingbeat_case::{IoError, LoadedCase};
-use wingbeat_flight::{AirModel, FlightSetup};
+use wingbeat_flight::FlightSetup;
 use wingbeat_results::summary::starting_beats;
 
+use crate::digest::{LAW_OF_BLADES, law_of, of_case};
 use crate::plan::blocks::points_of_block;
 use crate::plan::cases;
 use crate::plan::file::CampaignFile;
@@ -188,9 +189,7 @@ fn checked(path: &Path) -> Result<CampaignFile, IoError> {
 /// What all points have in common.
 fn digest_of(file: &CampaignFile, numbers: &[Number]) -> Sha256 {
     let (raw, base) = (&file.raw, &file.base);
-    let mut hash = Sha256::new_with_prefix(concat!("wingbeat ", env!("CARGO_PKG_VERSION"), "\n"));
-    hash.update(Sha256::digest(base.resolved()));
-    hash.update(Sha256::digest(base.text()));
+    let mut hash = of_case(base);
     let tasks = (&raw.tasks, &raw.trim, &raw.keep, raw.mean_beats(), &raw.set);
     hash.update(format!("{tasks:?}\n"));
     if let Some(programs) = named::of_programs(base) {
@@ -203,8 +202,10 @@ fn digest_of(file: &CampaignFile, numbers: &[Number]) -> Sha256 {
     if starts && numbers.iter().any(|n| n.source.is_mean()) {
         hash.update("means without starts and holds\n"); // they were of the last wingbeats, whatever these were
     }
-    if matches!(base.setup.air, AirModel::BladeElement(_)) || file.plan.varies("air.model") {
-        hash.update("feathering by thin-airfoil theory\n"); // it was of the leading edge, without a moment
+    if file.plan.varies("air.model") {
+        hash.update(LAW_OF_BLADES);
+    } else {
+        hash.update(law_of(&base.setup));
     }
     hash
 }

@@ -7,13 +7,16 @@
 //! case -> hash, a pure function of the file. `point` does what is to be done at a point (`trimming`, `flight`,
 //! `evaluate`), `store` keeps its result, `lease` says who flies which points, `worker` goes from block to
 //! block. `rows`, `status`, [`merge`] and [`page`] read what is there; `scripts` writes what other engines
-//! need, `cost` tells what a campaign will take.
+//! need, `cost` tells what a campaign will take. In a store of their own [`KeptMembers`] are the flights of an
+//! ensemble, until all are flown; `digest` is what both depend on.
 //!
 //! What it does not know: processes, command lines, how pages look.
 #![warn(missing_docs)]
 
 mod campaign;
 mod command;
+mod digest;
+mod members;
 pub mod merge;
 pub mod page;
 mod plan;
@@ -23,6 +26,7 @@ mod store;
 mod worker;
 
 pub use campaign::Campaign;
+pub use members::KeptMembers;
 pub use plan::Plan;
 pub use plan::named;
 pub use plan::number::Number;

@@ -23,7 +23,7 @@ use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
 use wingbeat_case::IoError;
-use wingbeat_results::directory::{remove_file, remove_left_behind, write_whole};
+use wingbeat_results::directory::{remove_directory, remove_file, remove_left_behind, write_whole};
 
 pub use self::record::{PointResult, Reason};
 use self::record::{Record, decoded, encoded, other_format};
@@ -44,6 +44,8 @@ pub struct Attempts {
 #[derive(Clone, Debug)]
 pub struct Store {
     root: PathBuf,
+    /// Its copy of the file that was run last.
+    file: &'static str,
 }
 
 impl Store {
@@ -52,22 +54,39 @@ impl Store {
     /// # Errors
     /// A directory that holds something else; one that cannot be written.
     pub fn open(root: &Path, text: &str) -> Result<Self, IoError> {
-        let store = Self {
-            root: root.to_owned(),
-        };
-        let mine = store.path(FILE);
-        let empty = fs::read_dir(root).map_or(true, |mut d| d.next().is_none());
-        if !empty && !mine.is_file() {
-            return Err(IoError::Exists {
-                path: root.to_owned(),
-                remedy: "it holds no campaign (no campaign.toml): choose another directory with --out",
-            });
-        }
+        let remedy = "it holds no campaign (no campaign.toml): choose another directory with --out";
+        let store = Self::at(root, FILE, remedy)?;
         store.make(root)?;
-        if !store.is_of(text) {
-            store.write(&mine, text.as_bytes())?;
-        }
+        store.keep(text)?;
         Ok(store)
+    }
+
+    /// A directory that is empty, not there yet, or has `file` in it.
+    ///
+    /// # Errors
+    /// A directory that holds something else, and what to do then.
+    pub(crate) fn at(
+        root: &Path,
+        file: &'static str,
+        remedy: &'static str,
+    ) -> Result<Self, IoError> {
+        let root = root.to_owned();
+        let is_empty = fs::read_dir(&root).map_or(true, |mut d| d.next().is_none());
+        match is_empty || root.join(file).is_file() {
+            true => Ok(Self { root, file }),
+            false => Err(IoError::Exists { path: root, remedy }),
+        }
+    }
+
+    /// Keeps the text of what is run.
+    ///
+    /// # Errors
+    /// A file that cannot be written.
+    pub(crate) fn keep(&self, text: &str) -> Result<(), IoError> {
+        match self.is_of(text) {
+            true => Ok(()),
+            false => self.write(&self.path(self.file), text.as_bytes()),
+        }
     }
 
     /// An existing directory.
@@ -77,6 +96,7 @@ impl Store {
     pub fn existing(root: &Path) -> Result<Self, IoError> {
         let store = Self {
             root: root.to_owned(),
+            file: FILE,
         };
         match store.path(FILE).is_file() {
             true => Ok(store),
@@ -87,12 +107,12 @@ impl Store {
         }
     }
 
-    /// Whether the campaign that was run here last is that of this text.
+    /// Whether what was run here last has this text.
     pub fn is_of(&self, text: &str) -> bool {
-        fs::read_to_string(self.path(FILE)).is_ok_and(|own| own == text)
+        fs::read_to_string(self.path(self.file)).is_ok_and(|own| own == text)
     }
 
-    /// Removes half-written files of processes that died: of results, attempts and the file of the campaign.
+    /// Removes half-written files of processes that died: of results, attempts and the copy of the file.
     pub fn remove_half_written(&self) {
         let is_hash = |name: &str| name.len() == 64 && name.bytes().all(|b| b.is_ascii_hexdigit());
         let is_result = |name: &str| {
@@ -107,7 +127,7 @@ impl Store {
             remove_left_behind(&folder.path(), is_result);
         }
         remove_left_behind(&self.path("attempts"), is_hash);
-        remove_left_behind(&self.root, |name| name == FILE);
+        remove_left_behind(&self.root, |name| name == self.file);
     }
 
     /// A path inside.
@@ -204,6 +224,19 @@ impl Store {
             }
         }
         Ok(None)
+    }
+
+    /// Removes the folders of points and the whole directory, where nothing is in them but the copy of the file.
+    pub(crate) fn remove_if_empty(&self) {
+        let points = self.path("points");
+        for folder in entries(&points).unwrap_or_default() {
+            let _ = fs::remove_dir(folder); // not an empty one: it stays
+        }
+        let _ = fs::remove_dir(&points);
+        let rest = entries(&self.root).unwrap_or_default();
+        if rest.iter().all(|path| *path == self.path(self.file)) {
+            let _ = remove_directory(&self.root); // at worst it stays
+        }
     }
 
     /// Forgets the numbers of a point.

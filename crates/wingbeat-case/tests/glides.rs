@@ -10,32 +10,7 @@ use wingbeat_case::{LoadedCase, trimmed_case};
 use wingbeat_math::DVec3;
 
 /// A glider of wings and a tail without mass, on a body whose mass centre is at its origin.
-const GLIDER: &str = r#"
-format = 1
-name = "glider"
-time = { step_s = 2e-3, steps = 500 }
-flight = { velocity_m_s = [6, 0, 0.7] }
-air.model = "blade_element"
-air.density_kg_m3 = 1.225
-air.blade.centre_of_pressure.fixed = 0.25
-air.blade.own = { lift = 2.2, drag_0 = 0.03, drag_90 = 2.0 }
-output.frames_every = 0
-body = { mass_kg = 0.03, centre_m = [0, 0, 0], inertia_about_centre_kg_m2 = [1e-4, 3e-4, 3.5e-4, 0, 0, 0] }
-[wing.right]
-hinge_m = [2e-3, 0, 0]
-mass_kg = 1e-11
-planform.outline = { leading_m = [[0, 0], [0.25, 0]], trailing_m = [[0, -0.08], [0.25, -0.08]] }
-mesh = { chordwise = 1, spanwise = 10 }
-motion.psi.constant_deg = 4
-[wing.right_tail]
-hinge_m = [-0.25, 0, 0]
-mass_kg = 1e-11
-planform.outline = { leading_m = [[0, 0], [0.1, 0]], trailing_m = [[0, -0.05], [0.1, -0.05]] }
-mesh = { chordwise = 1, spanwise = 4 }
-motion.psi.constant_deg = 0
-[wing.left]
-[wing.left_tail]
-"#;
+const GLIDER: &str = include_str!("data/glider.toml");
 
 /// Coefficients of [`GLIDER`], its density [kg/m3] and weight \[N\].
 const LIFT: f64 = 2.2;

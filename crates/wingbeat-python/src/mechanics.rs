@@ -179,6 +179,12 @@ impl Trim {
         self.trim.beat.period()
     }
 
+    /// Mean velocity forward, right and up, asked for or found [m/s].
+    #[getter]
+    fn velocity(&self) -> [f64; 3] {
+        velocity(self.trim.velocity)
+    }
+
     /// The trimmed flight as the text of a case; none where no case says it.
     #[getter]
     fn case_text(&self, py: Python<'_>) -> PyResult<Option<String>> {
@@ -264,6 +270,11 @@ impl Trim {
     fn names() -> (Vec<&'static str>, Vec<&'static str>) {
         (STATE.to_vec(), Control::ALL.map(Control::name).to_vec())
     }
+}
+
+/// A velocity of N components as Python has it: forward, right and up [m/s].
+pub fn velocity(v: DVec3) -> [f64; 3] {
+    [v.x, v.y, 0.0 - v.z]
 }
 
 /// In the order of `wingbeat.Power`.

@@ -54,6 +54,25 @@ impl TrimSolution {
         [names(&self.0.outside), names(&self.0.at_bound)]
     }
 
+    /// Values of the unknowns by their names, in their own units.
+    #[getter]
+    fn unknowns(&self) -> Vec<(&'static str, f64)> {
+        let names = self.0.unknowns.iter().map(|u| u.name());
+        names.zip(self.0.values.iter().copied()).collect()
+    }
+
+    /// Shift of the mass centre along b1 [m].
+    #[getter]
+    fn mass_centre_m(&self) -> f64 {
+        self.0.mass_centre
+    }
+
+    /// Change of the feathering angle of the tail, leading edge up [rad].
+    #[getter]
+    fn tail_incidence_rad(&self) -> f64 {
+        self.0.tail_incidence
+    }
+
     /// Pitch of the body at the start of the beat, in air with a memory at its release [rad].
     #[getter]
     fn body_pitch_rad(&self) -> f64 {

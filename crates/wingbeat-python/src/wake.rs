@@ -9,7 +9,7 @@ use wingbeat::case::{LoadedCase, wake_trimmed_case};
 
 use crate::arrays::array;
 use crate::errors::{named, raised, refused};
-use crate::mechanics::{ModeParts, modes, powers};
+use crate::mechanics::{ModeParts, modes, powers, velocity};
 use crate::solution::TrimSolution;
 use crate::worker::analyse;
 
@@ -48,6 +48,12 @@ impl WakeTrim {
     #[getter]
     fn flights(&self) -> usize {
         self.trim.flights
+    }
+
+    /// Mean velocity forward, right and up, as asked for [m/s].
+    #[getter]
+    fn velocity(&self) -> [f64; 3] {
+        velocity(self.trim.velocity)
     }
 
     /// The trimmed flight as the text of a case; none where no case says it.

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -46,6 +47,35 @@ def test_agrees_with_the_command_line(trim, program):
     for name in ("aerodynamic", "inertial_positive", "perfect_storage", "no_storage", "peak"):
         assert getattr(power, f"{name}_watt") == told[name]["watt"]
     assert power.damping_watt == 0 and power.mass_kg == pytest.approx(told["peak"]["watt"] / told["peak"]["watt_per_kg_body"])
+
+
+GLIDER = Path(__file__).parents[2] / "wingbeat-case/tests/data/glider.toml"
+
+
+def test_agrees_the_unknowns_of_a_glide_with_the_command_line(program):
+    """Speed and climb that follow from the incidences, the elevator that follows from a speed."""
+    glide = wingbeat.Flight.from_case(GLIDER).trim()
+    told = json.loads(program("trim", GLIDER, "--json").stdout)
+    assert set(glide.unknowns) == {"body_pitch", "forward", "climb"}
+    assert glide.forward_m_per_s == glide.unknowns["forward"] == told["unknowns"]["forward_m_s"]
+    assert glide.climb_m_per_s == glide.unknowns["climb"] == told["unknowns"]["climb_m_s"] < 0
+    assert (glide.tail_incidence_rad, glide.mass_centre_m) == (0, 0)
+    fast = wingbeat.Flight.from_case(GLIDER).trim(forward_m_per_s=8)
+    told = json.loads(program("trim", GLIDER, "--forward", 8, "--json").stdout)["unknowns"]
+    assert fast.forward_m_per_s == 8 and "forward" not in fast.unknowns
+    assert fast.tail_incidence_rad == fast.unknowns["tail_incidence"] != 0
+    assert math.degrees(fast.tail_incidence_rad) == pytest.approx(told["tail_incidence_deg"], rel=1e-14)
+    assert fast.climb_m_per_s == told["climb_m_s"]
+    assert fast.converged and glide.converged
+
+
+def test_agrees_the_shift_of_the_mass_centre_with_its_part_of_a_wing_length(blade):
+    moved = blade.trim(unknowns=["body_pitch", "stroke_amplitude", "mass_centre"], **LAWFUL)
+    length = moved.mass_centre_m / moved.unknowns["mass_centre"]
+    assert moved.converged and 2e-3 < length < 3e-3
+    assert (moved.forward_m_per_s, moved.climb_m_per_s) == (0, 0)
+    assert moved.unknowns["body_pitch"] == moved.body_pitch_rad
+    assert moved.unknowns["stroke_amplitude"] == moved.adjustment.stroke_amplitude
 
 
 def test_agrees_turns_and_bounds_with_the_command_line(blade, program):

@@ -46,7 +46,10 @@ extern crate self as wingbeat; // the command line is written as any other user 
 pub mod command;
 mod facade;
 
-pub use facade::{Beat, Error, Flight, Run, WatchedEnsemble, ensemble, ensemble_watched, fly_all};
+pub use facade::{
+    Beat, Error, FailedMember, Flight, Run, WatchedEnsemble, ensemble, ensemble_watched, fly_all,
+    members_kept,
+};
 
 /// What a program that flies needs: `use wingbeat::prelude::*;`.
 ///

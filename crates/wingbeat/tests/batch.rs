@@ -60,14 +60,14 @@ fn agrees_an_ensemble_that_is_stopped_with_one_of_so_many_wingbeats() {
         true => Continue(()),
         false => Break(()),
     };
-    let found = ensemble_watched(&flight(3.0), 3, 1, until).expect("it begins");
+    let found = ensemble_watched(&flight(3.0), 3, 1, None, until).expect("it begins");
     assert_eq!(
         (&found.members[..], &found.unfinished[..]),
         (&[1, 2][..], &[2, 3][..])
     );
     let stopped = found.ensemble.expect("a wingbeat of two flights");
     // Streams of members lie in directions that are spread over the number of all.
-    let alone = ensemble_watched(&flight(1.0), 3, 1, |member, _| match member < 3 {
+    let alone = ensemble_watched(&flight(1.0), 3, 1, None, |member, _| match member < 3 {
         true => Continue(()),
         false => Break(()),
     });
@@ -77,7 +77,7 @@ fn agrees_an_ensemble_that_is_stopped_with_one_of_so_many_wingbeats() {
     );
     assert_eq!(stopped.beats.len(), 1);
     // Stopped at once there are no means.
-    let none = ensemble_watched(&flight(3.0), 3, 2, |_, _| Break(())).expect("it begins");
+    let none = ensemble_watched(&flight(3.0), 3, 2, None, |_, _| Break(())).expect("it begins");
     assert!(
         none.ensemble.is_none() && none.unfinished == [1, 2, 3],
         "{none:?}"

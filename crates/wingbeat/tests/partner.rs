@@ -171,7 +171,7 @@ fn behaves_a_silent_program_ends_with_its_children() {
         said.contains("no answer within 0.5 s; allow more with air.external.timeout_s"),
         "{said}"
     );
-    assert!(began.elapsed() < Duration::from_secs(8));
+    assert!(began.elapsed() < AT_ONCE);
     for name in ["child", "leader"] {
         assert!(!lives(&dir.join(name)), "the {name} lives on");
     }
@@ -188,7 +188,7 @@ fn refuses_programs_that_talk_without_end_or_do_not_listen() {
     let dir = &scratch.0;
     let asked = |answer: &str| {
         format!(
-            "echo ready 2; while read a b; do case $a in evaluate) {answer}; sleep 9;; esac; done"
+            "echo ready 2; while read a b; do case $a in evaluate) {answer}; sleep 300;; esac; done"
         )
     };
     let talks = [
@@ -199,7 +199,7 @@ fn refuses_programs_that_talk_without_end_or_do_not_listen() {
         (&asked("echo 0 0 0 0 0 nan"), "not finite"),
         (&asked("echo 0 0 0 0 0"), "expected six numbers"),
         (
-            "exec 0<&-; sleep 1; echo error I am deaf; sleep 9",
+            "exec 0<&-; sleep 1; echo error I am deaf; sleep 300",
             "I am deaf",
         ),
         ("true", "it ended its output: exit status 0"),
@@ -211,7 +211,7 @@ fn refuses_programs_that_talk_without_end_or_do_not_listen() {
         ),
     ];
     for (script, wanted) in talks {
-        scripted(dir, script, "1");
+        scripted(dir, script, &PATIENCE.to_string());
         let limit = "ulimit -v 4000000; exec \"$0\" \"$@\"";
         let mut command = std::process::Command::new("sh");
         command.args(["-c", limit, env!("CARGO_BIN_EXE_wingbeat")]);
@@ -222,13 +222,18 @@ fn refuses_programs_that_talk_without_end_or_do_not_listen() {
         let said = complaint(&out);
         assert!(matches!(out.status.code(), Some(1 | 2)), "{script}: {said}");
         assert!(said.contains(wanted), "{script}: {said}");
-        assert!(began.elapsed() < Duration::from_secs(10), "{script}");
+        assert!(began.elapsed() < AT_ONCE, "{script}");
     }
 }
 
+/// What a program may take [s] that is not meant to be waited for in vain, on a busy machine too; and within what
+/// time a flight has ended that waited for none.
+const PATIENCE: u64 = 60;
+const AT_ONCE: Duration = Duration::from_secs(PATIENCE - 10);
+
 /// The preset's fly in blade elements under a controller in another program.
 fn commanded(dir: &Path, out: &str, command: &str, more: &[&str]) -> Output {
-    let external = format!("control.external={{command={command},timeout_s=2}}");
+    let external = format!("control.external={{command={command},timeout_s={PATIENCE}}}");
     let mut args = vec!["run", "hover.toml", "--quiet", "--out", out];
     for set in ["control.controller=external", &external]
         .iter()
@@ -333,7 +338,7 @@ fn refuses_answers_of_a_controller_that_cannot_be_flown() {
         (r#"echo '{"error":"I am lost"}'"#, "I am lost"),
         (r#"echo '{"error":""}'"#, "an error without words"),
         (
-            "sleep 9",
+            "sleep 300",
             "no answer within 2 s; allow more with control.external.timeout_s",
         ),
         ("true", "it ended its output: exit status 0"),
@@ -343,7 +348,8 @@ fn refuses_answers_of_a_controller_that_cannot_be_flown() {
             "look 1: `sh -c",
         ),
         (
-            "echo '{\"wings\":[{},{}]}'; echo '{\"wings\":[{},{}]}'; sleep 9",
+            // In one piece, and more than one too many: a line that is heard late is the answer to the next look.
+            "printf '%s\\n' '{\"wings\":[{},{}]}' '{\"wings\":[{},{}]}' '{\"wings\":[{},{}]}'; sleep 300",
             "it says more than one line for a look",
         ),
         (
@@ -354,7 +360,12 @@ fn refuses_answers_of_a_controller_that_cannot_be_flown() {
     for (script, wanted) in answers {
         let command = serde_json::json!(["sh", "-c", format!("read line; {script}")]);
         let began = Instant::now();
-        let out = commanded(dir, "r", &command.to_string(), &["time.beats=3"]);
+        let limit: &[&str] = match wanted.contains("within 2 s") {
+            true => &["control.external.timeout_s=2"],
+            false => &[],
+        };
+        let more = [&["time.beats=3"], limit].concat();
+        let out = commanded(dir, "r", &command.to_string(), &more);
         let said = complaint(&out);
         assert!(matches!(out.status.code(), Some(1 | 2)), "{script}: {said}");
         assert!(said.contains(wanted), "{script}: {said}");
@@ -367,7 +378,7 @@ fn refuses_answers_of_a_controller_that_cannot_be_flown() {
             said.contains("try the program on a line by hand, see docs/control.md"),
             "{script}: {said}"
         );
-        assert!(began.elapsed() < Duration::from_secs(8), "{script}");
+        assert!(began.elapsed() < AT_ONCE, "{script}");
         let _ = fs::remove_dir_all(dir.join("r"));
     }
     let none = commanded(dir, "r", "[\"no-such-program\"]", &[]);

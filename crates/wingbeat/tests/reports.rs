@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use crate::support::{Scratch, flown, quick_case, said, wingbeat};
+use crate::support::{Scratch, flown, quick_case, refused, said, wingbeat};
 use serde_json::Value;
 
 /// Every command that analyses, with a name that its JSON has.
@@ -207,5 +207,26 @@ fn behaves_powers_are_in_the_unit_that_suits_them() {
         let value = &serde_json::from_str::<Value>(&json).unwrap()["power"];
         let watt = value["no_storage"]["watt"].as_f64().unwrap();
         assert!((shown - scale * watt).abs() < 6e-4, "{shown} {watt}"); // three places
+    }
+}
+
+/// What takes minutes was announced, and refused after that: joints that move freely beside wakes of strips, a turn.
+#[test]
+fn refuses_trims_with_a_memory_before_they_are_announced() {
+    let scratch = Scratch::new("announced");
+    let jones = [
+        "--set=air.model=blade_element",
+        "--set=air.blade.unsteady=jones",
+    ];
+    for command in ["trim", "stability", "power"] {
+        let freely = [&[command, "fruit-fly-abdomen-spring"], &jones[..]].concat();
+        let turning = [command, "hawkmoth-elastic", "--turn-rate", "10"];
+        for (args, why) in [
+            (&freely[..], "joints move freely"),
+            (&turning[..], "a steady turn"),
+        ] {
+            let said = refused(&scratch.0, 2, args);
+            assert!(said.contains(why) && !said.contains("trimming"), "{said}");
+        }
     }
 }

@@ -8,6 +8,7 @@ mod benchmark;
 mod commands;
 mod control;
 mod damage;
+mod ensembles;
 mod examples;
 mod exports;
 mod figures;

@@ -84,28 +84,18 @@ impl WakeTrim {
 /// as a periodic orbit of body, wings and wakes of strips.
 ///
 /// # Errors
-/// As [`check_alike`]; a wingbeat that is not a whole number of steps; a steady turn, which a body that is held
-/// cannot fly; unknowns that the problem does not determine, or too few; a first flight that fails. A trim that
-/// does not converge is no error: see [`TrimSolution::converged`].
+/// As [`check_trim_with_wake`]; a first flight that fails. A trim that does not converge is no error: see
+/// [`TrimSolution::converged`].
 pub fn trim_with_wake(
     setup: &FlightSetup,
     problem: &TrimProblem,
     settings: &WakeSettings,
 ) -> Result<WakeTrim, AnalysisError> {
-    check_alike(setup)?;
-    check_determined(setup, problem)?;
-    if problem.turn_rate != 0.0 {
-        return Err(AnalysisError::not_covered(
-            "with a memory of wakes or elastic wings flight is trimmed straight, and a steady turn was asked for",
-            "trim the turn in blade elements (air.model = \"blade_element\", no air.blade.unsteady) with rigid wings",
-        ));
-    }
-    check_speeds(problem)?;
+    check_trim_with_wake(setup, problem)?;
     let residuals = Residuals::of(problem);
     let has_orbit = has_orbit(setup);
     let mut setup = setup.clone();
     if has_orbit {
-        check_orbit(&setup)?;
         setup = steadied(&setup);
     }
     if let (AirModel::VortexLattice(air), Residuals::All) = (&mut setup.air, residuals) {
@@ -124,6 +114,31 @@ pub fn trim_with_wake(
         best: f64::INFINITY,
     };
     flights.run()
+}
+
+/// What keeps a flight from being trimmed by [`trim_with_wake`] and shows before one is flown, which takes its time.
+///
+/// # Errors
+/// As [`check_alike`]; a wingbeat that is not a whole number of steps; a steady turn, which a body that is held
+/// cannot fly; joints that move freely beside elastic wings or wakes of strips; unknowns that the problem does not
+/// determine, or too few.
+pub fn check_trim_with_wake(
+    setup: &FlightSetup,
+    problem: &TrimProblem,
+) -> Result<(), AnalysisError> {
+    check_alike(setup)?;
+    check_determined(setup, problem)?;
+    if problem.turn_rate != 0.0 {
+        return Err(AnalysisError::not_covered(
+            "with a memory of wakes or elastic wings flight is trimmed straight, and a steady turn was asked for",
+            "trim the turn in blade elements (air.model = \"blade_element\", no air.blade.unsteady) with rigid wings",
+        ));
+    }
+    check_speeds(problem)?;
+    if has_orbit(setup) {
+        check_orbit(setup)?;
+    }
+    steps_per_beat(setup).map(drop)
 }
 
 /// An error if a speed is unknown: the body is held at the speed asked while its wake grows.

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use serde::{Deserialize, Serialize};
 use wingbeat_case::IoError;
 use wingbeat_results::manifest::sha256;
-use wingbeat_results::summary::Verdict;
+use wingbeat_results::summary::{BeatMeans, Verdict};
 
 pub(super) const MAGIC: &str = "wingbeat-point 2 ";
 /// Of records of before, whose checksum is of the result alone and not of the point.
@@ -54,6 +54,9 @@ pub struct PointResult {
     /// Why it failed.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub failed: Option<(Reason, String)>,
+    /// Means over its wingbeats, of a member of an ensemble.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub beats: Vec<BeatMeans>,
 }
 
 impl PointResult {
@@ -63,6 +66,7 @@ impl PointResult {
             values: values.iter().map(|x| x.is_finite().then_some(*x)).collect(),
             verdict,
             failed: None,
+            beats: vec![],
         }
     }
 
@@ -72,6 +76,15 @@ impl PointResult {
             values: vec![],
             verdict: None,
             failed: Some((reason, words)),
+            beats: vec![],
+        }
+    }
+
+    /// Of a member of an ensemble that flew to its end.
+    pub fn of_member(beats: &[BeatMeans]) -> Self {
+        Self {
+            beats: beats.to_vec(),
+            ..Self::of(&[], None)
         }
     }
 }

@@ -63,11 +63,16 @@ pub fn trimmed_case(case: &LoadedCase, trim: &Trim) -> Result<String, AnalysisEr
         if joint.kind == JointKind::Prismatic {
             (joint.start_m, joint.start_m_s) = (Some(coordinates[0]), Some(rates[0]));
         } else {
-            let degrees = |x: Vec<f64>| Some(x.into_iter().map(f64::to_degrees).collect());
-            (joint.start_deg, joint.start_deg_s) = (degrees(coordinates), degrees(rates));
+            let degrees = |x: Vec<f64>, size: f64| {
+                let clear = x.into_iter().map(|x| beyond_rounding(x, size).to_degrees());
+                Some(clear.collect())
+            };
+            joint.start_deg = degrees(coordinates, 1.0);
+            joint.start_deg_s = degrees(rates, 1.0 / trim.beat.period());
         }
     }
-    let flight = released_into(&trim.beat.root(&trim.state), trim.beat.period());
+    let sizes = [trim.beat.wing_length(), trim.beat.period()];
+    let flight = released_into(&trim.beat.root(&trim.state), sizes);
     hold(&mut raw, trim.mean_velocity()?);
     Ok(with_start(case, raw, flight, &trim.solution))
 }
@@ -123,7 +128,8 @@ pub fn wake_trimmed_case(case: &LoadedCase, trim: &WakeTrim) -> String {
                 v: start.velocity,
                 w: start.angular_velocity,
             };
-            (held, released_into(&root, time.period.unwrap_or(1.0)))
+            let sizes = [trim.setup.animal.wing_length(), time.period.unwrap_or(1.0)];
+            (held, released_into(&root, sizes))
         }
     };
     // The hold and the free wingbeat that was trimmed, in its steps: of another frequency, they are no longer those
@@ -201,7 +207,7 @@ fn turn_tail(raw: &mut Case, case: &LoadedCase, incidence: f64) {
         let (name, psi) = (&wing.name, own(wing));
         let wing = raw.wing.get_mut(name).expect("retained as one of the file");
         let motion = wing.motion.get_or_insert_default();
-        let turned = (psi + incidence).to_degrees();
+        let turned = beyond_rounding(psi + incidence, 1.0).to_degrees();
         motion.psi = Some(AngleCase::ConstantDeg(turned));
     }
 }
@@ -221,14 +227,16 @@ fn lead(raw: &mut Case, case: &LoadedCase, trimmed: &FlightSetup) {
 
 /// An adjustment as a case has it; the frequency stands elsewhere.
 fn written_adjustment(a: &Adjustment) -> AdjustCase {
+    let number = |x| beyond_rounding(x, 1.0);
+    let degrees = |x| number(x).to_degrees();
     AdjustCase {
-        stroke_amplitude: a.stroke_amplitude,
-        stroke_offset_deg: a.stroke_offset.to_degrees(),
-        feathering_amplitude: a.feathering_amplitude,
-        feathering_offset_deg: a.feathering_offset.to_degrees(),
-        feathering_lead: a.feathering_lead,
-        deviation_offset_deg: a.deviation_offset.to_degrees(),
-        stroke_plane_deg: a.stroke_plane.to_degrees(),
+        stroke_amplitude: number(a.stroke_amplitude),
+        stroke_offset_deg: degrees(a.stroke_offset),
+        feathering_amplitude: number(a.feathering_amplitude),
+        feathering_offset_deg: degrees(a.feathering_offset),
+        feathering_lead: number(a.feathering_lead),
+        deviation_offset_deg: degrees(a.deviation_offset),
+        stroke_plane_deg: degrees(a.stroke_plane),
     }
 }
 
@@ -251,24 +259,27 @@ fn frequencies(joint: &mut JointCase) -> Vec<&mut f64> {
     turn.chain(travel).chain(series).collect()
 }
 
-/// Turn in a wingbeat below which an angular velocity at the release is rounding, a thousandth of what a trim is found to
-/// \[rad\].
+/// Part of its natural size below which a number is rounding, a thousandth of what a trim is found to \[1\].
 const STANDSTILL: f64 = 1e-12;
 
-/// A root that is free from this motion on, in which a wingbeat takes `period` \[s\].
-fn released_into(root: &BodyMotion, period: f64) -> FlightCase {
-    let turns = |w: f64| match (w * period).abs() > STANDSTILL {
-        true => w.to_degrees(),
-        false => 0.0,
-    };
+/// A number of this natural size, 0 where it is what rounding left of nothing.
+fn beyond_rounding(x: f64, size: f64) -> f64 {
+    clear(x, STANDSTILL * size)
+}
+
+/// A root that is free from this motion on; the natural sizes of its speeds follow from wing length \[m\] and period
+/// \[s\].
+fn released_into(root: &BodyMotion, [length, period]: [f64; 2]) -> FlightCase {
+    let degrees = |x: f64, size: f64| beyond_rounding(x, size).to_degrees();
     let angles = EulerSequence::BODY_231.angles(root.r).to_array();
-    let [pitch_deg, yaw_deg, roll_deg] = angles.map(f64::to_degrees);
+    let [pitch_deg, yaw_deg, roll_deg] = angles.map(|x| degrees(x, 1.0));
+    let speed = |v: f64| beyond_rounding(v, length / period);
     FlightCase {
         pitch_deg,
         yaw_deg,
         roll_deg,
-        velocity_m_s: root.v.to_array(),
-        angular_velocity_deg_s: root.w.to_array().map(turns),
+        velocity_m_s: root.v.to_array().map(speed),
+        angular_velocity_deg_s: root.w.to_array().map(|w| degrees(w, 1.0 / period)),
         ..FlightCase::default()
     }
 }
@@ -302,14 +313,14 @@ fn with_start(
 /// rounding and by what a trim is good to \[1\].
 const ROUNDING: f64 = 1e-9;
 
-/// A number of about `size`, without what rounding left of nothing.
-fn clear(x: f64, size: f64) -> f64 {
-    if x.abs() > ROUNDING * size { x } else { 0.0 }
+/// A number, 0 where it is no larger than `rounding`.
+fn clear(x: f64, rounding: f64) -> f64 {
+    if x.abs() > rounding { x } else { 0.0 }
 }
 
 /// An angle [rad] in degrees, likewise.
 fn clear_angle(angle: f64) -> f64 {
-    clear(angle.to_degrees(), 1.0)
+    clear(angle.to_degrees(), ROUNDING)
 }
 
 /// A constant force \[N\], inertial axes, at a point of the body \[m\].
@@ -347,8 +358,8 @@ pub fn derivative_case(
     let angles = EulerSequence::BODY_231.angles(attitude).to_array();
     let [pitch_deg, yaw_deg, roll_deg] = angles.map(clear_angle);
     let velocity = attitude * (table.to_body * table.velocity);
-    let size = trim.beat.wing_length() / trim.beat.period();
-    let velocity = velocity.to_array().map(|v| clear(v, size));
+    let slow = ROUNDING * trim.beat.wing_length() / trim.beat.period();
+    let velocity = velocity.to_array().map(|v| clear(v, slow));
     let mut raw = case.raw.clone();
     raw.name = Some(format!("{}-averaged", case.name));
     raw.control = None; // nothing steers a table of derivatives
@@ -375,7 +386,7 @@ pub fn derivative_case(
         ..AirCase::default()
     };
     let mut of_table = derivatives(&table, [roll, pitch]);
-    of_table.velocity_m_s = of_table.velocity_m_s.map(|v| clear(v, size));
+    of_table.velocity_m_s = of_table.velocity_m_s.map(|v| clear(v, slow));
     raw.air.derivatives = Some(of_table);
     raw.flight = FlightCase {
         roll_deg,
@@ -425,12 +436,30 @@ mod tests {
     use super::*;
 
     #[test]
-    fn behaves_angular_velocities_of_rounding_are_written_as_none() {
+    fn behaves_numbers_of_rounding_are_written_as_none() {
         let root = BodyMotion {
+            r: EulerSequence::BODY_231.rotation(DVec3::new(0.2, 3e-65, -2e-16)),
+            v: DVec3::new(0.1, -1.8e-17, 0.0),
             w: DVec3::new(0.0, 4e-14, 0.3),
             ..BodyMotion::REST
         };
-        let [p, q, r] = released_into(&root, 0.07).angular_velocity_deg_s;
+        let flight = released_into(&root, [3e-3, 5e-3]);
+        let [p, q, r] = flight.angular_velocity_deg_s;
         assert!([p, q] == [0.0; 2] && r == 0.3_f64.to_degrees());
+        let text = format!(
+            "{:?} {:?}",
+            flight.velocity_m_s,
+            [flight.yaw_deg, flight.roll_deg]
+        );
+        assert_eq!(text, "[0.1, 0.0, 0.0] [0.0, 0.0]", "not -0.0 either");
+        assert!((flight.pitch_deg - 0.2_f64.to_degrees()).abs() < 1e-13);
+        // A deviation that trim has found is written to its last digit, whatever its size.
+        let found = written_adjustment(&Adjustment {
+            stroke_offset: 2e-11,
+            stroke_plane: 1.5e-16,
+            ..Adjustment::default()
+        });
+        assert_eq!(found.stroke_offset_deg, 2e-11_f64.to_degrees());
+        assert_eq!(found.stroke_plane_deg, 0.0);
     }
 }

@@ -199,6 +199,33 @@ class _Trimmed(Generic[_Core]):
         return self._solution.iterations
 
     @property
+    def unknowns(self) -> dict[str, float]:
+        """What was chosen, by the names and in the units in which bounds are given: radians, parts of 1, wingbeats
+        (``feathering_lead``), wing lengths (``mass_centre``), metres a second (``forward``, ``climb``).
+        """
+        return dict(self._solution.unknowns)
+
+    @property
+    def forward_m_per_s(self) -> float:
+        """Mean velocity forward, asked for or, of gliders for instance, found [m/s]."""
+        return self._core.velocity[0]
+
+    @property
+    def climb_m_per_s(self) -> float:
+        """Mean velocity upward, asked for or found [m/s]; a glider's is negative."""
+        return self._core.velocity[2]
+
+    @property
+    def tail_incidence_rad(self) -> float:
+        """What trim adds to the feathering angle of the tail, leading edge up [rad]."""
+        return self._solution.tail_incidence_rad
+
+    @property
+    def mass_centre_m(self) -> float:
+        """By how much trim moves the mass centre forward against the hinges [m]."""
+        return self._solution.mass_centre_m
+
+    @property
     def adjustment(self) -> Adjustment:
         """What trim adds to the motion of all wings."""
         return Adjustment(*self._solution.adjustment)

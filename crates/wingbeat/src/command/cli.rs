@@ -25,7 +25,7 @@ pub(crate) const STYLES: Styles = Styles::styled()
 
 /// Simulator of flapping-wing flight.
 ///
-/// Exit codes: 0 done; 1 the flight, the writing or a print failed midway (what was flown is kept);
+/// Exit codes: 0 done; 1 the flight, one of an ensemble, the writing or a print failed midway (what was flown is kept);
 /// 2 nothing was run: command line, case or output directory cannot be used; 130 a flight was
 /// interrupted by Ctrl-C or SIGTERM (what was flown is kept). `ensemble`, `flutter` and
 /// `trim --sweep` report what is done when these signals end them; all other analyses end at once.

@@ -7,7 +7,7 @@ mod flight;
 mod run;
 
 pub use batch::fly_all;
-pub use ensemble::{WatchedEnsemble, ensemble, ensemble_watched};
+pub use ensemble::{FailedMember, WatchedEnsemble, ensemble, ensemble_watched, members_kept};
 pub use error::Error;
 pub use flight::Flight;
 pub use run::{Beat, Run};

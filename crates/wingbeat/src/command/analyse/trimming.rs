@@ -1,7 +1,7 @@
 //! What is trimmed and how, for all analysing commands.
 
 use clap::Args;
-use wingbeat::analysis::wake::{WakeSettings, WakeTrim, check_alike, trim_with_wake};
+use wingbeat::analysis::wake::{WakeSettings, WakeTrim, check_trim_with_wake, trim_with_wake};
 use wingbeat::analysis::{
     Beat, Bound, TRIM_STEPS, Trim, TrimProblem, TrimRequest, TrimSettings, UNKNOWNS, Unknown,
     glides, trim_within, turned_over, turned_over_with_wake,
@@ -281,7 +281,7 @@ pub(crate) fn trimmed_with_wake(
             settings.held_beats + 1
         ),
     };
-    check_alike(&case.setup)?;
+    check_trim_with_wake(&case.setup, &problem)?;
     name_program(&case);
     let pace = match case.setup.air.keeps_wake() || case.setup.animal.is_elastic() {
         true => "; this takes minutes",

@@ -1,20 +1,23 @@
 //! `wingbeat ensemble`: the same flight many times over, from starts that differ by next to nothing.
 
 use std::ops::ControlFlow;
+use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use clap::Args;
-use serde_json::json;
+use serde_json::{Value, json};
 use wingbeat::analysis::estimate;
 use wingbeat::case::presets;
 use wingbeat::flight::Simulation;
+use wingbeat::results::RESULTS;
 use wingbeat::results::summary::{Ensemble, EnsembleBeat, Estimate};
-use wingbeat::{Flight, WatchedEnsemble, ensemble_watched};
+use wingbeat::{FailedMember, Flight, WatchedEnsemble, ensemble_watched, members_kept};
 
 use crate::command::case::programs::name_program;
 use crate::command::options::{self, CaseArgs};
-use crate::command::output::failure::{Failure, INTERRUPTED};
+use crate::command::output::failure::{FAILED, Failure, INTERRUPTED};
 use crate::command::output::report::{Report, ReportArgs, line};
+use crate::command::output::target::folder;
 use crate::command::output::terminal::tell;
 use crate::command::progress::watch::Watch;
 use crate::command::signals::stop_flag_after;
@@ -37,6 +40,10 @@ pub(crate) struct EnsembleArgs {
     /// Flights at a time [default: as many as the machine has threads].
     #[arg(long, value_name = "N", value_parser = options::count::<1, { options::MAX_THREADS }>)]
     threads: Option<usize>,
+    /// Where flights are kept until all are flown: the same command goes on with those that are missing; default
+    /// results/NAME-ensemble.
+    #[arg(long, value_name = "DIR", value_parser = folder())]
+    keep: Option<PathBuf>,
     #[command(flatten)]
     report: ReportArgs,
 }
@@ -50,29 +57,51 @@ pub(crate) fn run(args: &EnsembleArgs) -> Result<(), Failure> {
         doubts.iter().for_each(|d| tell!("warning: {d}"));
         report.value("warnings", doubts);
         let name = case.name.clone();
-        let flown = flown(args, &name, &Flight::from(case))?;
+        let default = || Path::new(RESULTS).join(format!("{name}-ensemble"));
+        let folder = args.keep.clone().unwrap_or_else(default);
+        let flown = flown(args, &name, &Flight::from(case), &folder)?;
         report.value("case", &*name);
-        report.value("complete", flown.unfinished.is_empty());
+        report.value("complete", flown.is_complete());
         report.value("members_of_means", flown.members.clone());
         report.value("unfinished_members", flown.unfinished.clone());
+        report.value(
+            "failed_members",
+            flown.failed.iter().map(failed).collect::<Vec<_>>(),
+        );
         let found = flown.found();
         if let Ok(found) = &found {
             show(report, &name, found);
         }
-        if flown.unfinished.is_empty() {
+        if flown.is_complete() {
             return found.map(|_| ()).map_err(Failure::from);
         }
-        interrupted(report, &flown, args.members);
-        Err(Failure::Told(INTERRUPTED))
+        incomplete(report, &flown, args.members);
+        if flown.unfinished.len() + flown.failed.len() < args.members {
+            tell_kept(&flown, &folder);
+        }
+        Err(Failure::Told(match flown.unfinished.is_empty() {
+            true => FAILED,
+            false => INTERRUPTED,
+        }))
     })
 }
 
-/// The flights, telling of each that flew to its end, until a signal stops them.
-fn flown(args: &EnsembleArgs, name: &str, flight: &Flight) -> Result<WatchedEnsemble, Failure> {
-    let stop = stop_flag_after("the flights end after this step");
+/// The flights that are missing, telling of each that flew to its end, until a signal stops them.
+fn flown(
+    args: &EnsembleArgs,
+    name: &str,
+    flight: &Flight,
+    folder: &Path,
+) -> Result<WatchedEnsemble, Failure> {
     let count = args.members;
+    let before = members_kept(flight, count, folder)?;
+    if before > 0 {
+        let place = folder.display();
+        tell!("{name}: goes on with {before} of {count} flights done, which are kept in {place}");
+    }
+    let stop = stop_flag_after("the flights end after this step");
     let watch = Watch::new(&format!("{count} flights"));
-    let done = AtomicUsize::new(0);
+    let done = AtomicUsize::new(before);
     let each = |_, flight: &Simulation| {
         if flight.finished() {
             let done = 1 + done.fetch_add(1, Ordering::Relaxed);
@@ -84,15 +113,26 @@ fn flown(args: &EnsembleArgs, name: &str, flight: &Flight) -> Result<WatchedEnse
         }
     };
     let threads = args.threads.unwrap_or(0);
-    Ok(ensemble_watched(flight, count, threads, each)?)
+    Ok(ensemble_watched(
+        flight,
+        count,
+        threads,
+        Some(folder),
+        each,
+    )?)
 }
 
-/// What an interruption left out.
-fn interrupted(report: &mut Report, flown: &WatchedEnsemble, asked: usize) {
-    let unfinished = flown.unfinished.len();
+/// A member that failed, for programs.
+fn failed(member: &FailedMember) -> Value {
+    json!({ "member": member.member, "step": member.step, "why": member.error.to_string() })
+}
+
+/// What the means are of, where members failed or were interrupted, and which and why.
+fn incomplete(report: &mut Report, flown: &WatchedEnsemble, asked: usize) {
+    let [unfinished, failed] = [flown.unfinished.len(), flown.failed.len()];
     let of = match &flown.ensemble {
-        None => "no two of them have a whole wingbeat, and there are no means".to_owned(),
-        Some(found) if flown.members.len() == asked - unfinished => {
+        None => "no two of the others have a whole wingbeat, and there are no means".to_owned(),
+        Some(found) if flown.members.len() == asked - unfinished - failed => {
             format!("the means are of the {} others", found.members)
         }
         Some(found) => format!(
@@ -101,11 +141,44 @@ fn interrupted(report: &mut Report, flown: &WatchedEnsemble, asked: usize) {
             found.members
         ),
     };
-    let text = format!(
-        "NOT flown to their end, as it was interrupted: {unfinished} of {asked} flights; {of}"
-    );
-    line!(report, "{text}");
-    tell!("interrupted: {unfinished} of {asked} flights were not flown to their end");
+    let why = match (unfinished, failed) {
+        (n, 0) => format!("as it was interrupted: {n} of {asked} flights"),
+        (0, n) => format!("as they could not go on: {n} of {asked} flights"),
+        (n, m) => {
+            format!("{n} of {asked} flights as it was interrupted, {m} as they could not go on")
+        }
+    };
+    line!(report, "NOT flown to their end, {why}; {of}");
+    for FailedMember {
+        member,
+        step,
+        error,
+    } in &flown.failed
+    {
+        line!(
+            report,
+            "  flight {member} failed after step {step}: {error}"
+        );
+    }
+    if unfinished > 0 {
+        tell!("interrupted: {unfinished} of {asked} flights were not flown to their end");
+    }
+    if failed > 0 {
+        tell!("error: {failed} of {asked} flights could not go on; the report says why");
+    }
+}
+
+/// How what is missing is flown.
+fn tell_kept(flown: &WatchedEnsemble, folder: &Path) {
+    match &flown.not_kept {
+        None => tell!(
+            "flights that came to their end are kept in {}; the same command goes on with the others",
+            folder.display()
+        ),
+        Some(e) => {
+            tell!("warning: flights could not be kept, and the same command flies them again: {e}")
+        }
+    }
 }
 
 fn show(report: &mut Report, name: &str, found: &Ensemble) {
