@@ -64,7 +64,7 @@ fn heard(kind: DoubtKind, is_lattice: bool) -> (Place, Verdict, &'static str, &'
         DoubtKind::LateGusts => (Motion, Green, "A gust without effect: ", ""),
         DoubtKind::ShortGusts => (Motion, Amber, "Gusts that the steps do not resolve: ", ""),
         DoubtKind::PressedAir => (Motion, Amber, "Air that is pressed together: ", ""),
-        DoubtKind::JumpingRotation => (Motion, Green, "No derivatives of the air are known: ", ""),
+        DoubtKind::JumpingForces => (Motion, Green, "No derivatives of the air are known: ", ""),
         DoubtKind::ExcitedTorsion => (Cause, Amber, "Torsion that the air excites: ", ""),
         DoubtKind::InsideParts => (Air, Red, "A wing and a body cannot both be surfaces of the lattice in one place: ", NO_MEANING),
         DoubtKind::RootsOnBodies => (Air, Amber, "A wing on a body is a limit of the lattice: ", ""),
