@@ -36,6 +36,8 @@ pub enum DoubtKind {
     Crossing,
     /// Wings that pass through each other by little.
     Graze,
+    /// Surfaces that face each other across gaps narrower than their panels.
+    NarrowGaps,
     /// Wings inside parts of the body.
     InsideParts,
     /// Roots on parts of the body, or a little off them.
@@ -105,6 +107,7 @@ impl FlightSetup {
         add(JumpingForces, one(self.jumping_forces()));
         add(ExcitedTorsion, one(self.excited_torsion()));
         add(InsideParts, self.wings_inside_parts());
+        add(NarrowGaps, self.surfaces_in_narrow_gaps());
         add(RootsOnBodies, self.roots_on_bodies());
         add(UnjoinedEdges, self.unjoined_roots());
         add(UnjoinedEdges, self.unjoined_tips());
