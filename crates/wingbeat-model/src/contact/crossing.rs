@@ -257,7 +257,8 @@ mod tests {
         let [(crossing, depth)] = &counted.found()[..] else {
             panic!("{:?}", counted.found());
         };
-        assert_eq!([crossing.clone()], crossings(&flown, &[0, 1], &[])[..]);
+        let prescribed = crossings(&flown, &[0, 1], &[]);
+        assert_eq!(std::slice::from_ref(crossing), &prescribed[..]);
         let expected = crossing_depth(&flown, [0, 1], false);
         assert!((depth - expected).abs() < 1e-12, "{depth} {expected}"); // roundings of times
         let far = animal(vec![flapping(), wing(0.9, 0.0, 7.0)]);
