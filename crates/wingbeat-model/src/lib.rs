@@ -39,12 +39,13 @@ pub mod structure;
 pub use animal::{Animal, BodyPart, Segment, Wing};
 pub use build::{BodyMass, fit_body_length};
 pub use check::{ElasticReport, WingReport};
+pub use contact::bent::Bending;
 pub use contact::coincident::coincident;
-pub use contact::crossing::bent::Bending;
 pub use contact::crossing::depth::crossing_depth;
-pub use contact::crossing::flown::FlownCrossings;
+pub use contact::crossing::flown::{FlownCounts, FlownCrossings};
 pub use contact::crossing::{Crossing, are_joined, crossings, nearest_nodes, pairs, root_gap};
 pub use contact::inside::{Inside, Solid, inside};
+pub use contact::narrow::{Faced, NarrowGap, NarrowGaps, Narrowest, SeenGaps, instants_of_gaps};
 pub use contact::touching::{
     PairOnPart, RootOnPart, pairs_on_parts, roots_beside_parts, roots_meet, roots_on_parts,
 };

@@ -154,7 +154,7 @@ impl Summary {
             last_part: s.bounds.ended_by(&s.last, setup),
             beats: s.beats,
         };
-        let doubts = setup.doubts();
+        let doubts = trust::doubts_of(setup, each.gaps.as_ref());
         let mut warnings = trust::warnings(setup, &doubts, &summary, momentum);
         bent::warnings(setup, &s.each.bent, &mut warnings);
         turned_over(setup, &s.each, &mut warnings);
@@ -162,7 +162,6 @@ impl Summary {
         still_air::warn(setup, [&s.first, &s.last], &mut warnings);
         trust::flown_crossings(
             setup,
-            &doubts,
             &s.each.crossings.map_or(vec![], |c| c.found()),
             &mut warnings,
         );

@@ -336,3 +336,43 @@ fn behaves_ways_of_nodes_that_are_limited_are_counted_and_said() {
     assert_eq!(wide.limited, 0);
     assert!(!says(&wide, "max_displacement"), "{:?}", wide.warnings);
 }
+
+/// A wing that flaps up and down alike in still air lifts nothing in the mean: what the two ways to it differ by is small
+/// beside the force that goes to and fro, and no doubt about the wake.
+#[test]
+fn behaves_forces_that_cancel_over_the_beat_are_not_doubted() {
+    let text = r#"
+        format = 1
+        time = { steps_per_beat = 40, beats = 3 }
+        flight.mode = "tethered"
+        body = { mass_kg = 1, inertia_about_centre_kg_m2 = [1, 1, 1, 0, 0, 0] }
+        motion.frequency_hz = 10
+        [air]
+        density_kg_m3 = 1.2
+        shed = ["trailing", "leading"]
+        leading_edge = "always"
+        body = false
+        [wing.right]
+        hinge_m = [0, 0.02, 0]
+        mass_kg = 0.005
+        motion = { phi.fourier.sine_deg = [40], psi.constant_deg = 0 }
+        planform.rectangle = { chord_m = 0.04, span_m = 0.1, axis_fraction = 0.5 }
+        mesh = { chordwise = 4, spanwise = 6 }
+    "#;
+    let case = LoadedCase::from_text("paddles", text, Path::new(""), &[]).unwrap();
+    let summary = flown(&case);
+    let budget = summary.impulse_budget.unwrap();
+    let exchanged = budget.exchanged_newton_s.unwrap() / summary.time_s;
+    for beat in &summary.beats[1..] {
+        let [lift, impulse] = two_lifts(beat);
+        println!(
+            "lift {lift:.3e} N, thrust {:.3e} N, by impulse {impulse:.3e} N, to and fro {exchanged:.3e} N",
+            beat.mean.thrust_newton
+        );
+    }
+    assert!(
+        !says(&summary, "Two ways to the mean lift are apart"),
+        "{:?}",
+        summary.warnings
+    );
+}

@@ -3,6 +3,7 @@
 mod bent_wings;
 mod columns;
 mod flights;
+mod gaps;
 mod history;
 mod impulse;
 mod in_play;

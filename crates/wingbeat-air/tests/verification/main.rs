@@ -7,6 +7,7 @@ mod carry_through;
 mod centre_of_pressure;
 mod common;
 mod errors;
+mod gaps;
 mod held;
 mod implicit_suction;
 mod impulse;

@@ -10,9 +10,11 @@ use crate::setup::FlightSetup;
 /// Depth ([`crossing_depth`]) over the mean chord up to which wings that pass through each other graze \[1\].
 const GRAZE: f64 = 0.03;
 
-/// Wings that pass through each other in their prescribed motion.
+/// Wings that pass through each other.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CrossingWings {
+    /// The two, among the wings of the animal.
+    pub wings: [usize; 2],
     /// Which, for how long, how deep, and what to do about it.
     pub said: String,
     /// Whether they do so by no more than 3 % of a mean chord.
@@ -26,17 +28,8 @@ impl FlightSetup {
         let joined = self.joined_pairs();
         let say = |c: Crossing| {
             let is_joined = are_joined(&joined, c.wings);
-            let chords = c.wings.map(|w| self.animal.wings[w].report().mean_chord);
-            let depth = crossing_depth(&self.animal, c.wings, is_joined) / chords[0].min(chords[1]);
-            CrossingWings {
-                said: format!(
-                    "{}, by up to {:.1} % of a mean chord: {}",
-                    self.crossing(&c, "beat"),
-                    100.0 * depth,
-                    self.apart(&c, is_joined)
-                ),
-                is_graze: depth <= GRAZE,
-            }
+            let depth = crossing_depth(&self.animal, c.wings, is_joined);
+            self.say_crossing(&c, depth, ("beat", self.apart(&c, is_joined)))
         };
         self.prescribed_crossings().into_iter().map(say).collect()
     }
@@ -57,6 +50,11 @@ impl FlightSetup {
                 remedy(pair)
             )
         };
+        self.coincident_pairs().into_iter().map(say).collect()
+    }
+
+    /// Pairs of wings that lie in each other, and over which part of the beat \[1\].
+    fn coincident_pairs(&self) -> Vec<([usize; 2], f64)> {
         let all = 0..self.animal.wings.len();
         let known: Vec<usize> = all
             .filter(|&w| self.prescribed_in_body(w, 0.0).is_some())
@@ -65,8 +63,18 @@ impl FlightSetup {
             let on_joint = self.has_own_joint(w).then(|| self.prescribed_in_body(w, t));
             on_joint.flatten().map(|moving| (moving.p, moving.r))
         };
-        let found = coincident(&self.animal, &known, carried);
-        found.into_iter().map(say).collect()
+        coincident(&self.animal, &known, carried)
+    }
+
+    /// Pairs of wings that pass through each other or lie in each other in their prescribed motion, and whether they only
+    /// graze.
+    pub fn doubted_pairs(&self) -> Vec<([usize; 2], bool)> {
+        let crossing = self.crossing_wings().into_iter();
+        let crossing = crossing.map(|c| (c.wings, c.is_graze));
+        let lying = self.coincident_pairs().into_iter();
+        crossing
+            .chain(lying.map(|(pair, _)| (pair, false)))
+            .collect()
     }
 
     /// What to do about wings that pass through each other.
@@ -88,30 +96,31 @@ impl FlightSetup {
     /// Counts how often wings pass through each other as they are flown, where that is not known beforehand:
     /// under feedback, with wings on joints of their own, or with elastic ones.
     pub fn flown_crossings(&self) -> Option<FlownCrossings> {
-        let wings = self.animal.wings.len();
-        let has_joints = self.prescribed_wings().len() < wings;
-        let is_open = self.feedback.is_some() || has_joints || self.animal.is_elastic();
         let tips = self.air.lattice().map_or(&[][..], |air| &air.joined_tips);
-        (is_open && wings > 1)
+        (self.moves_otherwise_in_flight() && self.animal.wings.len() > 1)
             .then(|| FlownCrossings::new(&self.animal, &self.joined_pairs(), tips))
     }
 
-    /// Says which wings passed through each other as they were flown, and what to do about it.
-    pub fn say_flown_crossing(&self, found: &Crossing) -> String {
-        format!(
-            "{}: {}",
-            self.crossing(found, "flight"),
-            self.kept_apart(found)
-        )
+    /// Whether wings move otherwise in flight than their prescribed motion alone says.
+    pub(super) fn moves_otherwise_in_flight(&self) -> bool {
+        let has_joints = self.prescribed_wings().len() < self.animal.wings.len();
+        self.feedback.is_some() || has_joints || self.animal.is_elastic()
     }
 
-    /// What to do about wings that passed through each other in flight: about their strokes where these do so without
-    /// commands and with joints at rest, else about their joints, else about the commands.
-    fn kept_apart(&self, found: &Crossing) -> String {
+    /// Says which wings passed through each other as they were flown, by up to `depth` \[m\], and what to do about it.
+    pub fn say_flown_crossing(&self, found: &Crossing, depth: f64) -> CrossingWings {
+        self.say_crossing(found, depth, ("flight", self.kept_apart(found, depth)))
+    }
+
+    /// What to do about wings that passed through each other in flight, by up to `depth` \[m\]: about their strokes where
+    /// these do so at least half as far without commands, with joints and loads at rest, else about what bends or moves
+    /// them.
+    fn kept_apart(&self, found: &Crossing, depth: f64) -> String {
         let joined = self.joined_pairs();
         let has_joints = found.wings.iter().any(|&w| self.has_own_joint(w));
-        if !crossings(&self.animal, &found.wings, &joined).is_empty() {
-            return self.apart(found, are_joined(&joined, found.wings));
+        let is_joined = are_joined(&joined, found.wings);
+        if crossing_depth(&self.animal, found.wings, is_joined) > 0.5 * depth {
+            return self.apart(found, is_joined);
         }
         if self.feedback.is_none() && !has_joints {
             return "loads bend them so far: make them stiffer (structure), move the hinges apart (hinge_m), or let them beat less far towards each other".to_owned();
@@ -128,10 +137,25 @@ impl FlightSetup {
         }
     }
 
-    fn crossing(&self, found: &Crossing, time: &str) -> String {
-        let [a, b] = found.wings.map(|w| &self.animal.wings[w].name);
+    fn say_crossing(
+        &self,
+        found: &Crossing,
+        depth: f64,
+        (time, remedy): (&str, String),
+    ) -> CrossingWings {
+        let wings = found.wings.map(|w| &self.animal.wings[w]);
+        let [a, b] = wings.map(|w| &w.name);
+        let chords = wings.map(|w| w.report().mean_chord);
+        let depth = depth / chords[0].min(chords[1]);
         let part = (100.0 * found.part).max(1.0);
-        format!("wings `{a}` and `{b}` pass through each other in {part:.0} % of the {time}")
+        CrossingWings {
+            wings: found.wings,
+            said: format!(
+                "wings `{a}` and `{b}` pass through each other in {part:.0} % of the {time}, by up to {:.1} % of a mean chord: {remedy}",
+                100.0 * depth
+            ),
+            is_graze: depth <= GRAZE,
+        }
     }
 
     /// Says which wings are inside which parts of the body in their prescribed motion where the lattice has

@@ -18,8 +18,8 @@ pub enum DoubtKind {
     LongStart,
     /// Commands of a controller that the flight is too short for.
     LateCommands,
-    /// Blade elements whose force of feathering jumps.
-    JumpingRotation,
+    /// Blade elements whose forces or moments jump.
+    JumpingForces,
     /// Blade elements that excite the torsion of elastic wings.
     ExcitedTorsion,
     /// Masses beside lengths, or a gravity, that no animal has.
@@ -36,6 +36,8 @@ pub enum DoubtKind {
     Crossing,
     /// Wings that pass through each other by little.
     Graze,
+    /// Surfaces that face each other across gaps narrower than their panels.
+    NarrowGaps,
     /// Wings inside parts of the body.
     InsideParts,
     /// Roots on parts of the body, or a little off them.
@@ -102,9 +104,10 @@ impl FlightSetup {
         add(LateGusts, self.gusts_that_never_arrive());
         add(ShortGusts, self.gusts_between_steps());
         add(PressedAir, self.gusts_that_press_air());
-        add(JumpingRotation, one(self.jumping_rotation()));
+        add(JumpingForces, one(self.jumping_forces()));
         add(ExcitedTorsion, one(self.excited_torsion()));
         add(InsideParts, self.wings_inside_parts());
+        add(NarrowGaps, self.surfaces_in_narrow_gaps());
         add(RootsOnBodies, self.roots_on_bodies());
         add(UnjoinedEdges, self.unjoined_roots());
         add(UnjoinedEdges, self.unjoined_tips());

@@ -4,6 +4,7 @@
 //! | what is doubted | module |
 //! |---|---|
 //! | wings that pass through each other, or through parts of the body | `impossible` |
+//! | surfaces that face each other across gaps narrower than their panels | `narrow_gaps` |
 //! | roots that meet, tips and roots, edges on planes of images, that are not joined | `unjoined` |
 //! | roots on parts of the body, or a little off them | `on_bodies` |
 //! | tethers that start otherwise than the wings | `starts_apart` |
@@ -41,6 +42,7 @@ mod late_commands;
 mod late_gusts;
 mod list;
 mod long_starts;
+mod narrow_gaps;
 mod on_bodies;
 mod on_carriers;
 pub(crate) mod pairs;

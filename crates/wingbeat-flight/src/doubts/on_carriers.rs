@@ -11,10 +11,15 @@ impl FlightSetup {
     /// velocity in wing components [rad/s]. None where a joint between it and the body leaves anything free, so
     /// that it is not known beforehand.
     pub fn prescribed_in_body(&self, w: usize, t: f64) -> Option<BodyMotion> {
-        self.in_root(w + 1, t, self.joints.len())
+        self.prescribed_body(w + 1, t)
     }
 
-    /// The same of a body, which hangs on at most `left` joints: no chain is longer than there are joints.
+    /// The same of any body, counted as in the system.
+    pub(super) fn prescribed_body(&self, body: usize, t: f64) -> Option<BodyMotion> {
+        self.in_root(body, t, self.joints.len())
+    }
+
+    /// The same of a body that hangs on at most `left` joints: no chain is longer than there are joints.
     fn in_root(&self, body: usize, t: f64, left: usize) -> Option<BodyMotion> {
         if body == 0 {
             return Some(BodyMotion::REST);

@@ -2,7 +2,7 @@
 
 use crate::animal::{Animal, Wing};
 use crate::contact::crossing::{instants, pairs};
-use crate::contact::sheet::Sheet;
+use crate::contact::sheet::{Sheet, bounds};
 use crate::contact::touching::distance;
 use wingbeat_math::{DMat3, DVec3};
 
@@ -62,8 +62,8 @@ fn part_of_time(wings: [&Wing; 2], carried: impl Fn(usize, f64) -> Option<(DVec3
 /// Whether most of the area of the first of two sheets, whose nodes are at `a` and `b`, is nearer than `near` \[m\] to
 /// the second.
 fn lies_in([one, other]: [&Sheet; 2], [a, b]: [&[DVec3]; 2], near: f64) -> bool {
-    let low = b.iter().copied().fold(DVec3::INFINITY, DVec3::min) - near;
-    let high = b.iter().copied().fold(DVec3::NEG_INFINITY, DVec3::max) + near;
+    let [low, high] = bounds(b);
+    let (low, high) = (low - near, high + near);
     let is_near = |x: DVec3| {
         x.cmpge(low).all()
             && x.cmple(high).all()

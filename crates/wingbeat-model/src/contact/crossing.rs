@@ -1,6 +1,5 @@
 //! Wings that pass through each other: no animal's do, and no vortex lattice says what the air does then.
 
-pub(crate) mod bent;
 mod cut;
 pub(crate) mod depth;
 pub(crate) mod flown;
@@ -91,7 +90,8 @@ fn part_of_time(wings: [&Wing; 2], is_joined: bool) -> f64 {
     let shared = is_joined.then(|| Shared::roots(wings.map(|w| &w.mesh)));
     let met = instants(wings).filter(|&t| {
         let nodes = [0, 1].map(|w| sheets[w].at(t));
-        meet(sheets.each_ref(), nodes, shared)
+        let [a, b] = joined(sheets.each_ref(), nodes, shared);
+        pass_through(sheets.each_ref(), [&a, &b])
     });
     met.count() as f64 / instants(wings).count() as f64
 }
@@ -108,12 +108,16 @@ pub(crate) fn instants(wings: [&Wing; 2]) -> impl Iterator<Item = f64> {
     (0..instants).map(move |k| beat * k as f64 / INSTANTS as f64)
 }
 
-/// Whether two sheets with these nodes pass through each other, the edge that they share being joined.
-fn meet(sheets: [&Sheet; 2], [mut a, mut b]: [Vec<DVec3>; 2], shared: Option<Shared>) -> bool {
+/// Nodes of two sheets, the edge that they share being joined.
+fn joined(
+    sheets: [&Sheet; 2],
+    [mut a, mut b]: [Vec<DVec3>; 2],
+    shared: Option<Shared>,
+) -> [Vec<DVec3>; 2] {
     if let Some(shared) = shared {
         shared.join(sheets, [&mut a, &mut b]);
     }
-    pass_through(sheets, [&a, &b])
+    [a, b]
 }
 
 /// Whether two sheets with these nodes pass through each other.
@@ -170,6 +174,7 @@ impl Shared {
 
 #[cfg(test)]
 mod tests {
+    use super::depth::crossing_depth;
     use super::flown::FlownCrossings;
     use super::*;
     use crate::contact::sheet::{LINES, lines};
@@ -249,7 +254,13 @@ mod tests {
             let poses: Vec<_> = flown.wings.iter().map(pose).collect();
             counted.see(&poses, std::iter::empty());
         }
-        assert_eq!(counted.found(), crossings(&flown, &[0, 1], &[]));
+        let [(crossing, depth)] = &counted.found()[..] else {
+            panic!("{:?}", counted.found());
+        };
+        let prescribed = crossings(&flown, &[0, 1], &[]);
+        assert_eq!(std::slice::from_ref(crossing), &prescribed[..]);
+        let expected = crossing_depth(&flown, [0, 1], false);
+        assert!((depth - expected).abs() < 1e-12, "{depth} {expected}"); // roundings of times
         let far = animal(vec![flapping(), wing(0.9, 0.0, 7.0)]);
         assert_eq!(crossings(&far, &[0, 1], &[]), []);
     }

@@ -50,10 +50,8 @@ pub struct Solid {
 impl Solid {
     /// Of a closed surface.
     pub fn new(surface: &QuadMesh) -> Self {
-        let corners = |q: &[usize; 4]| q.map(|n| surface.nodes[n]);
-        let halves = |[a, b, c, d]: [DVec3; 4]| [[a, b, c], [a, c, d]];
         Self {
-            triangles: surface.quads.iter().map(corners).flat_map(halves).collect(),
+            triangles: surface.triangles(),
             bounds: surface.bounds(),
         }
     }

@@ -9,7 +9,7 @@ pub(super) const LINES: [usize; 2] = [9, 17];
 /// What is no crossing but a touch, over the longest way across a wing.
 const TOUCH: f64 = 1e-6;
 /// What is on the edge of a triangle, over its area: lines of mirrored wings meet each other \[1\].
-const EDGE: f64 = 1e-9;
+pub(super) const EDGE: f64 = 1e-9;
 
 /// Nodes of a wing at rest, and what moves them.
 #[derive(Clone, Debug)]
@@ -58,19 +58,28 @@ impl Sheet {
         self.nodes.iter().map(|x| hinge + r * *x).collect()
     }
 
-    /// Lines of this sheet, whose nodes are at `a`, that pass through the other, whose are at `b`, with the triangle
-    /// that each passes through first.
+    /// Lines of this sheet, whose nodes are at `a`, that pass through triangles of the other, whose are at `b`, with the
+    /// triangle and the point: lines between neighbours, and those over a node that lies in the triangle.
     pub fn piercing<'a>(
         &'a self,
         a: &'a [DVec3],
         other: &'a Self,
         b: &'a [DVec3],
-    ) -> impl Iterator<Item = ([usize; 2], [DVec3; 3])> + 'a {
+    ) -> impl Iterator<Item = ([usize; 2], [DVec3; 3], DVec3)> + 'a {
         let touch = self.touch(other);
-        self.near(a, b).filter_map(move |line| {
-            let mut triangles = other.triangles().map(|t| t.map(|n| b[n]));
-            let pierced = triangles.find(|t| pierces(line.map(|n| a[n]), *t, touch));
-            pierced.map(|triangle| (line, triangle))
+        let lines = self.near(a, b, self.lines().chain(self.lines_over_nodes()));
+        lines.flat_map(move |[m, n]| {
+            let over = self.node_between([m, n]);
+            let over = over.map(|k| (a[k], self.is_between(a, k, b, touch)));
+            let triangles = other.triangles().map(|t| t.map(|n| b[n]));
+            triangles.filter_map(move |t| {
+                let at = match over {
+                    None => pierced([a[m], a[n]], t, touch),
+                    Some((_, false)) => None,
+                    Some((node, true)) => pierced_at(node, [a[m], a[n]], t, touch),
+                };
+                Some(([m, n], t, at?))
+            })
         })
     }
 
@@ -79,27 +88,64 @@ impl Sheet {
         TOUCH * (self.size + other.size)
     }
 
-    /// Lines of this sheet, whose nodes are at `a`, that reach into the box around `b`.
-    pub fn near<'a>(
+    /// Those of `lines` of this sheet, whose nodes are at `a`, that reach into the box around `b`.
+    fn near<'a>(
         &'a self,
         a: &'a [DVec3],
         b: &[DVec3],
-    ) -> impl Iterator<Item = [usize; 2]> + use<'a> {
-        let low = b.iter().copied().fold(DVec3::INFINITY, DVec3::min);
-        let high = b.iter().copied().fold(DVec3::NEG_INFINITY, DVec3::max);
+        lines: impl Iterator<Item = [usize; 2]> + 'a,
+    ) -> impl Iterator<Item = [usize; 2]> + 'a {
+        let [low, high] = bounds(b);
         let near =
             move |x: DVec3, y: DVec3| x.min(y).cmple(high).all() && x.max(y).cmpge(low).all();
-        self.lines().filter(move |[m, n]| near(a[*m], a[*n]))
+        lines.filter(move |[m, n]| near(a[*m], a[*n]))
     }
 
     /// Nodes at the ends of the lines between neighbours.
     pub fn lines(&self) -> impl Iterator<Item = [usize; 2]> + '_ {
+        self.lines_of(1)
+    }
+
+    /// Nodes at the ends of the lines over one node.
+    fn lines_over_nodes(&self) -> impl Iterator<Item = [usize; 2]> + '_ {
+        self.lines_of(2)
+    }
+
+    /// Nodes at the ends of the lines over so many panels, along the span and along the chord.
+    fn lines_of(&self, panels: usize) -> impl Iterator<Item = [usize; 2]> + '_ {
         let (rows, columns) = (self.rows, self.columns);
-        let along = (0..rows * columns).filter(move |n| n % columns + 1 < columns);
-        let across = 0..(rows - 1) * columns;
+        let along = (0..rows * columns).filter(move |n| n % columns + panels < columns);
+        let across = 0..rows.saturating_sub(panels) * columns;
         along
-            .map(|n| [n, n + 1])
-            .chain(across.map(move |n| [n, n + columns]))
+            .map(move |n| [n, n + panels])
+            .chain(across.map(move |n| [n, n + panels * columns]))
+    }
+
+    /// Whether a line goes along the span.
+    pub fn is_along(&self, [m, n]: [usize; 2]) -> bool {
+        n - m < self.columns
+    }
+
+    /// Whether nodes `b` of another sheet lie on both sides of this one, whose nodes are at `a`, as it is at its node `k`:
+    /// one whose edge stands on it does not.
+    fn is_between(&self, a: &[DVec3], k: usize, b: &[DVec3], touch: f64) -> bool {
+        let (row, column) = (k / self.columns, k % self.columns);
+        let beside = |at: usize, count: usize| [at.saturating_sub(1), (at + 1).min(count - 1)];
+        let [left, right] = beside(column, self.columns).map(|j| a[row * self.columns + j]);
+        let [fore, aft] = beside(row, self.rows).map(|i| a[i * self.columns + column]);
+        let normal = (right - left).cross(aft - fore).normalize_or_zero();
+        let heights = || b.iter().map(|x| (*x - a[k]).dot(normal));
+        heights().any(|h| h > touch) && heights().any(|h| h < -touch)
+    }
+
+    /// The node in the middle of a line over one node.
+    fn node_between(&self, line: [usize; 2]) -> Option<usize> {
+        let [m, n] = line;
+        let panels = match self.is_along(line) {
+            true => n - m,
+            false => (n - m) / self.columns,
+        };
+        (panels == 2).then(|| m.midpoint(n))
     }
 
     pub fn triangles(&self) -> impl Iterator<Item = [usize; 3]> + '_ {
@@ -123,22 +169,63 @@ pub(crate) fn pierces(line: [DVec3; 2], triangle: [DVec3; 3], touch: f64) -> boo
     pierced(line, triangle, touch).is_some()
 }
 
+/// Corners of the box around points.
+pub(super) fn bounds(points: &[DVec3]) -> [DVec3; 2] {
+    let low = points.iter().copied().fold(DVec3::INFINITY, DVec3::min);
+    let high = points.iter().copied().fold(DVec3::NEG_INFINITY, DVec3::max);
+    [low, high]
+}
+
 /// Where the line passes through the triangle, if it does and does not only `touch` \[m\] it.
-pub(super) fn pierced([x, y]: [DVec3; 2], [a, b, c]: [DVec3; 3], touch: f64) -> Option<DVec3> {
-    let normal = (b - a).cross(c - a);
-    let area = normal.length();
-    if area <= touch * touch {
-        return None;
-    }
-    let n = normal / area;
-    let [over, under] = [x, y].map(|p| (p - a).dot(n));
-    if over * under >= 0.0 || over.abs().min(under.abs()) <= touch {
-        return None;
-    }
+fn pierced([x, y]: [DVec3; 2], triangle: [DVec3; 3], touch: f64) -> Option<DVec3> {
+    let face = Face::new(triangle, touch)?;
+    let [over, under] = face.heights_apart([x, y], touch)?;
     let p = x.lerp(y, over / (over - under));
-    let inside = |[u, v]: [DVec3; 2]| (v - u).cross(p - u).dot(n) >= -EDGE * area;
-    [[a, b], [b, c], [c, a]]
-        .into_iter()
-        .all(inside)
-        .then_some(p)
+    face.holds(p).then_some(p)
+}
+
+/// The node over which the line goes, if it lies in the triangle and the ends of the line on both sides of that.
+fn pierced_at(node: DVec3, ends: [DVec3; 2], triangle: [DVec3; 3], touch: f64) -> Option<DVec3> {
+    let face = Face::new(triangle, touch)?;
+    face.heights_apart(ends, touch)?;
+    (face.height(node).abs() <= touch && face.holds(node)).then_some(node)
+}
+
+/// A triangle with its unit normal and twice its area \[m2\].
+struct Face {
+    corners: [DVec3; 3],
+    normal: DVec3,
+    area: f64,
+}
+
+impl Face {
+    /// None of one without area beside what is a `touch` \[m\].
+    fn new([a, b, c]: [DVec3; 3], touch: f64) -> Option<Self> {
+        let normal = (b - a).cross(c - a);
+        let area = normal.length();
+        (area > touch * touch).then(|| Self {
+            corners: [a, b, c],
+            normal: normal / area,
+            area,
+        })
+    }
+
+    /// Above its plane \[m\].
+    fn height(&self, p: DVec3) -> f64 {
+        (p - self.corners[0]).dot(self.normal)
+    }
+
+    /// Of two points on different sides of its plane, by more than a `touch` \[m\].
+    fn heights_apart(&self, [x, y]: [DVec3; 2], touch: f64) -> Option<[f64; 2]> {
+        let [over, under] = [self.height(x), self.height(y)];
+        (over * under < 0.0 && over.abs().min(under.abs()) > touch).then_some([over, under])
+    }
+
+    /// Whether a point of its plane is in it.
+    fn holds(&self, p: DVec3) -> bool {
+        let [a, b, c] = self.corners;
+        let inside =
+            |[u, v]: [DVec3; 2]| (v - u).cross(p - u).dot(self.normal) >= -EDGE * self.area;
+        [[a, b], [b, c], [c, a]].into_iter().all(inside)
+    }
 }

@@ -210,12 +210,8 @@ struct Skin {
 
 impl Skin {
     fn new(mesh: &QuadMesh) -> Self {
-        let halves = |q: usize| {
-            let [a, b, c, d] = mesh.corners(q);
-            [[a, b, c], [a, c, d]]
-        };
         Self {
-            triangles: (0..mesh.quads.len()).flat_map(halves).collect(),
+            triangles: mesh.triangles(),
             solid: Solid::new(mesh),
         }
     }

@@ -186,6 +186,15 @@ impl QuadMesh {
         self.quads[panel].map(|n| self.nodes[n])
     }
 
+    /// Corner points of the two halves of all panels \[m\].
+    pub(crate) fn triangles(&self) -> Vec<[DVec3; 3]> {
+        let halves = |q: usize| {
+            let [a, b, c, d] = self.corners(q);
+            [[a, b, c], [a, c, d]]
+        };
+        (0..self.quads.len()).flat_map(halves).collect()
+    }
+
     /// Every node through `f`.
     pub fn map(&self, f: impl Fn(DVec3) -> DVec3) -> Self {
         Self {

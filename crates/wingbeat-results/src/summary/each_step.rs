@@ -1,10 +1,11 @@
 //! What a summary needs to know of every step, whichever of them a thinned history holds: balances, impulses that
-//! part, passes of the corrector, forces that turn back, wings that pass through each other, departures under feedback.
+//! part, passes of the corrector, forces that turn back, wings that pass through each other or face surfaces
+//! across narrow gaps, departures under feedback.
 
 use serde::{Deserialize, Serialize};
 use wingbeat_flight::{FlightSetup, Record, TurnedOver};
 use wingbeat_math::{DVec3, EulerSequence};
-use wingbeat_model::FlownCrossings;
+use wingbeat_model::{FlownCounts, FlownCrossings, NarrowGaps, SeenGaps};
 
 use super::alternation::Alternation;
 use super::bent::{self, Bent};
@@ -45,8 +46,10 @@ pub(crate) struct EachStep {
     /// Of wings whose motion is not known beforehand.
     #[serde(skip)]
     pub(super) crossings: Option<FlownCrossings>,
+    #[serde(skip)]
+    pub(super) gaps: Option<NarrowGaps>,
     /// What these had counted when this was saved.
-    counts: Vec<usize>,
+    counts: (FlownCounts, SeenGaps),
 }
 
 impl EachStep {
@@ -54,6 +57,7 @@ impl EachStep {
     pub fn new(setup: &FlightSetup) -> Self {
         Self {
             crossings: setup.flown_crossings(),
+            gaps: setup.flown_gaps(),
             departures: Departures::of(setup),
             ..Self::default()
         }
@@ -61,9 +65,10 @@ impl EachStep {
 
     /// Everything that was gathered, as bytes.
     pub fn saved(&self) -> Vec<u8> {
-        let counts = self.crossings.as_ref().map_or(vec![], |c| c.counts());
+        let counts = self.crossings.as_ref().map(|c| c.counts().clone());
+        let seen = self.gaps.as_ref().map(|g| g.seen().clone());
         let whole = Self {
-            counts,
+            counts: (counts.unwrap_or_default(), seen.unwrap_or_default()),
             ..self.clone()
         };
         postcard::to_allocvec(&whole).expect("numbers are plain data")
@@ -73,8 +78,13 @@ impl EachStep {
     pub fn restored(setup: &FlightSetup, bytes: &[u8]) -> Option<Self> {
         let mut s: Self = postcard::from_bytes(bytes).ok()?;
         s.crossings = setup.flown_crossings();
+        s.gaps = setup.flown_gaps();
+        let (counts, seen) = std::mem::take(&mut s.counts);
         if let Some(crossings) = &mut s.crossings {
-            crossings.count_on(&s.counts);
+            crossings.count_on(counts);
+        }
+        if let Some(gaps) = &mut s.gaps {
+            gaps.go_on(seen);
         }
         Some(s)
     }
@@ -107,15 +117,27 @@ impl EachStep {
         if let Some(departures) = &mut self.departures {
             departures.take(r, setup);
         }
-        if let Some(crossings) = &mut self.crossings {
-            let of_wings = r.coordinates.chunks_exact(6).skip(1).take(wings);
-            let pose = |q: &[f64]| {
-                let attitude = EulerSequence::WING_132.rotation(DVec3::from_slice(&q[3..]));
-                (DVec3::from_slice(q), attitude)
-            };
+        let bent = || {
             let elastic = setup.animal.wings.iter().filter(|w| w.structure.is_some());
-            let bent = elastic.zip(&r.elastic).map(|(w, e)| bent::bending(w, e));
-            crossings.see(&of_wings.map(pose).collect::<Vec<_>>(), bent);
+            elastic.zip(&r.elastic).map(|(w, e)| bent::bending(w, e))
+        };
+        let poses = || {
+            let bodies = r.coordinates.chunks_exact(6).enumerate();
+            bodies.map(|(body, q)| {
+                let sequence = match (1..=wings).contains(&body) {
+                    true => EulerSequence::WING_132,
+                    false => EulerSequence::BODY_231,
+                };
+                let attitude = sequence.rotation(DVec3::from_slice(&q[3..]));
+                (DVec3::from_slice(q), attitude)
+            })
+        };
+        if let Some(crossings) = &mut self.crossings {
+            let of_wings: Vec<_> = poses().skip(1).take(wings).collect();
+            crossings.see(&of_wings, bent());
+        }
+        if let Some(gaps) = &mut self.gaps {
+            gaps.see(&poses().map(Some).collect::<Vec<_>>(), bent());
         }
     }
 }

@@ -32,6 +32,10 @@ pub struct ImpulseBudget {
     /// results that do not say it.
     #[serde(default)]
     pub largest_relative: Option<f64>,
+    /// All that the inviscid force changed the impulse by, to and fro, whatever its direction \[N s\]; none of results that
+    /// do not say it.
+    #[serde(default)]
+    pub exchanged_newton_s: Option<f64>,
 }
 
 /// Steps of a start whose residual is not judged: the force of the first one is a difference over a step, and counts
@@ -114,6 +118,7 @@ impl ImpulseBudget {
             },
             is_beside_ground: !lattice.images.is_empty(),
             largest_relative: parting.relative(to).filter(|_| lattice.wind.is_none()),
+            exchanged_newton_s: Some(parting.way),
         })
     }
 }

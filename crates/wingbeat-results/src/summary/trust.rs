@@ -10,6 +10,7 @@ use wingbeat_flight::{
     AirModel, BladeOptions, Doubt, DoubtKind, FlightSetup, FormulationChoice, MotionMode,
 };
 use wingbeat_math::DVec3;
+use wingbeat_model::NarrowGaps;
 
 use self::doubts::Place;
 pub(super) use self::motion::flown_crossings;
@@ -39,6 +40,18 @@ const SMOOTH: f64 = 5e-5;
 /// The same of the momentum of flyers whose elastic wings exchange it with the bodies step by step: of second
 /// order in the step, 3e-6 at 320 steps a beat.
 const ELASTIC_MOMENTUM: f64 = 1e-4;
+
+/// Doubts about the setup; of narrow gaps those that were flown, where these are not known beforehand.
+pub(super) fn doubts_of(setup: &FlightSetup, flown: Option<&NarrowGaps>) -> Vec<Doubt> {
+    let mut doubts = setup.doubts();
+    if let Some(gaps) = flown {
+        let kind = DoubtKind::NarrowGaps;
+        doubts.retain(|d| d.kind != kind);
+        let said = setup.say_narrow_gaps(gaps, "flight").into_iter();
+        doubts.extend(said.map(|said| Doubt { kind, said }));
+    }
+    doubts
+}
 
 /// What a reader should know before using the numbers. `momentum`: residuals of the momentum while a support has the
 /// body and in free flight \[1\]. `doubts`: those of the setup.

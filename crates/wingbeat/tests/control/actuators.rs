@@ -81,8 +81,8 @@ fn behaves_summary_names_wings_that_commands_bring_through_each_other() {
 #[test]
 fn behaves_the_remedy_is_that_of_what_brings_wings_through_each_other() {
     for (preset, remedy) in [
-        ("fruit-fly-blade", "flight: limit the commands"),
-        ("robobee", "flight: stop or stiffen their joints"),
+        ("fruit-fly-blade", "of a mean chord: limit the commands"),
+        ("robobee", "of a mean chord: stop or stiffen their joints"),
         ("hawkmoth-blade", "(theta) or change their phase"), // they do so without commands
     ] {
         let mut setup = LoadedCase::find(preset, &[]).unwrap().setup;
@@ -96,7 +96,7 @@ fn behaves_the_remedy_is_that_of_what_brings_wings_through_each_other() {
             wings: [0, 1],
             part: 0.4,
         };
-        let said = setup.say_flown_crossing(&found);
+        let said = setup.say_flown_crossing(&found, 1e-4).said;
         assert!(said.contains(remedy), "{preset}: {said}");
     }
 }

@@ -4,7 +4,7 @@
 //! within the other, or at an edge of it, too, as of wings that are mirror images. Two edges that cross each other
 //! at points only touch: an arm and the hand that feathers at its tip are each on its side of the edge that was one.
 
-use crate::contact::sheet::{Sheet, pierced};
+use crate::contact::sheet::Sheet;
 use wingbeat_math::DVec3;
 
 /// How near an edge a point is on it, over the longest ways across both wings \[1\]: 0.01 % of them, about what
@@ -40,22 +40,16 @@ fn edges<'a>(
     [one, other]: [&'a Sheet; 2],
     [a, b]: [&'a [DVec3]; 2],
 ) -> impl Iterator<Item = Option<[Edge; 2]>> + 'a {
-    let touch = one.touch(other);
     let near = ON_EDGE * (one.size + other.size);
-    one.near(a, b).flat_map(move |line| {
-        let ends = line.map(|n| a[n]);
-        let triangles = other.triangles().map(|t| t.map(|n| b[n]));
-        let points = triangles.filter_map(move |t| pierced(ends, t, touch));
-        points.map(move |p| Some([one.edge(line)?, other.edge_at(b, p, near)?]))
-    })
+    let found = one.piercing(a, other, b);
+    found.map(move |(line, _, p)| Some([one.edge(line)?, other.edge_at(b, p, near)?]))
 }
 
 impl Sheet {
-    /// The edge on which a line between neighbours is.
+    /// The edge on which a line is.
     fn edge(&self, [m, n]: [usize; 2]) -> Option<Edge> {
         let (row, column) = (m / self.columns, m % self.columns);
-        let is_along = n == m + 1;
-        match (is_along, row, column) {
+        match (self.is_along([m, n]), row, column) {
             (true, 0, _) => Some(Edge::Leading),
             (true, row, _) if row + 1 == self.rows => Some(Edge::Trailing),
             (false, _, 0) => Some(Edge::Root),
@@ -85,7 +79,7 @@ mod tests {
     use crate::contact::crossing::flown::FlownCrossings;
     use crate::motion::WingMotion;
     use crate::{Animal, MassInput, Planform, Side, Wing, WingShape};
-    use wingbeat_math::{DVec3, EulerSequence};
+    use wingbeat_math::{DMat3, DVec3, EulerSequence};
 
     /// A rectangle of length 1 and chord 0.5, its axis at 0.2.
     fn wing(name: &str, chordwise: usize) -> Wing {
@@ -100,9 +94,19 @@ mod tests {
         Wing::new(name, Side::Right, DVec3::ZERO, &shape, &mass, motion).unwrap()
     }
 
+    fn turn(angles: [f64; 3]) -> DMat3 {
+        EulerSequence::WING_132.rotation(DVec3::from(angles.map(f64::to_radians)))
+    }
+
     /// Whether an arm and the hand at its tip, moved by `offset` \[m\] along the span and turned by these angles
     /// phi, theta, psi \[deg\], pass through each other, `tips` being joined.
     fn cross(chordwise: usize, offset: f64, angles: [f64; 3], tips: &[[usize; 2]]) -> bool {
+        let hand = (DVec3::new(0.0, 1.0 + offset, 0.0), turn(angles));
+        !met(chordwise, hand, tips).is_empty()
+    }
+
+    /// The same of a hand with this place \[m\] and attitude, and how deep.
+    fn met(chordwise: usize, hand: (DVec3, DMat3), tips: &[[usize; 2]]) -> Vec<f64> {
         let wings = vec![wing("arm", chordwise), wing("hand", chordwise)];
         let animal = Animal {
             name: "hand".into(),
@@ -111,24 +115,47 @@ mod tests {
             wings,
             segments: vec![],
         };
-        let turn = |angles: [f64; 3]| {
-            EulerSequence::WING_132.rotation(DVec3::from(angles.map(f64::to_radians)))
-        };
-        let hand = (DVec3::new(0.0, 1.0 + offset, 0.0), turn(angles));
         let mut counted = FlownCrossings::new(&animal, &[], tips);
         // The whole animal is turned, too: nothing is round.
         let (about, place) = (turn([13.0, -7.0, 31.0]), DVec3::new(0.3, -0.7, 0.11));
         let turned = |(x, r)| (place + about * x, about * r);
         let poses = [(DVec3::ZERO, turn([0.0; 3])), hand].map(turned);
         counted.see(&poses, std::iter::empty());
-        !counted.found().is_empty()
+        counted
+            .found()
+            .into_iter()
+            .map(|(_, depth)| depth)
+            .collect()
+    }
+
+    /// Wings across each other whose rows of nodes lie in each other's planes pass through each other as others do, at
+    /// least by the shorter of what is on either side; with its root or its tip in the plane of the other one a wing
+    /// touches it.
+    #[test]
+    fn exact_wings_that_cross_at_rows_of_nodes() {
+        for chordwise in [1, 2, 5] {
+            for (above, shorter) in [
+                (0.5, Some(0.5)),
+                (0.47, Some(0.47)),
+                (0.25, Some(0.25)),
+                (0.0, None),
+                (1.0, None),
+            ] {
+                let upright = (DVec3::new(0.0, 0.5, -above), turn([90.0, 0.0, 0.0]));
+                let found = met(chordwise, upright, &[]);
+                let at = format!("{chordwise} {above}: {found:?}");
+                assert_eq!(found.len(), usize::from(shorter.is_some()), "{at}");
+                let is_as_deep = |d: f64| found[0] >= d - 1e-5; // what is a touch
+                assert!(shorter.is_none_or(is_as_deep), "{at}");
+            }
+        }
     }
 
     /// A hand that flaps and feathers at the tip of its arm shares no more than a point of the axis with it. Hands
     /// that reach into the arm by 1 % of its length pass through it, and so do those that are swept into it.
     #[test]
     fn exact_hands_that_feather_at_the_tip_of_an_arm_touch_it() {
-        for chordwise in [1, 2, 4] {
+        for chordwise in [1, 2, 4, 5] {
             for psi in [-40.0, 3.0, 20.0] {
                 for phi in [-30.0, 0.0, 10.0] {
                     let at = format!("{chordwise} {phi} {psi}");

@@ -1,6 +1,6 @@
 //! How deep wings reach through each other.
 
-use super::{Shared, between_middles, instants, overlap, pass_through};
+use super::{Shared, between_middles, instants, joined, overlap, pass_through};
 use crate::animal::Animal;
 use crate::contact::sheet::Sheet;
 use wingbeat_math::DVec3;
@@ -19,15 +19,20 @@ pub fn crossing_depth(animal: &Animal, wings: [usize; 2], is_joined: bool) -> f6
     let sheets = wings.map(Sheet::new);
     let shared = is_joined.then(|| Shared::roots(wings.map(|w| &w.mesh)));
     let deeper = |deepest: f64, t: f64| {
-        let [mut a, mut b] = [0, 1].map(|w| sheets[w].at(t));
-        if let Some(shared) = shared {
-            shared.join(sheets.each_ref(), [&mut a, &mut b]);
-        }
-        let [one, other] = &sheets;
-        let across = one.depth(&a, other, &b).max(other.depth(&b, one, &a));
-        way_apart([one, other], [&a, &b], deepest.max(across))
+        let nodes = [0, 1].map(|w| sheets[w].at(t));
+        deeper(
+            sheets.each_ref(),
+            joined(sheets.each_ref(), nodes, shared),
+            deepest,
+        )
     };
     instants(wings).fold(0.0, deeper)
+}
+
+/// How deep two sheets with these nodes reach through each other \[m\]; `least` if that is no more.
+pub(super) fn deeper([one, other]: [&Sheet; 2], [a, b]: [Vec<DVec3>; 2], least: f64) -> f64 {
+    let across = one.depth(&a, other, &b).max(other.depth(&b, one, &a));
+    way_apart([one, other], [&a, &b], least.max(across))
 }
 
 /// How far the second of two sheets must be moved away from the first along the line between their middles until they
@@ -55,10 +60,10 @@ fn way_apart(sheets: [&Sheet; 2], [a, b]: [&[DVec3]; 2], least: f64) -> f64 {
 impl Sheet {
     /// How deep this sheet reaches through the other \[m\].
     fn depth(&self, a: &[DVec3], other: &Self, b: &[DVec3]) -> f64 {
-        let behind = |([m, n], [x, y, z]): ([usize; 2], [DVec3; 3])| {
+        let behind = |([m, n], [x, y, z], _): ([usize; 2], [DVec3; 3], DVec3)| {
             let normal = (y - x).cross(z - x).normalize();
             let (row, column) = (m / self.columns, m % self.columns);
-            let whole: Vec<usize> = match n == m + 1 {
+            let whole: Vec<usize> = match self.is_along([m, n]) {
                 true => (0..self.columns).map(|j| row * self.columns + j).collect(),
                 false => (0..self.rows).map(|i| i * self.columns + column).collect(),
             };

@@ -1,28 +1,35 @@
 //! Wings that pass through each other as they are flown.
 
-use super::bent::{Bending, Column, bend};
-use super::{Crossing, Shared, are_joined, edge_gap, meet, pairs};
-use crate::animal::{Animal, Wing};
-use crate::contact::sheet::{LINES, Sheet};
-use wingbeat_math::{DMat3, DVec3};
+use super::depth::deeper;
+use super::{Crossing, Shared, are_joined, edge_gap, joined, pairs, pass_through};
+use crate::animal::Animal;
+use crate::contact::bent::Bending;
+use crate::contact::flown_sheets::{FlownSheets, Pose};
+use serde::{Deserialize, Serialize};
 
-/// Counts how often wings pass through each other as they are flown, elastic wings with the shapes that loads give them.
+/// Counts how often wings pass through each other as they are flown, and how deep, elastic wings with the shapes that
+/// loads give them.
 #[derive(Clone, Debug)]
 pub struct FlownCrossings {
-    sheets: Vec<Sheet>,
-    /// Of elastic wings.
-    columns: Vec<Option<Vec<Column>>>,
+    wings: FlownSheets,
     pairs: Vec<Pair>,
-    /// Instants that were looked at.
-    instants: usize,
+    counts: FlownCounts,
 }
 
-/// Two wings, the edge that they share, and at how many instants they met.
+/// Two wings, and the edge that they share.
 #[derive(Clone, Debug)]
 struct Pair {
     wings: [usize; 2],
     shared: Option<Shared>,
-    met: usize,
+}
+
+/// What was counted of the wings of an animal.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct FlownCounts {
+    /// Instants that were looked at.
+    instants: usize,
+    /// Of each pair: instants at which they met, and how deep they reached through each other at most \[m\].
+    met: Vec<(usize, f64)>,
 }
 
 impl FlownCrossings {
@@ -30,10 +37,6 @@ impl FlownCrossings {
     /// same way those of which the first carries the second at its tip, `tips`.
     pub fn new(animal: &Animal, joined: &[[usize; 2]], tips: &[[usize; 2]]) -> Self {
         let wings = &animal.wings;
-        let elastic = |w: &Wing| {
-            let is_elastic = w.structure.is_some();
-            is_elastic.then(|| Column::all(&w.mesh, LINES))
-        };
         let pair = |of: [usize; 2]| {
             let meshes = of.map(|w| &wings[w].mesh);
             let roots = are_joined(joined, of).then(|| Shared::roots(meshes));
@@ -45,63 +48,55 @@ impl FlownCrossings {
             Pair {
                 wings: of,
                 shared: roots.or(tip),
-                met: 0,
             }
         };
+        let pairs: Vec<Pair> = pairs(0..wings.len()).map(pair).collect();
+        let met = vec![(0, 0.0); pairs.len()];
         Self {
-            sheets: wings.iter().map(Sheet::new).collect(),
-            columns: wings.iter().map(elastic).collect(),
-            pairs: pairs(0..wings.len()).map(pair).collect(),
-            instants: 0,
+            wings: FlownSheets::new(animal),
+            pairs,
+            counts: FlownCounts { instants: 0, met },
         }
     }
 
     /// Looks at an instant: places of the hinges \[m\] and attitudes of all wings in one frame, and how the elastic ones
     /// are bent, in their order.
-    pub fn see(&mut self, poses: &[(DVec3, DMat3)], bent: impl Iterator<Item = Bending>) {
-        self.instants += 1;
-        let mut bent = bent;
-        let wings = self.sheets.iter().zip(&self.columns).zip(poses);
-        let placed = wings.map(|((sheet, columns), pose)| {
-            let bending = columns.as_ref().and_then(|c| Some((c, bent.next()?)));
-            match bending {
-                None => sheet.placed(*pose),
-                Some((columns, bending)) => {
-                    let mut nodes = sheet.nodes.clone();
-                    bend(&mut nodes, columns, &bending);
-                    nodes.iter().map(|x| pose.0 + pose.1 * *x).collect()
-                }
+    pub fn see(&mut self, poses: &[Pose], bent: impl Iterator<Item = Bending>) {
+        self.counts.instants += 1;
+        let nodes = self.wings.placed(poses.iter().copied().map(Some), bent);
+        for (pair, (met, deepest)) in self.pairs.iter().zip(&mut self.counts.met) {
+            let sheets = pair.wings.map(|w| &self.wings.sheets[w]);
+            let [Some(a), Some(b)] = pair.wings.map(|w| nodes[w].clone()) else {
+                continue;
+            };
+            let [a, b] = joined(sheets, [a, b], pair.shared);
+            if pass_through(sheets, [&a, &b]) {
+                *met += 1;
+                *deepest = deeper(sheets, [a, b], *deepest);
             }
-        });
-        let nodes: Vec<Vec<DVec3>> = placed.collect();
-        for pair in &mut self.pairs {
-            let sheets = pair.wings.map(|w| &self.sheets[w]);
-            let nodes = pair.wings.map(|w| nodes[w].clone());
-            pair.met += usize::from(meet(sheets, nodes, pair.shared));
         }
     }
 
-    /// What was counted so far: instants, then those at which each pair met.
-    pub fn counts(&self) -> Vec<usize> {
-        let met = self.pairs.iter().map(|p| p.met);
-        std::iter::once(self.instants).chain(met).collect()
+    /// What was counted so far.
+    pub fn counts(&self) -> &FlownCounts {
+        &self.counts
     }
 
     /// Goes on from [`Self::counts`] of the same wings.
-    pub fn count_on(&mut self, counts: &[usize]) {
-        let [instants, met @ ..] = counts else { return };
-        self.instants = *instants;
-        for (pair, met) in self.pairs.iter_mut().zip(met) {
-            pair.met = *met;
+    pub fn count_on(&mut self, counts: FlownCounts) {
+        if counts.met.len() == self.pairs.len() {
+            self.counts = counts;
         }
     }
 
-    /// The pairs that passed through each other, and in which part of the instants.
-    pub fn found(&self) -> Vec<Crossing> {
-        let met = self.pairs.iter().filter(|p| p.met > 0);
-        let crossing = |p: &Pair| Crossing {
-            wings: p.wings,
-            part: p.met as f64 / self.instants as f64,
+    /// The pairs that passed through each other, in which part of the instants, and how deep at most \[m\].
+    pub fn found(&self) -> Vec<(Crossing, f64)> {
+        let pairs = self.pairs.iter().zip(&self.counts.met);
+        let met = pairs.filter(|(_, (met, _))| *met > 0);
+        let crossing = |(pair, &(met, deepest)): (&Pair, &(usize, f64))| {
+            let part = met as f64 / self.counts.instants as f64;
+            let wings = pair.wings;
+            (Crossing { wings, part }, deepest)
         };
         met.map(crossing).collect()
     }

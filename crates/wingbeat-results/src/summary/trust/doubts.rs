@@ -14,9 +14,12 @@ pub(super) const NOT_FELT: &str = " No animal beats so, and the air of this case
 pub(super) const NO_MEANING: &str = " The forces of those instants have no meaning, nor have the means and motions that they are part of.";
 
 /// Of wings in a lattice that pass through each other by little.
+pub(super) const GRAZE_EACH_OTHER: &str = "Wings graze each other: ";
+
+/// What follows from it.
 /// Plane wings of aspect ratio 7 that flap in a stream with the hinges 0 to 8 mm aside, by 3 to 0 % of a chord through
 /// each other and apart: their mean lift goes on smoothly from one to the other, 2 % in all.
-const GRAZES: &str = " Loads of the panels that graze are wrong at those instants; mean forces of whole wings went on smoothly in trials from wings that graze so to wings just apart.";
+pub(super) const GRAZES: &str = " Loads of the panels that graze are wrong at those instants; mean forces of whole wings went on smoothly in trials from wings that graze so to wings just apart.";
 
 /// Where doubts stand among the warnings; they keep the order of [`FlightSetup::doubts`].
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -54,7 +57,7 @@ fn heard(kind: DoubtKind, is_lattice: bool) -> (Place, Verdict, &'static str, &'
         DoubtKind::ScatteredAngles => (Cause, Amber, "Angles that scatter: ", ""),
         DoubtKind::GapsInAngles => (Cause, Amber, "Angles with gaps: ", ""),
         DoubtKind::Crossing if is_lattice => (Motion, Red, IMPOSSIBLE, NO_MEANING),
-        DoubtKind::Graze if is_lattice => (Motion, Amber, "Wings graze each other: ", GRAZES),
+        DoubtKind::Graze if is_lattice => (Motion, Amber, GRAZE_EACH_OTHER, GRAZES),
         DoubtKind::Crossing | DoubtKind::Graze => (Cause, Amber, IMPOSSIBLE, NOT_FELT),
         DoubtKind::Masses => (Motion, Amber, "", ""),
         DoubtKind::EdgeAhead | DoubtKind::RevolvesBackwards => (Motion, Amber, "Wings that fly backwards: ", ""),
@@ -64,9 +67,10 @@ fn heard(kind: DoubtKind, is_lattice: bool) -> (Place, Verdict, &'static str, &'
         DoubtKind::LateGusts => (Motion, Green, "A gust without effect: ", ""),
         DoubtKind::ShortGusts => (Motion, Amber, "Gusts that the steps do not resolve: ", ""),
         DoubtKind::PressedAir => (Motion, Amber, "Air that is pressed together: ", ""),
-        DoubtKind::JumpingRotation => (Motion, Green, "No derivatives of the air are known: ", ""),
+        DoubtKind::JumpingForces => (Motion, Green, "No derivatives of the air are known: ", ""),
         DoubtKind::ExcitedTorsion => (Cause, Amber, "Torsion that the air excites: ", ""),
         DoubtKind::InsideParts => (Air, Red, "A wing and a body cannot both be surfaces of the lattice in one place: ", NO_MEANING),
+        DoubtKind::NarrowGaps => (Air, Amber, "Gaps narrower than the panels: ", ""),
         DoubtKind::RootsOnBodies => (Air, Amber, "A wing on a body is a limit of the lattice: ", ""),
         DoubtKind::UnjoinedEdges => (Air, Amber, "A gap is a limit of the lattice: ", ""),
         DoubtKind::SweptVortexLift | DoubtKind::SweptShedding => (Air, Amber, "Outside of what it was made for: ", ""),
