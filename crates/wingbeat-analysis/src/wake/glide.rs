@@ -14,7 +14,11 @@ impl Flights<'_> {
     pub(super) fn run_glide(&mut self) -> Result<WakeTrim, AnalysisError> {
         let (mut x, mut iterations, mut slopes) = (self.start(), 0, None);
         let last = self.settings.tolerance;
-        let mut tolerance = if self.has_orbit { last } else { COARSE.max(last) };
+        let mut tolerance = if self.has_orbit {
+            last
+        } else {
+            COARSE.max(last)
+        };
         loop {
             let search = Search {
                 tolerance,
@@ -83,7 +87,9 @@ impl Flights<'_> {
             flights: self.flights,
             velocity: problem.velocity,
             past: towed.past,
-            orbit: self.has_orbit.then(|| PrescribedMotion::straight(DVec3::ZERO, problem.velocity, angles)),
+            orbit: self
+                .has_orbit
+                .then(|| PrescribedMotion::straight(DVec3::ZERO, problem.velocity, angles)),
             beats: self.beats,
             roughness: None,
             tow: (!self.has_orbit).then(|| Tow {

@@ -4,9 +4,7 @@ use wingbeat_dynamics::BodyMotion;
 use wingbeat_flight::{AirModel, FlightSetup, MotionMode, Record};
 
 use super::differences::{departures, map_between};
-use super::free_beat::{
-    before_release, free_beat, level, released, scales, seen, steps_per_beat,
-};
+use super::free_beat::{before_release, free_beat, level, released, scales, seen, steps_per_beat};
 use super::trim::WakeTrim;
 use crate::AnalysisError;
 use crate::beat::level::Perturbation;
@@ -50,7 +48,14 @@ pub fn wake_monodromy(trim: &WakeTrim, memory: WakeMemory) -> Result<Vec<f64>, A
             }
             None => {
                 let mode = MotionMode::Free(by.start(trim.start()));
-                free_beat(&FlightSetup { mode, ..setup.clone() }, steps, None)?
+                free_beat(
+                    &FlightSetup {
+                        mode,
+                        ..setup.clone()
+                    },
+                    steps,
+                    None,
+                )?
             }
         };
         Ok(ends.map(|r| seen(&trim.setup, &level, &r).to_array()))

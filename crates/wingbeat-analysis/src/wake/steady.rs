@@ -111,11 +111,7 @@ struct SteadyTow<'a> {
 impl SteadyTow<'_> {
     /// The load of the air, about the mass centre, at the end of the tow with `velocity` through the air and a turn about
     /// one of the axes by a rate [rad/s]: level components.
-    fn load(
-        &self,
-        velocity: DVec3,
-        turn: Option<(usize, f64)>,
-    ) -> Result<Wrench, AnalysisError> {
+    fn load(&self, velocity: DVec3, turn: Option<(usize, f64)>) -> Result<Wrench, AnalysisError> {
         let start = super::free_beat::start(self.setup);
         let steps = start.held_steps;
         let mut setup = self.setup.clone();
@@ -124,7 +120,8 @@ impl SteadyTow<'_> {
             air.mirror = false; // right and left part
         }
         let through = self.level.to_n * velocity;
-        let mut motion = PrescribedMotion::straight(DVec3::ZERO, self.stream + through, start.angles);
+        let mut motion =
+            PrescribedMotion::straight(DVec3::ZERO, self.stream + through, start.angles);
         if let Some((axis, rate)) = turn.filter(|t| t.1 != 0.0) {
             // Euler angles are pitch, yaw, roll.
             motion.angles[[2, 0, 1][axis]].rate = rate;
@@ -138,7 +135,8 @@ impl SteadyTow<'_> {
         }
         let record = flight.record();
         let load = about_mass_centre(record);
-        let back = self.level.to_n.transpose() * start.rotation() * record.root_rotation().transpose();
+        let back =
+            self.level.to_n.transpose() * start.rotation() * record.root_rotation().transpose();
         Ok(Wrench {
             force: back * load.force,
             moment: back * load.moment,

@@ -340,7 +340,12 @@ impl Flights<'_> {
     }
 
     /// The adjusted flight over the beats that are held and a free one, of this period [s].
-    pub(super) fn timed(&self, mut setup: FlightSetup, period: f64, start: StartState) -> FlightSetup {
+    pub(super) fn timed(
+        &self,
+        mut setup: FlightSetup,
+        period: f64,
+        start: StartState,
+    ) -> FlightSetup {
         setup.time.step = period / self.steps as f64;
         setup.time.period = Some(period);
         setup.time.steps = (self.held_beats + 1) * self.steps;

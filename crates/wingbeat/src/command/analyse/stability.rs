@@ -5,7 +5,8 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 use serde_json::{Value, json};
 use wingbeat::analysis::wake::{
-    WakeMemory, WakeTrim, change_by_last_mode, elastic_modes, elastic_monodromy, steady_model, wake_floquet,
+    WakeMemory, WakeTrim, change_by_last_mode, elastic_modes, elastic_monodromy, steady_model,
+    wake_floquet,
 };
 use wingbeat::analysis::{
     AnalysisError, LOADS, LinearModel, ModeSet, Plane, floquet_of_trim, glides, linear_model,
@@ -31,7 +32,8 @@ pub(crate) struct StabilityArgs {
     /// Write the averaged model as a case file with stability derivatives; - is the standard output.
     #[arg(long, value_name = "FILE")]
     write: Option<PathBuf>,
-    /// In a vortex lattice: what is held fixed when the body is disturbed [default: one after the other].
+    /// In a vortex lattice: what is held fixed when the body is disturbed [default: one after the other; of
+    /// gliders carried].
     #[arg(long, value_enum)]
     wake: Option<Wake>,
     /// With elastic wings in blade elements: modes of each wing that are disturbed, too [default: 3].
@@ -200,7 +202,9 @@ fn with_wake(args: &StabilityArgs, report: &mut Report) -> Result<(), Failure> {
         modes(report, key, &found);
         Ok(found)
     };
-    if let Some(wake) = args.wake {
+    // The wake of a glide is straight: disturbed steadily, the glide has another one.
+    let usual = trim.tow.map(|_| Wake::Carried);
+    if let Some(wake) = args.wake.or(usual) {
         of(report, wake, "floquet_modes")?;
         tell_unit(report, &trim);
         return Ok(());
