@@ -44,7 +44,7 @@ mod turned;
 mod vibration;
 pub mod wake;
 
-pub use beat::glide::glides;
+pub use beat::glide::{glides, period_of_glide};
 pub use beat::level::{Level, Perturbation, STATE};
 pub use beat::{Beat, Integration, State};
 pub use error::AnalysisError;

@@ -46,6 +46,14 @@ pub struct LinearModel {
     pub modes: ModeSet,
 }
 
+impl LinearModel {
+    /// How far behind the mass centre the lift acts that a change of incidence adds, M_w / Z_w \[m\]: the neutral point of
+    /// a glider, whose static margin it is over the chord.
+    pub fn neutral_point(&self) -> f64 {
+        self.derivatives[4][2] / self.derivatives[2][2]
+    }
+}
+
 /// The natural sizes of perturbations of a beat.
 fn scales(beat: &Beat) -> Scales {
     Scales::new(beat.wing_length(), beat.period())
@@ -111,7 +119,7 @@ pub fn linear_model(beat: &Beat, state: &State) -> Result<LinearModel, AnalysisE
 /// The matrix of a linear map of perturbations and more numbers, velocities over the ground, from that in which they are
 /// those through the air: a body tilted in a `stream`, level frame \[m/s\], that goes on through the air as it did, goes
 /// on by `stream x tilt` faster over the ground, seen from its axes.
-fn over_ground(mut m: Vec<f64>, stream: DVec3) -> Vec<f64> {
+pub(crate) fn over_ground(mut m: Vec<f64>, stream: DVec3) -> Vec<f64> {
     if stream == DVec3::ZERO {
         return m; // to the bit
     }

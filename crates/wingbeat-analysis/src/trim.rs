@@ -66,14 +66,7 @@ impl Trim {
     pub fn tethered(&self) -> Result<FlightSetup, AnalysisError> {
         let mut setup = self.at_its_start();
         let angles = DVec3::new(self.solution.body_pitch, 0.0, self.solution.body_roll);
-        let mut motion = PrescribedMotion::at_rest(DVec3::ZERO, angles);
-        for (x, v) in motion
-            .position
-            .iter_mut()
-            .zip(self.mean_velocity()?.to_array())
-        {
-            x.rate = v;
-        }
+        let motion = PrescribedMotion::straight(DVec3::ZERO, self.mean_velocity()?, angles);
         setup.mode = MotionMode::Tethered(motion);
         let beats = if self.beat.joint_sizes().is_empty() {
             2

@@ -50,6 +50,7 @@ mod tables;
 mod tails;
 mod times;
 mod too_short;
+mod towed_glides;
 mod turns;
 mod wingless;
 mod wings;

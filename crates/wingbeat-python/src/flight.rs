@@ -361,13 +361,8 @@ impl Flight {
         tolerance: Option<f64>,
     ) -> PyResult<WakeTrim> {
         const MOST: usize = 100;
-        // Of orbits, whose maps are smooth; as the command line has it.
-        const ORBIT: f64 = 1e-6;
-        let usual = WakeSettings::default();
-        let tolerance = tolerance.unwrap_or(match self.flight.setup.air.keeps_wake() {
-            true => usual.tolerance,
-            false => ORBIT,
-        });
+        let usual = WakeSettings::of(&self.flight.setup);
+        let tolerance = tolerance.unwrap_or(usual.tolerance);
         if !(1..=MOST).contains(&held_beats) {
             let remedy = format!("a whole number from 1 to {MOST}");
             return Err(refused(py, "held_beats", "out of range", &remedy));

@@ -63,3 +63,36 @@ fn behaves_a_sweep_of_a_glider_has_its_polar_and_no_figure_of_power() {
     let error = refused(dir, 2, &[&sweep[..], &["--figure", "p.svg"]].concat());
     assert!(error.contains("sink rates"), "{error}");
 }
+
+/// Strips with wakes: the glide, what height pays and the modes as without them; no sweep.
+#[test]
+fn agrees_the_commands_of_a_glider_with_wakes_with_those_without() {
+    let scratch = Scratch::new("glides-with-wakes");
+    let dir = &scratch.0;
+    fs::write(dir.join("g.toml"), GLIDER).unwrap();
+    let wakes = ["--set", "air.blade.unsteady=\"jones\""];
+    let both = |args: &[&str]| [args, &[args, &wakes[..]].concat()].map(|args| object(dir, args));
+    let [plain, with] = both(&["power", "g.toml", "--json"]);
+    for key in [
+        "forward_m_s",
+        "climb_m_s",
+        "glide_ratio",
+        "height_lost_watt",
+    ] {
+        let [a, b] = [&plain, &with].map(|p| p[key].as_f64().unwrap());
+        // Residuals of 1e-6.
+        assert!((a / b - 1.0).abs() < 1e-4, "{key}: {a} {b}");
+    }
+    let [plain, with] = both(&["stability", "g.toml", "--json"]);
+    assert!(
+        plain["neutral_point_behind_mass_centre_m"]
+            .as_f64()
+            .unwrap()
+            > 0.05
+    );
+    let names = with["floquet_modes"].as_array().unwrap().iter();
+    assert!(names.map(|m| &m["name"]).any(|n| n == "stable phugoid"));
+    let sweep = [&["trim", "g.toml", "--sweep", "5", "7"][..], &wakes].concat();
+    let error = refused(dir, 2, &sweep);
+    assert!(error.contains("--sweep has no effect here"), "{error}");
+}

@@ -17,7 +17,7 @@ pub fn glides(setup: &FlightSetup) -> bool {
 
 /// The time that stands for the period of a wingbeat in a glide, sqrt(R / g) / 4 [s]; none where something beats or
 /// there is no gravity.
-pub(crate) fn period_of_glide(setup: &FlightSetup) -> Option<f64> {
+pub fn period_of_glide(setup: &FlightSetup) -> Option<f64> {
     let g = setup.gravity.length();
     (glides(setup) && g > 0.0).then(|| PART * (setup.animal.wing_length() / g).sqrt())
 }

@@ -252,7 +252,7 @@ const BORNE: f64 = 0.5;
 fn free_flight(setup: &FlightSetup, e: &Estimate, list: &mut Doubts) {
     if setup.mode.is_held_throughout(setup.time.steps) {
         list.0.push(
-            "the animal is held for as long as it is flown (flight.held_beats): fly longer (time), or mode = \"tethered\""
+            "the animal is held for as long as it is flown (flight.held_beats, flight.held_s): fly longer (time), or mode = \"tethered\""
                 .to_owned(),
         );
     }

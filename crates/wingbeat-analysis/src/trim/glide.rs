@@ -1,5 +1,7 @@
 //! What a glide is measured by: its angle, its ratio of lift to drag, the power that its height pays.
 
+use wingbeat_math::DVec3;
+
 use crate::AnalysisError;
 use crate::beat::glide::glides;
 use crate::trim::Trim;
@@ -17,6 +19,22 @@ pub struct Glide {
     pub power: f64,
 }
 
+impl Glide {
+    /// That of a flyer of `mass` \[kg\] that moves with the velocity `through` the air [m/s] under `gravity` [m/s2], N
+    /// components.
+    pub(crate) fn of(mass: f64, through: DVec3, gravity: DVec3) -> Self {
+        let down = gravity.normalize();
+        let sink = through.dot(down);
+        let level = (through - sink * down).length();
+        Self {
+            airspeed: through.length(),
+            angle: sink.atan2(level),
+            ratio: level / sink,
+            power: mass * gravity.length() * sink,
+        }
+    }
+}
+
 impl Trim {
     /// The glide, where nothing of the flyer beats.
     ///
@@ -26,16 +44,8 @@ impl Trim {
         if !glides(&self.setup) {
             return Ok(None);
         }
-        let gravity = self.beat.gravity();
-        let down = gravity.normalize();
         let through = self.mean_velocity()? - self.beat.stream();
-        let sink = through.dot(down);
-        let level = (through - sink * down).length();
-        Ok(Some(Glide {
-            airspeed: through.length(),
-            angle: sink.atan2(level),
-            ratio: level / sink,
-            power: self.beat.mass() * gravity.length() * sink,
-        }))
+        let (mass, gravity) = (self.beat.mass(), self.beat.gravity());
+        Ok(Some(Glide::of(mass, through, gravity)))
     }
 }

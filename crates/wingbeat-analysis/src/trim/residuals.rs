@@ -122,6 +122,17 @@ impl Residuals {
         }
     }
 
+    /// The residuals of a flyer that is towed steadily, by the force over its weight and the moment about its mass centre
+    /// over weight and wing length, N components, that it lacks: the first half of all, the others being the motion that is
+    /// prescribed. And the largest of those that are not asked.
+    pub(crate) fn of_tow(self, [force, moment]: [DVec3; 2]) -> (Vec<f64>, f64) {
+        let all = [force.to_array(), moment.to_array()].concat();
+        match self {
+            Self::All => (all, 0.0),
+            Self::Symmetric => parted(&all),
+        }
+    }
+
     /// The residuals of a wingbeat from one motion to another; the largest of those that are not asked.
     pub(crate) fn between(
         self,
@@ -149,13 +160,18 @@ impl Residuals {
         .concat();
         match self {
             Self::All => (all, 0.0),
-            Self::Symmetric => {
-                let lateral = (0..12).filter(|k| !SYMMETRIC.contains(k)).map(|k| all[k]);
-                let largest = lateral.fold(0.0, |m, r| larger(m, r.abs()));
-                (SYMMETRIC.map(|k| all[k]).to_vec(), largest)
-            }
+            Self::Symmetric => parted(&all),
         }
     }
+}
+
+/// Of residuals of any flight those of the plane of symmetry, and the largest of the others.
+fn parted(all: &[f64]) -> (Vec<f64>, f64) {
+    let is_asked = |k: &usize| SYMMETRIC.contains(k);
+    let lateral = (0..all.len()).filter(|k| !is_asked(k)).map(|k| all[k]);
+    let largest = lateral.fold(0.0, |m, r| larger(m, r.abs()));
+    let asked = (0..all.len()).filter(is_asked).map(|k| all[k]);
+    (asked.collect(), largest)
 }
 
 /// Small rotations about the three axes \[rad\].

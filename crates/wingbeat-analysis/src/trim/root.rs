@@ -42,11 +42,25 @@ impl Search {
     pub fn from(
         &self,
         map: &mut impl Map,
+        x: Vec<f64>,
+    ) -> Result<(Vec<f64>, usize), AnalysisError> {
+        self.with_slopes(map, x, &mut None)
+    }
+
+    /// The same with slopes that are about those of the map, if any are `kept`; those of the end, where they are carried
+    /// on.
+    ///
+    /// # Errors
+    /// As [`Self::from`].
+    pub fn with_slopes(
+        &self,
+        map: &mut impl Map,
         mut x: Vec<f64>,
+        kept: &mut Option<Vec<f64>>,
     ) -> Result<(Vec<f64>, usize), AnalysisError> {
         map.confine(&mut x);
         let mut r = map.residual(&x)?;
-        let (mut kept, mut steps) = (None, 0);
+        let mut steps = 0;
         while steps < self.iterations && largest(&r) > self.tolerance {
             let is_fresh = kept.is_none();
             let mut slopes = match kept.take() {
@@ -63,7 +77,7 @@ impl Search {
             let is_poor = largest(&r_new) > 0.5 * largest(&r) && !is_fresh;
             if self.updates && !is_poor {
                 update(&mut slopes, &x, &r, &x_new, &r_new);
-                kept = Some(slopes);
+                *kept = Some(slopes);
             }
             (x, r) = (x_new, r_new);
             steps += 1;

@@ -68,14 +68,29 @@ pub(super) fn free_beat(
     steps: usize,
     release: Option<&Release>,
 ) -> Result<[Record; 2], AnalysisError> {
+    released(before_release(setup)?, steps, release)
+}
+
+/// The flight of `setup` as it is one step before the release; at its start where nothing is held.
+pub(super) fn before_release(setup: &FlightSetup) -> Result<Simulation, AnalysisError> {
     let held = start(setup).held_steps;
     let mut flight = Simulation::new(setup.clone())?;
-    while flight.state().step < held {
-        if flight.state().step + 1 == held
-            && let Some(change) = release
-        {
+    while flight.state().step + 1 < held {
+        flight.step()?;
+    }
+    Ok(flight)
+}
+
+/// As [`free_beat`], from [`before_release`] on.
+pub(super) fn released(
+    mut flight: Simulation,
+    steps: usize,
+    release: Option<&Release>,
+) -> Result<[Record; 2], AnalysisError> {
+    if flight.state().step < start(flight.setup()).held_steps {
+        if let Some(change) = release {
             // The hold is prescribed: what it will be at the release is known beforehand.
-            let mut probe = Simulation::resume(setup.clone(), flight.state().clone())?;
+            let mut probe = flight.branch()?;
             probe.step()?;
             let root = change(probe.root(), probe.record());
             flight.release_into(root);

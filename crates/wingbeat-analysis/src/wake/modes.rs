@@ -1,10 +1,12 @@
 //! Floquet's modes by disturbed flights.
 
 use wingbeat_dynamics::BodyMotion;
-use wingbeat_flight::{AirModel, MotionMode, Record};
+use wingbeat_flight::{AirModel, FlightSetup, MotionMode, Record};
 
 use super::differences::{departures, map_between};
-use super::free_beat::{disturbance, free_beat, level, scales, seen, steps_per_beat};
+use super::free_beat::{
+    before_release, disturbance, free_beat, level, released, scales, seen, steps_per_beat,
+};
 use super::trim::WakeTrim;
 use crate::AnalysisError;
 use crate::beat::level::Perturbation;
@@ -34,35 +36,43 @@ pub fn wake_monodromy(trim: &WakeTrim, memory: WakeMemory) -> Result<Vec<f64>, A
         ));
     }
     let (level, sizes) = (level(&trim.setup), scales(&trim.setup).array());
+    let steps = steps_per_beat(&trim.setup)?;
+    let setup = both_sides(&trim.setup);
+    let held = match memory {
+        WakeMemory::Given => Some(before_release(&setup)?),
+        WakeMemory::Carried => None,
+    };
     let fly = |k: usize, size: f64| {
         let by = disturbance(&trim.setup, &level, &Perturbation::component(k, size));
-        let ends = disturbed(trim, &by, memory)?;
+        let ends = match &held {
+            Some(held) => {
+                let change = |root: BodyMotion, record: &Record| by.root(&root, record.mass_centre);
+                released(held.branch()?, steps, Some(&change))?
+            }
+            None => {
+                let mode = MotionMode::Free(by.start(trim.start()));
+                free_beat(
+                    &FlightSetup {
+                        mode,
+                        ..setup.clone()
+                    },
+                    steps,
+                    None,
+                )?
+            }
+        };
         Ok(ends.map(|r| seen(&trim.setup, &level, &r).to_array()))
     };
     map_between(&departures(9, |k| 1e-3 * sizes[k], fly)?, 9)
 }
 
-/// The free beat with a disturbance.
-fn disturbed(
-    trim: &WakeTrim,
-    by: &Disturbance,
-    memory: WakeMemory,
-) -> Result<[Record; 2], AnalysisError> {
-    let steps = steps_per_beat(&trim.setup)?;
-    let mut setup = trim.setup.clone();
+/// The same with both sides computed: lateral disturbances need them.
+fn both_sides(setup: &FlightSetup) -> FlightSetup {
+    let mut setup = setup.clone();
     if let AirModel::VortexLattice(air) = &mut setup.air {
-        air.mirror = false; // lateral disturbances need both sides
+        air.mirror = false;
     }
-    match memory {
-        WakeMemory::Carried => {
-            setup.mode = MotionMode::Free(by.start(trim.start()));
-            free_beat(&setup, steps, None)
-        }
-        WakeMemory::Given => {
-            let change = |root: BodyMotion, record: &Record| by.root(&root, record.mass_centre);
-            free_beat(&setup, steps, Some(&change))
-        }
-    }
+    setup
 }
 
 /// Floquet's modes of the free beat about the trimmed flight.

@@ -14,6 +14,7 @@ use wingbeat_math::{DVec3, larger, rotation_vector};
 
 use super::free_beat::scales;
 use crate::AnalysisError;
+use crate::beat::glide::{glides, period_of_glide};
 use crate::beat::periodic::check_periodic;
 use crate::beat::{changing_air, check_steady, steadied};
 
@@ -30,22 +31,23 @@ pub(super) fn has_orbit(setup: &FlightSetup) -> bool {
     setup.has_memory() && !setup.air.keeps_wake()
 }
 
-/// An error if no wing of the setup beats, or a wingbeat is not like the next.
+/// An error if the setup neither beats nor glides, or a wingbeat is not like the next.
 ///
 /// # Errors
-/// No wingbeat; loads, feedback; air that changes with time or place.
+/// No wingbeat, and no glide; loads, feedback; air that changes with time or place; joints of a glider that move.
 pub fn check_alike(setup: &FlightSetup) -> Result<(), AnalysisError> {
-    if setup.time.period.is_none_or(|period| period <= 0.0) {
+    let period = setup.time.period.filter(|period| *period > 0.0);
+    let Some(period) = period.or_else(|| period_of_glide(setup)) else {
         return Err(AnalysisError::not_covered(
-            "no wing beats",
-            "give a wingbeat frequency; what only glides is trimmed in blade elements (air.model = \"blade_element\", rigid wings, no air.blade.unsteady), or flown with `run` until it is steady",
+            "no wing beats, and nothing glides: joints are driven in time, or there is no gravity or no wing",
+            "give the frequency of the wings or of the drives as that of the wingbeat (motion.frequency_hz); what glides has wings, gravity and no drives",
         ));
-    }
+    };
     check_steady(setup)?;
-    check_periodic(
-        &system_of(&steadied(setup))?,
-        setup.time.period.unwrap_or(0.0),
-    )?;
+    check_periodic(&system_of(&steadied(setup))?, period)?;
+    if glides(setup) {
+        check_welded(setup)?;
+    }
     let has_wind = setup.air.wind().is_some_and(|w| !w.is_none());
     let changes = match &setup.air {
         AirModel::VortexLattice(air) => !air.lattice.images.is_empty(),
@@ -55,6 +57,17 @@ pub fn check_alike(setup: &FlightSetup) -> Result<(), AnalysisError> {
     match has_wind || changes {
         false => Ok(()),
         true => Err(changing_air(setup)),
+    }
+}
+
+/// An error if a glider has joints that move freely: where they come to rest is not sought with the wake.
+fn check_welded(setup: &FlightSetup) -> Result<(), AnalysisError> {
+    match system_of(setup)?.speeds() {
+        0 => Ok(()),
+        _ => Err(AnalysisError::not_covered(
+            "a glider has joints that move freely, and where they come to rest is not sought in air with a memory or beside elastic wings",
+            "prescribe the joints' motion, or trim it in blade elements (air.model = \"blade_element\", rigid wings, no air.blade.unsteady)",
+        )),
     }
 }
 

@@ -9,9 +9,12 @@ use wingbeat_math::{DVec3, larger};
 use super::free_beat::{free_beat, start, steps_per_beat};
 use super::orbit::{check_alike, check_orbit, has_orbit, periodic_beat};
 use super::sway::sway;
+use super::tow::{Tow, steps_of_glide};
 use crate::AnalysisError;
+use crate::beat::glide::glides;
 use crate::beat::steadied;
 use crate::progress;
+use crate::trim::glide::Glide;
 use crate::trim::preconditions::{AT_START, check_determined, check_symmetric};
 use crate::trim::problem::{TrimProblem, first_unknowns};
 use crate::trim::residuals::{FlyerMotion, Measures, Residuals};
@@ -22,7 +25,8 @@ use crate::trim::unknown::UnknownKind;
 /// How the flights are flown.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WakeSettings {
-    /// Wingbeats during which the body is held.
+    /// Wingbeats during which the body is held; of a glider the times of [`period_of_glide`](crate::period_of_glide) of
+    /// the first tow, which is doubled until the start of the wake is hardly felt.
     pub held_beats: usize,
     /// Largest residual that counts as trimmed \[1\]. Where wakes meet wings or leave leading edges, the map of a
     /// beat is rough, at some 1e-4 in coarse lattices and 1e-3 in fine ones: smaller ones are not to be had there.
@@ -44,6 +48,21 @@ impl Default for WakeSettings {
     }
 }
 
+impl WakeSettings {
+    /// Those for a setup unless told otherwise: where no wake meets wings or leaves leading edges, maps are smooth.
+    pub fn of(setup: &FlightSetup) -> Self {
+        let usual = Self::default();
+        Self {
+            tolerance: match setup.air.keeps_wake() {
+                true if glides(setup) => 1e-5,
+                true => usual.tolerance,
+                false => 1e-6,
+            },
+            ..usual
+        }
+    }
+}
+
 /// A trimmed flight in air with memory, or the best point found.
 #[derive(Clone, Debug)]
 pub struct WakeTrim {
@@ -51,7 +70,7 @@ pub struct WakeTrim {
     pub solution: TrimSolution,
     /// Flights flown.
     pub flights: usize,
-    /// Mean velocity that was asked for, N components [m/s].
+    /// Mean velocity that was asked for, or found where it is unknown, N components [m/s].
     pub velocity: DVec3,
     /// Elastic wings and wakes of strips at the start of the periodic beat, where the air has no wakes in
     /// space; else empty.
@@ -64,6 +83,8 @@ pub struct WakeTrim {
     /// change of a residual by changes of the unknowns of 0.001, but for what is linear in them \[1\]. Smaller residuals are
     /// found by chance alone. None where it was not measured.
     pub roughness: Option<f64>,
+    /// How a glider was towed through air that keeps wakes; of others none.
+    pub tow: Option<Tow>,
     /// The adjusted flight: held, released, one free wingbeat; with [`Self::past`] the free wingbeat alone.
     pub setup: FlightSetup,
 }
@@ -78,10 +99,18 @@ impl WakeTrim {
     pub fn start(&self) -> &StartState {
         start(&self.setup)
     }
+
+    /// The glide, where nothing of the flyer beats.
+    pub fn glide(&self) -> Option<Glide> {
+        let setup = &self.setup;
+        let through = self.velocity - setup.air.stream().unwrap_or(DVec3::ZERO);
+        glides(setup).then(|| Glide::of(setup.animal.mass(), through, setup.gravity))
+    }
 }
 
 /// Trims the flight of `setup` in air with memory, or with elastic wings: where the air has no wakes in space,
-/// as a periodic orbit of body, wings and wakes of strips.
+/// as a periodic orbit of body, wings and wakes of strips. A flyer in which nothing beats is towed until its glide is
+/// steady.
 ///
 /// # Errors
 /// As [`check_trim_with_wake`]; a first flight that fails. A trim that does not converge is no error: see
@@ -92,9 +121,13 @@ pub fn trim_with_wake(
     settings: &WakeSettings,
 ) -> Result<WakeTrim, AnalysisError> {
     check_trim_with_wake(setup, problem)?;
+    let is_glide = glides(setup);
     let residuals = Residuals::of(problem);
     let has_orbit = has_orbit(setup);
     let mut setup = setup.clone();
+    if is_glide {
+        setup.time.period = Some(steps_of_glide(&setup) as f64 * setup.time.step);
+    }
     if has_orbit {
         setup = steadied(&setup);
     }
@@ -108,12 +141,21 @@ pub fn trim_with_wake(
         settings,
         steps: steps_per_beat(&setup)?,
         has_orbit,
+        is_glide,
+        held_beats: match has_orbit {
+            true => 0, // its wakes are there from its start
+            false => settings.held_beats,
+        },
         past: None,
+        newest: None,
         flights: 0,
         beats: 0,
         best: f64::INFINITY,
     };
-    flights.run()
+    match is_glide {
+        true => flights.run_glide(),
+        false => flights.run(),
+    }
 }
 
 /// What keeps a flight from being trimmed by [`trim_with_wake`] and shows before one is flown, which takes its time.
@@ -134,10 +176,13 @@ pub fn check_trim_with_wake(
             "trim the turn in blade elements (air.model = \"blade_element\", no air.blade.unsteady) with rigid wings",
         ));
     }
-    check_speeds(problem)?;
     if has_orbit(setup) {
         check_orbit(setup)?;
     }
+    if glides(setup) {
+        return Ok(());
+    }
+    check_speeds(problem)?;
     steps_per_beat(setup).map(drop)
 }
 
@@ -161,24 +206,30 @@ fn check_speeds(problem: &TrimProblem) -> Result<(), AnalysisError> {
 const ROUNDING: [f64; 2] = [1e-2, 1e-5];
 
 /// What to fly, and how often it was.
-struct Flights<'a> {
-    setup: &'a FlightSetup,
-    problem: &'a TrimProblem,
-    residuals: Residuals,
-    settings: &'a WakeSettings,
-    steps: usize,
+pub(super) struct Flights<'a> {
+    pub(super) setup: &'a FlightSetup,
+    pub(super) problem: &'a TrimProblem,
+    pub(super) residuals: Residuals,
+    pub(super) settings: &'a WakeSettings,
+    pub(super) steps: usize,
     /// Whether a periodic orbit is sought, and its wings and wakes at the point flown last.
-    has_orbit: bool,
-    past: Option<Past>,
-    flights: usize,
-    beats: usize,
+    pub(super) has_orbit: bool,
+    pub(super) past: Option<Past>,
+    /// Whether nothing beats.
+    pub(super) is_glide: bool,
+    /// Wingbeats during which the body is held.
+    pub(super) held_beats: usize,
+    /// The glide flown last, and the point at which it was.
+    pub(super) newest: Option<(Vec<f64>, WakeTrim)>,
+    pub(super) flights: usize,
+    pub(super) beats: usize,
     /// Smallest of the largest residuals so far.
-    best: f64,
+    pub(super) best: f64,
 }
 
 impl Flights<'_> {
     /// Wing length [m] and period [s] of the case, by which points are scaled.
-    fn scales(&self) -> (f64, f64) {
+    pub(super) fn scales(&self) -> (f64, f64) {
         let length = self.setup.animal.wing_length();
         (length, self.setup.time.period.unwrap_or(1.0))
     }
@@ -223,12 +274,12 @@ impl Flights<'_> {
     }
 
     /// By how much right and left part by rounding at the end \[1\].
-    fn rounding(&self) -> f64 {
+    pub(super) fn rounding(&self) -> f64 {
         ROUNDING[usize::from(self.has_orbit)]
     }
 
     /// The point at which the search begins.
-    fn start(&self) -> Vec<f64> {
+    pub(super) fn start(&self) -> Vec<f64> {
         let problem = self.problem;
         let (length, period) = self.scales();
         let (v, w) = match &self.setup.mode {
@@ -239,13 +290,27 @@ impl Flights<'_> {
             }
             _ => (problem.velocity, DVec3::ZERO),
         };
-        let mut x = self.residuals.point(v * period / length, w * period);
+        let mut x = match self.is_glide {
+            true => vec![],
+            false => self.residuals.point(v * period / length, w * period),
+        };
         x.extend(first_unknowns(self.setup, problem));
         x
     }
 
+    /// Numbers of a point that are the motion at the release: none of a glide, which moves as it is asked to.
+    fn motions(&self) -> usize {
+        match self.is_glide {
+            true => 0,
+            false => self.residuals.controls(),
+        }
+    }
+
     /// The flight at the point (velocity over R f, angular velocity times T, controls).
-    fn fly(&mut self, x: &[f64]) -> Result<WakeTrim, AnalysisError> {
+    pub(super) fn fly(&mut self, x: &[f64]) -> Result<WakeTrim, AnalysisError> {
+        if let Some((_, newest)) = self.newest.as_ref().filter(|(at, _)| at == x) {
+            return Ok(newest.clone());
+        }
         self.flights += 1;
         let best = match self.best.is_finite() {
             true => format!(", residual {:.1e}", self.best),
@@ -253,8 +318,11 @@ impl Flights<'_> {
         };
         progress::task(&format!("flight {}{best}", self.flights), 0, 0);
         let problem = self.problem;
-        let chosen = &x[self.residuals.controls()..];
-        let (mut solution, setup) = TrimSolution::at(self.setup, problem, chosen);
+        let chosen = problem.values(self.setup, &x[self.motions()..]);
+        let (mut solution, setup) = TrimSolution::at(self.setup, problem, &chosen);
+        if self.is_glide {
+            return self.glide(x, solution, setup);
+        }
         let (period, angles) = (period(&setup), [solution.body_pitch, solution.body_roll]);
         let setup = self.timed(setup, period, self.start_at(x, angles));
         let (ends, past, roots) = self.beat(&setup)?;
@@ -268,6 +336,7 @@ impl Flights<'_> {
             orbit: self.has_orbit.then(|| sway(&roots, 1.0 / period)),
             beats: self.beats,
             roughness: None,
+            tow: None,
             setup,
         })
     }
@@ -281,24 +350,21 @@ impl Flights<'_> {
             angles: DVec3::new(pitch, 0.0, roll),
             velocity: velocity * length / period,
             angular_velocity: rate / period,
-            held_steps: self.held_beats() * self.steps,
+            held_steps: self.held_beats * self.steps,
             held_motion: None,
         }
     }
 
-    /// Wingbeats during which the body is held: none before a periodic orbit, whose wakes are there from its start.
-    fn held_beats(&self) -> usize {
-        match self.has_orbit {
-            true => 0,
-            false => self.settings.held_beats,
-        }
-    }
-
     /// The adjusted flight over the beats that are held and a free one, of this period [s].
-    fn timed(&self, mut setup: FlightSetup, period: f64, start: StartState) -> FlightSetup {
+    pub(super) fn timed(
+        &self,
+        mut setup: FlightSetup,
+        period: f64,
+        start: StartState,
+    ) -> FlightSetup {
         setup.time.step = period / self.steps as f64;
         setup.time.period = Some(period);
-        setup.time.steps = (self.held_beats() + 1) * self.steps;
+        setup.time.steps = (self.held_beats + 1) * self.steps;
         setup.mode = MotionMode::Free(start);
         setup
     }
@@ -332,7 +398,7 @@ impl Flights<'_> {
         setup: &FlightSetup,
     ) -> Result<([Record; 2], Past, Vec<BodyMotion>), AnalysisError> {
         if !self.has_orbit {
-            self.beats += self.settings.held_beats + 1;
+            self.beats += self.held_beats + 1;
             let ends = free_beat(setup, self.steps, None)?;
             return Ok((ends, Past::default(), vec![]));
         }
@@ -359,16 +425,16 @@ impl Map for Flights<'_> {
     }
 
     fn confine(&self, x: &mut [f64]) {
-        self.problem
-            .confine(self.setup, &mut x[self.residuals.controls()..]);
+        let motions = self.motions();
+        self.problem.confine(self.setup, &mut x[motions..]);
     }
 
     /// By one-sided differences, over steps beside which the roughness of the map is small.
     fn slopes(&mut self, x: &[f64], r: &[f64]) -> Result<Vec<f64>, AnalysisError> {
-        let step = if self.settings.tolerance < SMOOTH {
-            1e-4
-        } else {
-            2e-2
+        let step = match () {
+            () if self.is_glide => 1e-3,
+            () if self.settings.tolerance < SMOOTH => 1e-4,
+            () => 2e-2,
         };
         matrix_of(x.len(), |k| {
             let at = self.residual(&moved(x, k, step))?;

@@ -50,8 +50,14 @@ pub struct FlightCase {
     /// Change it to 1 or 2 to release the body into a grown wake.
     #[schemars(range(min = 0), extend("with" = FREE))]
     pub held_beats: f64,
+    /// Time for which a free body is still held while its wake grows, where nothing beats; left out: none.
+    ///
+    /// Change it to release a glider into a grown wake: some tens of chords over its speed.
+    #[schemars(extend("exclusiveMinimum" = 0, "with" = FREE))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub held_s: Option<f64>,
     /// Motion of the tether on top of the constant velocity, in free flight while the body is held
-    /// (`held_beats`), which is released with the velocities that it has then; left out: none.
+    /// (`held_beats`, `held_s`), which is released with the velocities that it has then; left out: none.
     ///
     /// Change it to move the body as an experiment did.
     #[serde(skip_serializing_if = "Option::is_none")]

@@ -53,19 +53,17 @@ fn free(start: &StartState, time: &TimeGrid) -> Written<FlightCase> {
         held_steps,
         held_motion,
     } = start;
-    let held_beats = match (*held_steps, time.period) {
-        (0, _) => 0.0,
-        (steps, Some(period)) => steps as f64 * time.step / period,
-        (_, None) => {
-            let problem = "holds are counted in wingbeats, and nothing beats";
-            return Err(no_keys("hold of the start", problem, "set held_steps = 0"));
-        }
+    let held = *held_steps as f64 * time.step;
+    let (held_beats, held_s) = match time.period {
+        Some(period) => (held / period, None),
+        None => (0.0, Some(held).filter(|s| *s > 0.0)),
     };
     let hold = held_motion.as_ref().map(|_| tethered(&start.hold()));
     Ok(FlightCase {
         mode: Mode::Free,
         angular_velocity_deg_s: angular_velocity.to_array().map(f64::to_degrees),
         held_beats,
+        held_s,
         ..hold.unwrap_or_else(|| FlightCase {
             position_m: position.to_array(),
             velocity_m_s: velocity.to_array(),

@@ -107,6 +107,10 @@ fn hold(raw: &mut Case, velocity: DVec3) {
 const RISE: f64 = 2.0;
 const HELD_WITH_WINGS: f64 = 5.0;
 
+/// Times by which a glide is analysed, sqrt(R / g) / 4, of the tow in which wakes of strips and elastic wings come to
+/// rest: the slowest state of Wagner's function has lost all but 1e-8 after so many of some 3 chords.
+const TOWED_WITH_WINGS: f64 = 60.0;
+
 /// The same for a flight in air with memory, or with elastic wings: held while the wake grows, or the wings
 /// come into their motion, then released.
 pub fn wake_trimmed_case(case: &LoadedCase, trim: &WakeTrim) -> String {
@@ -115,20 +119,27 @@ pub fn wake_trimmed_case(case: &LoadedCase, trim: &WakeTrim) -> String {
     if trim.solution.unknowns.iter().any(|u| u.is_lateral()) {
         raw.air.mirror = false; // right and left part
     }
-    let start = trim.start();
-    let time = &trim.setup.time;
+    let (start, time) = (trim.start(), &trim.setup.time);
+    let period = time.period.unwrap_or(1.0);
+    let sizes = [trim.setup.animal.wing_length(), period];
+    let root = BodyMotion {
+        p: start.position,
+        r: start.rotation(),
+        v: start.velocity,
+        w: start.angular_velocity,
+    };
+    if trim.glide().is_some() {
+        let held = match trim.is_orbit() {
+            true => TOWED_WITH_WINGS * period,
+            false => start.held_steps as f64 * time.step,
+        };
+        return glide_case(case, raw, trim, (held, released_into(&root, sizes)));
+    }
     // While elastic wings and wakes of strips come into their motion the body moves as on the orbit that was trimmed.
     let (held, flight) = match &trim.orbit {
         Some(orbit) => (HELD_WITH_WINGS, tethered(orbit)),
         None => {
-            let held = start.held_steps as f64 * time.step / time.period.unwrap_or(1.0);
-            let root = BodyMotion {
-                p: start.position,
-                r: start.rotation(),
-                v: start.velocity,
-                w: start.angular_velocity,
-            };
-            let sizes = [trim.setup.animal.wing_length(), time.period.unwrap_or(1.0)];
+            let held = start.held_steps as f64 * time.step / period;
             (held, released_into(&root, sizes))
         }
     };
@@ -149,6 +160,38 @@ pub fn wake_trimmed_case(case: &LoadedCase, trim: &WakeTrim) -> String {
         ..flight
     };
     hold(&mut raw, trim.velocity);
+    with_start(case, raw, flight, &trim.solution)
+}
+
+/// The same of a flyer in which nothing beats: towed for so long \[s\], then free from this start on for the time that
+/// the case flies.
+fn glide_case(
+    case: &LoadedCase,
+    mut raw: Case,
+    trim: &WakeTrim,
+    (held, start): (f64, FlightCase),
+) -> String {
+    let (own, time) = (&case.setup.time, &trim.setup.time);
+    let flown = own.steps as f64 * own.step;
+    let flight = match own.period {
+        // Wings that stand still at a frequency: holds are counted in its beats.
+        Some(period) => {
+            raw.time.beats = Some((held + flown) / period);
+            raw.time.steps = None;
+            FlightCase {
+                held_beats: held / period,
+                ..start
+            }
+        }
+        None => {
+            raw.time.step_s = Some(time.step);
+            raw.time.steps = Some(((held + flown) / time.step).round() as usize);
+            FlightCase {
+                held_s: Some(held),
+                ..start
+            }
+        }
+    };
     with_start(case, raw, flight, &trim.solution)
 }
 

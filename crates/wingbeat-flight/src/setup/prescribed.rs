@@ -34,6 +34,14 @@ impl PrescribedMotion {
         }
     }
 
+    /// From `position` \[m\] on with `velocity` \[m/s\], N components, at constant 2-3-1 `angles` \[rad\].
+    pub fn straight(position: DVec3, velocity: DVec3, angles: DVec3) -> Self {
+        let mut motion = Self::at_rest(position, angles);
+        let along = motion.position.iter_mut().zip(velocity.to_array());
+        along.for_each(|(x, v)| x.rate = v);
+        motion
+    }
+
     /// The motion without its start: at full rate from the first instant.
     pub fn impulsive(&self) -> Self {
         Self {

@@ -316,7 +316,8 @@ class Flight:
         steps of the case. In the lattice the body is held for ``held_beats`` wingbeats while its wake grows, and the free
         wingbeat after them is the one that is trimmed: its residuals, forces over weight, within ``tolerance`` (2e-3 if it is
         left out). Some 10 to 30 such flights: minutes. In blade elements a periodic orbit is trimmed, wings and wakes of strips
-        included, within 1e-6.
+        included, within 1e-6. A glider in the lattice is towed, within 1e-5: the first tow takes ``held_beats`` times of
+        sqrt(R / g) / 4, R the wing length, and is doubled until the start of the wake is hardly felt.
         """
         asked = _asked(_velocity(forward_m_per_s, sideslip_m_per_s, climb_m_per_s), 0.0, unknowns, bounds)
         beats = whole("held_beats", held_beats, 1, 100)

@@ -31,7 +31,7 @@ pub(crate) fn check(case: &Case, setup: &FlightSetup, source: &CaseSource) -> Bu
     senses(case, source)?;
     loads(case, source)?;
     springs(case)?;
-    held_beats(case, setup)?;
+    hold(case, setup)?;
     tether(case, setup)?;
     formulation(case, setup)
 }
@@ -48,18 +48,32 @@ fn springs(case: &Case) -> Built<()> {
     Ok(())
 }
 
-/// Beats at which a body is to be held that are none.
-fn held_beats(case: &Case, setup: &FlightSetup) -> Built<()> {
-    let [why, acts] = match (setup.time.period, &setup.mode) {
-        _ if case.flight.held_beats <= 0.0 => return Ok(()),
-        (None, _) => ["where nothing beats", "with motion.frequency_hz above 0"],
-        (_, MotionMode::Free(start)) if start.held_steps == 0 => [
-            "as it is shorter than half a step of the flight",
-            "0, or half a step or more",
-        ],
-        _ => return Ok(()),
-    };
-    Err(idle("flight.held_beats", why, acts))
+/// A hold that is none, or that is counted in what there is not.
+fn hold(case: &Case, setup: &FlightSetup) -> Built<()> {
+    const SHORT: [&str; 2] = [
+        "as it is shorter than half a step of the flight",
+        "0, or half a step or more",
+    ];
+    let flight = &case.flight;
+    let is_short = matches!(&setup.mode, MotionMode::Free(start) if start.held_steps == 0);
+    let refused = |key: &str, [why, acts]: [&str; 2]| Err(idle(key, why, acts));
+    match setup.time.period {
+        Some(_) if flight.held_s.is_some() => refused(
+            "flight.held_s",
+            ["where wings beat", "with flight.held_beats, in wingbeats"],
+        ),
+        None if flight.held_s.is_some() && is_short => refused("flight.held_s", SHORT),
+        _ if flight.held_beats <= 0.0 => Ok(()),
+        None => refused(
+            "flight.held_beats",
+            [
+                "where nothing beats",
+                "with motion.frequency_hz above 0; or flight.held_s, in seconds",
+            ],
+        ),
+        Some(_) if is_short => refused("flight.held_beats", SHORT),
+        Some(_) => Ok(()),
+    }
 }
 
 /// A tether that holds nothing, oscillates at no frequency, or starts what does not start.
@@ -71,10 +85,10 @@ fn tether(case: &Case, setup: &FlightSetup) -> Built<()> {
     let starts = tether.start_s.is_some();
     let start = |why, acts| Err(idle("flight.tether.start_s", why, acts));
     match &setup.mode {
-        MotionMode::Free(_) if case.flight.held_beats == 0.0 => Err(idle(
+        MotionMode::Free(start) if start.held_steps == 0 => Err(idle(
             "flight.tether",
             "in free flight that is not held at first",
-            "with flight.held_beats above 0, or with mode = \"tethered\"",
+            "with flight.held_beats above 0 (flight.held_s where nothing beats), or with mode = \"tethered\"",
         )),
         MotionMode::Free(_) if starts => start(
             "in free flight, which goes on as it is held",

@@ -38,7 +38,10 @@ fn start_angles(flight: &FlightCase) -> DVec3 {
 }
 
 fn free(flight: &FlightCase, time: &TimeGrid) -> StartState {
-    let held_time = flight.held_beats * time.period.unwrap_or(0.0);
+    let held_time = match flight.held_s {
+        Some(seconds) => seconds,
+        None => flight.held_beats * time.period.unwrap_or(0.0),
+    };
     StartState {
         position: vector(flight.position_m),
         angles: start_angles(flight),

@@ -201,6 +201,31 @@ pub(super) fn tell_glide(report: &mut Report, glide: &Glide) {
     report.value("glide_ratio", glide.ratio);
 }
 
+/// How much was flown to find a flight in air with memory.
+pub(super) fn tell_flown(report: &mut Report, found: &WakeTrim) {
+    let (flights, beats) = (found.flights, found.beats);
+    report.value("flights", flights);
+    report.value("wingbeats", beats);
+    let Some(tow) = &found.tow else {
+        let unit = match found.glide() {
+            Some(_) => "times of sqrt(R / g) / 4",
+            None => "wingbeats",
+        };
+        line!(report, "  {flights} flights of {beats} {unit} in all");
+        return;
+    };
+    line!(
+        report,
+        "  {flights} tows, the last of {} steps and {:.1} chords; over the second half of that way the loads changed\n  by {:.1e} of the weight; what the start of the wake still makes is about a third of that",
+        tow.steps,
+        tow.chords,
+        tow.change
+    );
+    report.value("towed_steps", tow.steps);
+    report.value("towed_chords", tow.chords);
+    report.value("towed_change", tow.change);
+}
+
 /// Wings that turn over on passive hinges.
 pub(super) fn warn_of_turned(report: &mut Report, turned: Vec<String>) {
     turned.iter().for_each(|text| tell!("warning: {text}"));

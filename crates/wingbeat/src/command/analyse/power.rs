@@ -30,6 +30,9 @@ pub(crate) fn run(args: &PowerArgs) -> Result<(), Failure> {
     trimming.report.deliver([], |report, []| {
         let found = if trimming.load()?.setup.has_memory() {
             let (_, trim) = trimmed_with_wake(trimming, report)?;
+            if let Some(glide) = trim.glide() {
+                tell_glide(report, &glide);
+            }
             watched("power", || power_with_wake(&trim))?
         } else {
             let (_, trim) = trimmed(trimming, report)?;

@@ -5,7 +5,8 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 use serde_json::{Value, json};
 use wingbeat::analysis::wake::{
-    WakeMemory, change_by_last_mode, elastic_modes, elastic_monodromy, wake_floquet,
+    WakeMemory, WakeTrim, change_by_last_mode, elastic_modes, elastic_monodromy, steady_model,
+    wake_floquet,
 };
 use wingbeat::analysis::{
     AnalysisError, LOADS, LinearModel, ModeSet, Plane, floquet_of_trim, glides, linear_model,
@@ -31,7 +32,8 @@ pub(crate) struct StabilityArgs {
     /// Write the averaged model as a case file with stability derivatives; - is the standard output.
     #[arg(long, value_name = "FILE")]
     write: Option<PathBuf>,
-    /// In a vortex lattice: what is held fixed when the body is disturbed [default: one after the other].
+    /// In a vortex lattice: what is held fixed when the body is disturbed [default: one after the other; of
+    /// gliders carried].
     #[arg(long, value_enum)]
     wake: Option<Wake>,
     /// With elastic wings in blade elements: modes of each wing that are disturbed, too [default: 3].
@@ -123,6 +125,9 @@ fn of_trim(args: &Trimming, report: &mut Report, file: Option<Target>) -> Result
     let orbit = watched("Floquet's modes", || floquet_of_trim(&trim))?;
     if let Some(averaged) = &averaged {
         derivatives(report, averaged);
+        if glides(&trim.setup) {
+            neutral_point(report, averaged);
+        }
         line!(
             report,
             "\nModes of the rigid body under mean loads (averaged over the beat):"
@@ -132,10 +137,10 @@ fn of_trim(args: &Trimming, report: &mut Report, file: Option<Target>) -> Result
     }
     line!(report, "\nModes of the full periodic orbit (Floquet):");
     modes(report, "floquet_modes", &orbit);
-    let period = 1e3 * trim.beat.period();
+    let period = trim.beat.period();
     let unit = match glides(&trim.setup) {
-        false => format!("times in wingbeats of {period:.3} ms"),
-        true => format!("nothing beats, and beats and multipliers are of {period:.3} ms"),
+        false => format!("times in wingbeats of {:.3} ms", 1e3 * period),
+        true => beats_of_glide(period),
     };
     line!(
         report,
@@ -174,6 +179,16 @@ fn imbalance(report: &mut Report, model: &LinearModel) {
 /// Floquet's modes of the free wingbeat after a hold.
 fn with_wake(args: &StabilityArgs, report: &mut Report) -> Result<(), Failure> {
     let (_, trim) = trimmed_with_wake(&args.trimming, report)?;
+    if trim.tow.is_some() && !trim.setup.animal.is_elastic() {
+        let steady = watched("derivatives", || steady_model(&trim))?;
+        derivatives(report, &steady);
+        neutral_point(report, &steady);
+        line!(
+            report,
+            "\nModes of the rigid body under the loads of steady tows (no lag of the downwash, no mass of air):"
+        );
+        modes(report, "averaged_modes", &steady.modes);
+    }
     let of = |report: &mut Report, wake: Wake, key: &str| -> Result<ModeSet, Failure> {
         let (memory, held) = match wake {
             Wake::Given => (WakeMemory::Given, "the wake of the trimmed flight"),
@@ -187,8 +202,11 @@ fn with_wake(args: &StabilityArgs, report: &mut Report) -> Result<(), Failure> {
         modes(report, key, &found);
         Ok(found)
     };
-    if let Some(wake) = args.wake {
+    // The wake of a glide is straight: disturbed steadily, the glide has another one.
+    let usual = trim.tow.map(|_| Wake::Carried);
+    if let Some(wake) = args.wake.or(usual) {
         of(report, wake, "floquet_modes")?;
+        tell_unit(report, &trim);
         return Ok(());
     }
     let given = of(report, Wake::Given, "floquet_modes_given")?;
@@ -210,7 +228,23 @@ fn with_wake(args: &StabilityArgs, report: &mut Report) -> Result<(), Failure> {
         }
         report.value(&format!("{name}_modes_agree_in_kind"), agree);
     }
+    tell_unit(report, &trim);
     Ok(())
+}
+
+/// What a beat is where nothing beats.
+fn tell_unit(report: &mut Report, trim: &WakeTrim) {
+    if let (Some(_), Some(period)) = (trim.glide(), trim.setup.time.period) {
+        line!(report, "\n{}.", beats_of_glide(period));
+    }
+}
+
+/// The same in words, of a `period` \[s\].
+fn beats_of_glide(period: f64) -> String {
+    format!(
+        "nothing beats, and beats and multipliers are of {:.3} ms",
+        1e3 * period
+    )
 }
 
 /// Floquet's modes of body, elastic wings and wakes of strips.
@@ -243,6 +277,7 @@ fn with_wings(args: &StabilityArgs, report: &mut Report) -> Result<(), Failure> 
         );
         report.value("change_by_last_mode", change);
     }
+    tell_unit(report, &trim);
     Ok(())
 }
 
@@ -292,6 +327,17 @@ fn derivatives(report: &mut Report, model: &LinearModel) {
     report.value("derivatives_si_by_u_v_w_p_q_r", json!(model.derivatives));
     let key = "added_mass_si_by_rates_of_u_v_w_p_q_r";
     report.value(key, json!(model.added_mass));
+}
+
+/// The neutral point of a glider.
+fn neutral_point(report: &mut Report, model: &LinearModel) {
+    let behind = model.neutral_point();
+    line!(
+        report,
+        "The neutral point lies {:.3} mm behind the mass centre (M_w / Z_w).",
+        1e3 * behind
+    );
+    report.value("neutral_point_behind_mass_centre_m", behind);
 }
 
 /// The modes as a table.

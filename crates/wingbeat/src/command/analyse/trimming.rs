@@ -3,8 +3,8 @@
 use clap::Args;
 use wingbeat::analysis::wake::{WakeSettings, WakeTrim, check_trim_with_wake, trim_with_wake};
 use wingbeat::analysis::{
-    Beat, Bound, TRIM_STEPS, Trim, TrimProblem, TrimRequest, TrimSettings, UNKNOWNS, Unknown,
-    glides, trim_within, turned_over, turned_over_with_wake,
+    Beat, Bound, TRIM_STEPS, Trim, TrimProblem, TrimRequest, TrimSettings, TrimSolution, UNKNOWNS,
+    Unknown, glides, period_of_glide, trim_within, turned_over, turned_over_with_wake,
 };
 use wingbeat::case::{IoError, LoadedCase};
 use wingbeat::math::DVec3;
@@ -13,18 +13,12 @@ use super::found;
 use crate::command::case::programs::name_program;
 use crate::command::options::{self, CaseArgs};
 use crate::command::output::failure::{FAILED, Failure};
-use crate::command::output::report::{Report, ReportArgs, line};
+use crate::command::output::report::{Report, ReportArgs};
 use crate::command::output::terminal::tell;
 use crate::command::progress::watch::watched;
 
 /// Wingbeats of the hold at most.
 const MAX_HELD: usize = 100;
-
-/// Wingbeats of the hold unless told otherwise.
-const DEFAULT_HELD: usize = 2;
-
-/// Largest residual of a trim of body and elastic wings unless told otherwise.
-const ORBIT: f64 = 1e-6;
 
 /// What the analyses of averaged models take.
 pub(crate) const BLADE_CASE: &str =
@@ -74,13 +68,14 @@ pub(crate) struct Trimming {
     #[arg(long, value_name = "N", help_heading = HEADING,
           value_parser = options::count::<{ TRIM_STEPS[0] }, { TRIM_STEPS[1] }>)]
     steps: Option<usize>,
-    /// In a vortex lattice: wingbeats during which the body is held while its wake grows
+    /// In a vortex lattice: wingbeats during which the body is held while its wake grows; of a glider the first tow, in
+    /// times of sqrt(R / g) / 4, R the wing length, which is doubled until the start of the wake is hardly felt
     /// [default: 2].
     #[arg(long, value_name = "BEATS", help_heading = HEADING,
           value_parser = options::count::<1, MAX_HELD>)]
     hold: Option<usize>,
     /// In a vortex lattice or with elastic wings: largest residual (forces over weight) that counts as trimmed
-    /// [default: 2e-3; of elastic wings in blade elements 1e-6].
+    /// [default: 2e-3; of gliders in the lattice 1e-5; of elastic wings in blade elements 1e-6].
     #[arg(long, value_name = "RESIDUAL", help_heading = HEADING, value_parser = options::tolerance)]
     tolerance: Option<f64>,
     #[command(flatten)]
@@ -241,11 +236,18 @@ pub(crate) fn trimmed(args: &Trimming, report: &mut Report) -> Result<(LoadedCas
             Ok((case, found))
         }
         false => {
-            if glides(&case.setup) && found.solution.unknowns.contains(&Unknown::Forward) {
-                tell!("{GLIDE_BY_SPEED}");
+            if glides(&case.setup) {
+                advise_speed(&found.solution);
             }
             Err(not_trimmed())
         }
+    }
+}
+
+/// What to try where a glide is not found whose speed was unknown.
+fn advise_speed(solution: &TrimSolution) {
+    if solution.unknowns.contains(&Unknown::Forward) {
+        tell!("{GLIDE_BY_SPEED}");
     }
 }
 
@@ -255,9 +257,16 @@ pub(crate) fn trimmed_with_wake(
     report: &mut Report,
 ) -> Result<(LoadedCase, WakeTrim), Failure> {
     let mut case = args.load()?;
-    if let (Some(steps), Some(period)) = (args.steps, case.setup.time.period) {
-        case.setup.time.step = period / steps as f64;
-        case.raw.time.steps_per_beat = Some(steps);
+    match (args.steps, case.setup.time.period) {
+        (Some(steps), Some(period)) => {
+            case.setup.time.step = period / steps as f64;
+            case.raw.time.steps_per_beat = Some(steps);
+        }
+        (Some(steps), None) => {
+            let period = period_of_glide(&case.setup);
+            case.setup.time.step = period.map_or(case.setup.time.step, |p| p / steps as f64);
+        }
+        (None, _) => {}
     }
     let problem = args.problem(&case)?;
     let is_orbit = !case.setup.air.keeps_wake();
@@ -267,13 +276,14 @@ pub(crate) fn trimmed_with_wake(
             "nothing is held: body, wings and wakes of strips fly their periodic beat",
         ));
     }
-    let default = WakeSettings::default();
+    let default = WakeSettings::of(&case.setup);
     let settings = WakeSettings {
-        held_beats: args.hold.unwrap_or(DEFAULT_HELD),
-        tolerance: (args.tolerance).unwrap_or(if is_orbit { ORBIT } else { default.tolerance }),
+        held_beats: args.hold.unwrap_or(default.held_beats),
+        tolerance: args.tolerance.unwrap_or(default.tolerance),
         ..default
     };
     let what = match is_orbit {
+        false if glides(&case.setup) => "by tows, until their wakes are long".to_owned(),
         true if case.setup.air.has_strip_wakes() => "body, wings and wakes of strips".to_owned(),
         true => "body and elastic wings".to_owned(),
         false => format!(
@@ -291,23 +301,26 @@ pub(crate) fn trimmed_with_wake(
     let found = watched("trimming", || {
         trim_with_wake(&case.setup, &problem, &settings)
     })?;
-    found::tell(report, &case, &problem, (&found.solution, &found.setup));
-    line!(
-        report,
-        "  {} flights of {} wingbeats in all",
-        found.flights,
-        found.beats
-    );
-    report.value("flights", found.flights);
-    report.value("wingbeats", found.beats);
+    let flown = TrimProblem {
+        velocity: found.velocity,
+        ..problem
+    };
+    found::tell(report, &case, &flown, (&found.solution, &found.setup));
+    found::tell_flown(report, &found);
     match found.solution.is_as_asked() {
         true => {
+            if let Some(glide) = found.glide() {
+                found::tell_glide(report, &glide);
+            }
             found::warn_of_turned(report, turned_over_with_wake(&found)?);
             Ok((case, found))
         }
         false => {
             found::tell_rough(report, &found);
-            found::advise_slower(&problem);
+            match glides(&case.setup) {
+                true => advise_speed(&found.solution),
+                false => found::advise_slower(&flown),
+            }
             Err(not_trimmed())
         }
     }
