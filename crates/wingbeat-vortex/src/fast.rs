@@ -138,7 +138,8 @@ impl FastSum {
         self.has_tree = !self.soft.serves() && has_cells(AUTO_EDGES);
         let may_be_single = match method {
             Method::Auto | Method::Single | Method::Mesh => true,
-            Method::Tree => self.soft.serves(),
+            // The expansions know no vorticities, which such cores are asked for.
+            Method::Tree => matches!(model, CoreModel::Algebraic { .. }),
             Method::Direct => false,
         };
         self.has_single = may_be_single && network.len() >= SINGLE_EDGES && tolerance >= SINGLE;
