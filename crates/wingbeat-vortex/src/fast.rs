@@ -84,8 +84,11 @@ pub struct FastSum {
     /// Velocities and vorticities in single precision, before they are checked.
     velocity: Points,
     vorticity: Points,
+    /// The sources, of which the tree is made when a sum first asks for it.
+    network: Network,
     cells: Cells,
     has_tree: bool,
+    is_grown: bool,
     groups: Groups,
     /// What serves wide algebraic cores.
     soft: Soft,
@@ -108,8 +111,10 @@ impl FastSum {
             has_single: false,
             velocity: Points::default(),
             vorticity: Points::default(),
+            network: Network::default(),
             cells,
             has_tree: false,
+            is_grown: false,
             groups,
             soft: Soft::new(&settings, level),
             segments,
@@ -121,8 +126,15 @@ impl FastSum {
         &self.settings
     }
 
+    /// Whether it holds these sources, but for core radii of nodes that differ by no more than `near` \[m\].
+    pub fn holds(&self, network: &Network, near: f64) -> bool {
+        self.network.is_near(network, near)
+    }
+
     /// Replaces the sources.
     pub fn load_network(&mut self, network: &Network) {
+        self.network.copy_from(network);
+        self.is_grown = false;
         let FastSettings {
             method,
             model,
@@ -146,9 +158,6 @@ impl FastSum {
         match self.has_tree || self.soft.is_loaded() || self.has_single {
             true => self.packed.load_network(model, network),
             false => self.packed.load_moving(model, network),
-        }
-        if self.has_tree {
-            self.cells.load(network);
         }
         if self.has_single {
             let patches = self.packed.patches.len();
@@ -191,6 +200,10 @@ impl FastSum {
             }
         }
         if has_tree {
+            if !self.is_grown {
+                self.cells.load(&self.network);
+                self.is_grown = true;
+            }
             self.groups.load(targets);
             match self.find_allowed(&check) {
                 Ok((allowed, made, error)) => {
@@ -267,8 +280,8 @@ impl FastSum {
         targets: &Points,
         out: (&mut Points, Option<&mut Points>),
     ) -> Result<Report, usize> {
-        let how = (&self.settings, self.packed.edges.len());
-        self.soft.add(check, targets, how, out)
+        let sources = (&self.network, self.packed.edges.len());
+        (self.soft).add(check, targets, (&self.settings, sources), out)
     }
 
     /// Error in single precision at the sampled targets, root mean square and largest, of the velocities and, where the

@@ -66,6 +66,32 @@ fn exact_no_allocation_of_algebraic_cores_after_warm_up() {
     });
 }
 
+/// Expansions know no vorticities, and few targets are none of theirs: nothing is made ready for them then.
+#[test]
+fn exact_no_tree_where_nobody_asks_for_it() {
+    let model = CoreModel::Algebraic {
+        radius: 0.1,
+        viscosity: 0.0,
+    };
+    let net = wakes::hover(model, 6_000);
+    let held = |method: Method| {
+        let settings = FastSettings {
+            method,
+            ..FastSettings::new(model)
+        };
+        let (mut sum, few) = (FastSum::new(settings), 600);
+        let [mut u, mut w] = [0; 2].map(|_| Points::zeros(net.nodes.len()));
+        let (at, mut v) = (net.nodes.iter().take(few).collect(), Points::zeros(few));
+        let used = measure(|| {
+            sum.load_network(&net);
+            sum.add_velocity_and_vorticity(&net.nodes, &mut u, &mut w);
+            sum.add_velocity(&at, &mut v);
+        });
+        (used.count_total, used.bytes_total)
+    };
+    on_one_thread(|| assert_eq!(held(Method::Auto), held(Method::Single)));
+}
+
 /// The mesh of blobs that move within the same box.
 #[test]
 fn exact_no_allocation_of_blobs_after_warm_up() {

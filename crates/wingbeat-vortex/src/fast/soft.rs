@@ -35,7 +35,9 @@ const CHEAP: f64 = 0.7;
 #[derive(Clone, Debug)]
 pub(super) struct Soft {
     cells: Option<Interpolation>,
+    /// Whether cells may gain something, and whether they have the sources already.
     has_cells: bool,
+    is_grown: bool,
     meshes: Option<Multilevel>,
     /// What meshes cost for each target, in pairs of filament and target, where they are loaded.
     mesh_cost: Option<f64>,
@@ -51,6 +53,7 @@ impl Soft {
         Self {
             cells: may_be(Method::Tree).then(cells),
             has_cells: false,
+            is_grown: false,
             meshes: may_be(Method::Mesh).then(|| Multilevel::new(model, level)),
             mesh_cost: None,
         }
@@ -81,28 +84,26 @@ impl Soft {
         let is_cheap = self
             .mesh_cost
             .is_some_and(|cost| cost < CHEAP * edges as f64);
-        let cells = self
-            .cells
-            .as_mut()
-            .filter(|_| is_large(AUTO_EDGES) && !is_cheap);
-        self.has_cells = cells.is_some();
-        if let Some(cells) = cells {
-            cells.load(network);
-        }
+        self.has_cells = self.cells.is_some() && is_large(AUTO_EDGES) && !is_cheap;
+        self.is_grown = false;
     }
 
-    /// Adds velocities, and vorticities if they are wanted, of so many `edges`; or adds nothing and says how
-    /// many attempts were made.
+    /// Adds velocities, and vorticities if they are wanted, of the network that was loaded last, of so many packed
+    /// `edges`; or adds nothing and says how many attempts were made.
     pub fn add(
         &mut self,
         check: &Check,
         targets: &Points,
-        (settings, edges): (&FastSettings, usize),
+        (settings, (network, edges)): (&FastSettings, (&Network, usize)),
         (velocity, vorticity): (&mut Points, Option<&mut Points>),
     ) -> Result<Report, usize> {
         let (tolerance, mut attempts) = (settings.tolerance, 0);
         let mut found = None;
         if let Some(cells) = self.cells.as_mut().filter(|_| self.has_cells) {
+            if !self.is_grown {
+                cells.load(network);
+                self.is_grown = true;
+            }
             let others = self.mesh_cost.map_or(edges, |cost| cost as usize);
             let dearest = (settings.method == Method::Auto).then_some(others);
             match sum(cells, check, targets, (tolerance, dearest)) {
