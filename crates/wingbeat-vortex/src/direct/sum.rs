@@ -146,26 +146,20 @@ impl Default for UnitEdges {
 }
 
 impl UnitEdges {
-    /// Replaces the edges by groups that together are those of the network, in its order.
+    /// Replaces the edges by these of the network, group by group.
     pub fn load(
         &mut self,
         model: CoreModel,
         network: &Network,
-        groups: impl IntoIterator<Item = Range<usize>>,
+        groups: impl IntoIterator<Item = impl IntoIterator<Item = usize>>,
     ) {
         self.packed.clear(network.nodes.len());
         self.groups.clear();
         for edges in groups {
-            let edges = edges.start as u32..edges.end as u32;
+            let edges = edges.into_iter().map(|e| e as u32);
             let patches = self.packed.load_group(model, network, edges);
             self.groups.push(patches);
         }
-    }
-
-    /// Forgets all edges.
-    pub fn clear(&mut self) {
-        self.packed.clear(0);
-        self.groups.clear();
     }
 
     /// Number of edges.
