@@ -316,13 +316,12 @@ impl Sources {
         (rates, lane): (&mut [f64], usize),
         block: &mut [f64],
     ) {
-        let (model, edges) = (lattice.settings().bound_core, &lattice.topology().edges);
-        let count = points.len();
+        let (edges, count) = (&lattice.topology().edges, points.len());
         for (group, (range, surface)) in self.groups.iter().enumerate() {
             if Some(*surface) == except {
                 continue;
             }
-            (self.bound).normal_velocities(model, group, points.clone(), rates);
+            (self.bound).normal_velocities(group, points.clone(), rates);
             for e in range.clone() {
                 for (unknown, part) in columns(lattice, &edges[e], self.keeps[e]) {
                     let to = &mut block[unknown * BLOCK + lane..][..count];
@@ -341,8 +340,8 @@ impl Sources {
         rates: &mut [f64],
         block: &mut [f64],
     ) {
-        let (model, count) = (lattice.settings().wake_core, points.len());
-        self.near_wake.normal_velocities(model, 0, points, rates);
+        let count = points.len();
+        self.near_wake.normal_velocities(0, points, rates);
         for (&edge, rates) in self.near_edges.iter().zip(rates.chunks(BLOCK)) {
             let share = &shares[edge];
             for (&panel, &part) in share.panel.iter().zip(&share.part) {

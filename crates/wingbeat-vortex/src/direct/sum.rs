@@ -130,6 +130,8 @@ pub(crate) fn sum_packed(
 #[derive(Clone, Debug)]
 pub struct UnitEdges {
     level: Level,
+    /// Regularisation of the edges that were loaded.
+    model: Option<CoreModel>,
     packed: Packed,
     /// Patches of each group.
     groups: Vec<Range<usize>>,
@@ -139,6 +141,7 @@ impl Default for UnitEdges {
     fn default() -> Self {
         Self {
             level: InstructionSet::best(),
+            model: None,
             packed: Packed::default(),
             groups: Vec::new(),
         }
@@ -153,6 +156,7 @@ impl UnitEdges {
         network: &Network,
         groups: impl IntoIterator<Item = impl IntoIterator<Item = usize>>,
     ) {
+        self.model = Some(model);
         self.packed.clear(network.nodes.len());
         self.groups.clear();
         for edges in groups {
@@ -176,11 +180,11 @@ impl UnitEdges {
     /// `out[edge * BLOCK + point]`.
     pub fn normal_velocities(
         &self,
-        model: CoreModel,
         group: usize,
         points: impl Iterator<Item = [DVec3; 2]>,
         out: &mut [f64],
     ) {
+        let model = self.model.expect("edges are loaded");
         let (mut block, mut normals, mut count) = (Block::ZERO, Block::ZERO, 0);
         for (k, [x, n]) in points.enumerate() {
             block.set(k, x);
