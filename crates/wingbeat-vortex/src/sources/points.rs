@@ -75,6 +75,13 @@ impl Points {
         self.core.clear();
     }
 
+    /// Drops all points but the first `n` and keeps the memory.
+    pub fn truncate(&mut self, n: usize) {
+        for c in [&mut self.x, &mut self.y, &mut self.z, &mut self.core] {
+            c.truncate(n);
+        }
+    }
+
     /// Makes it `n` points, all zero, and keeps the memory.
     pub fn reset(&mut self, n: usize) {
         for c in [&mut self.x, &mut self.y, &mut self.z] {
