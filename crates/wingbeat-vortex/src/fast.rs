@@ -5,6 +5,7 @@ mod settings;
 mod soft;
 
 pub use settings::{FastSettings, Method, Report};
+pub use soft::MESH_TOLERANCE;
 
 use crate::cores::CoreModel;
 use crate::direct::lanes::{add_clusters, add_patches_with_vorticity};
@@ -46,9 +47,6 @@ const FAR: u64 = 160;
 
 /// How many times single precision is as fast.
 const SINGLE_GAIN: u64 = 2;
-
-/// The tolerance from which [`Method::Mesh`] serves.
-pub const MESH_TOLERANCE: f64 = soft::TOLERANCE;
 
 /// Attempts at the tolerance before the direct sum takes over.
 const ATTEMPTS: usize = 6;

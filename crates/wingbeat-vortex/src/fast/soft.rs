@@ -15,8 +15,9 @@ const AUTO_EDGES: usize = 25_000;
 /// Edges from which meshes may gain more than their check costs; measured.
 const MESH_EDGES: usize = 8_000;
 
-/// The tolerance from which both serve. Below it, single precision takes less time than a finer interpolation.
-pub(super) const TOLERANCE: f64 = 1e-3;
+/// The tolerance from which [`Method::Mesh`] serves, and [`Method::Tree`] of algebraic cores. Below it, single precision
+/// takes less time than a finer interpolation.
+pub const MESH_TOLERANCE: f64 = 1e-3;
 
 /// What sums of leaves cost in pairs of the sum in single precision, which finds more nodes in sight, in tenths.
 const NEAR: u64 = 16;
@@ -47,7 +48,7 @@ impl Soft {
     /// For cores, tolerances and methods that they serve; else nothing.
     pub fn new(settings: &FastSettings, level: Level) -> Self {
         let (model, tolerance) = (settings.model, settings.tolerance);
-        let serves = matches!(model, CoreModel::Algebraic { .. }) && tolerance >= TOLERANCE;
+        let serves = matches!(model, CoreModel::Algebraic { .. }) && tolerance >= MESH_TOLERANCE;
         let may_be = |method| serves && [Method::Auto, method].contains(&settings.method);
         let cells = || Interpolation::new(model, level, Fineness::for_tolerance(tolerance));
         Self {
