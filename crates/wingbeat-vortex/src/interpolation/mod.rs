@@ -45,6 +45,8 @@ const SOURCE_LEAF: usize = 192;
 /// Targets of a leaf.
 const TARGET_LEAF: usize = BLOCK;
 
+const _: () = assert!(SOURCE_LEAF * TARGET_LEAF <= pairs::FEW);
+
 /// How fine the interpolation is.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Fineness {

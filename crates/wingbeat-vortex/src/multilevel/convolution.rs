@@ -81,7 +81,7 @@ pub(super) struct Convolution<'a> {
 }
 
 impl Convolution<'_> {
-    /// Plane number `z`; or adds it to what is there.
+    /// Adds plane number `z`.
     pub fn plane(&self, level: fearless_simd::Level, z: usize, room: &mut Room, out: &mut [Both]) {
         use fearless_simd::dispatch;
         room.fit([self.size[0], self.size[1]]);
