@@ -235,8 +235,9 @@ impl Grower<'_> {
     /// 20 r_c (Scully); a third of it, for the segments of a cell add with either sign. Algebraic cores count as
     /// Scully's, those at nodes and at targets not at all.
     ///
-    /// [`WEIGHT`] and [`WEIGHT_OF_COMPACT`] are what that counts for beside what the expansion leaves out: the share of the tolerance that a cell
-    /// may leave out is laxer than either estimate. Measured on sheets, and checked at every sum.
+    /// [`WEIGHT`] and [`WEIGHT_OF_COMPACT`] are what that counts for beside what the expansion leaves out: the share of
+    /// the tolerance that a cell may leave out is laxer than either estimate. Measured on sheets, and checked at every
+    /// sum.
     fn smear(&self, e: usize) -> f64 {
         let (a, b) = self.network.ends(e);
         let strength = (self.network.gamma[e] * INV_4PI).abs() * a.distance(b);
