@@ -141,8 +141,8 @@ impl FastSum {
         } = self.settings;
         let has_cells = |least: usize| match method {
             Method::Auto => network.len() >= least,
-            Method::Direct | Method::Single => false,
-            Method::Tree | Method::Mesh => !network.is_empty(),
+            Method::Direct | Method::Single | Method::Mesh => false,
+            Method::Tree => !network.is_empty(),
         };
         self.soft.load(method, network);
         self.has_tree = !self.soft.serves() && has_cells(AUTO_EDGES);
@@ -182,9 +182,9 @@ impl FastSum {
     /// Adds to `out` \[m/s\] the velocity of all sources at the `targets` \[m\].
     pub fn add_velocity(&mut self, targets: &Points, out: &mut Points) -> Report {
         assert_eq!(targets.len(), out.len(), "as many velocities as targets");
-        let few = self.settings.method == Method::Auto && targets.len() < AUTO_TARGETS;
+        let few = self.is_few(targets);
         let has_tree = self.has_tree && !few;
-        let has_soft = self.soft.is_loaded() && !self.is_few(targets);
+        let has_soft = self.soft.is_loaded() && !few;
         let has_single = self.has_single && targets.len() >= SINGLE_TARGETS;
         if targets.is_empty() || !(has_tree || has_soft || has_single) {
             return self.add_direct(targets, out, 0);

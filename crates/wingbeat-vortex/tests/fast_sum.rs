@@ -249,6 +249,25 @@ fn exact_auto_takes_the_sum_that_is_fastest_at_its_size() {
     }
 }
 
+/// Meshes serve algebraic cores alone, from a tolerance on.
+#[test]
+fn exact_single_precision_where_meshes_do_not_serve() {
+    for model in MODELS {
+        let net = wakes::hover(model, 5_000);
+        let [mesh, single] = [Method::Mesh, Method::Single].map(|method| {
+            let mut fast = FastSum::new(FastSettings {
+                method,
+                ..FastSettings::new(model)
+            });
+            fast.load_network(&net);
+            let mut v = Points::zeros(net.nodes.len());
+            (fast.add_velocity(&net.nodes, &mut v), bits(&v))
+        });
+        assert_eq!(mesh, single, "{model:?}");
+        assert_eq!(mesh.0.method, Method::Single);
+    }
+}
+
 #[test]
 fn exact_nothing_moves_where_nothing_turns() {
     let model = MODELS[1];
