@@ -131,7 +131,7 @@ impl FastSum {
 
     /// Replaces the sources.
     pub fn load_network(&mut self, network: &Network) {
-        self.network.copy_from(network);
+        self.network.clone_from(network);
         self.is_grown = false;
         let FastSettings {
             method,

@@ -337,10 +337,10 @@ impl WakeVelocityCache {
             self.generation = sums.generation;
             self.mirrors.clear();
             self.mirrors.extend_from_slice(mirrors);
-            self.points.copy_from(points);
+            self.points.clone_from(points);
             self.velocity.reset(points.len());
             sums.add_free(points, mirrors, &mut self.velocity);
         }
-        out.copy_from(&self.velocity);
+        out.clone_from(&self.velocity);
     }
 }

@@ -80,7 +80,7 @@ impl Segments {
 /// Distances to a node serve every segment that meets there, so a network is summed about twice as
 /// fast as the same [`Segments`], with the same bits if the order is the same. Neighbours in space
 /// should be neighbours in the edge order (row by row of a sheet).
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Debug, Default, PartialEq)]
 pub struct Network {
     /// Nodes \[m\].
     pub nodes: Points,
@@ -93,14 +93,6 @@ pub struct Network {
 }
 
 impl Network {
-    /// Takes nodes and edges of `other` and keeps the memory, which `clone_from` does not.
-    pub fn copy_from(&mut self, other: &Self) {
-        self.nodes.copy_from(&other.nodes);
-        self.edges.clone_from(&other.edges);
-        self.gamma.clone_from(&other.gamma);
-        self.core.clone_from(&other.core);
-    }
-
     /// Whether this is `other` but for the core radii of its nodes, which differ by no more than `near` \[m\].
     pub fn is_near(&self, other: &Self, near: f64) -> bool {
         self.edges == other.edges
@@ -174,5 +166,24 @@ impl Network {
             out.push(a, b, self.gamma[e], self.core[e]);
         }
         out
+    }
+}
+
+impl Clone for Network {
+    fn clone(&self) -> Self {
+        Self {
+            nodes: self.nodes.clone(),
+            edges: self.edges.clone(),
+            gamma: self.gamma.clone(),
+            core: self.core.clone(),
+        }
+    }
+
+    /// Keeps the memory.
+    fn clone_from(&mut self, other: &Self) {
+        self.nodes.clone_from(&other.nodes);
+        self.edges.clone_from(&other.edges);
+        self.gamma.clone_from(&other.gamma);
+        self.core.clone_from(&other.core);
     }
 }

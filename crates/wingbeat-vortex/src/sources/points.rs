@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 /// Positions \[m\] or velocities \[m/s\], frame N, one array per component.
-#[derive(Clone, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
+#[derive(Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Points {
     /// Components along n1.
     pub x: Vec<f64>,
@@ -91,14 +91,6 @@ impl Points {
         self.core.clear();
     }
 
-    /// Takes the points of `other` and keeps the memory, which `clone_from` does not.
-    pub fn copy_from(&mut self, other: &Self) {
-        self.x.clone_from(&other.x);
-        self.y.clone_from(&other.y);
-        self.z.clone_from(&other.z);
-        self.core.clone_from(&other.core);
-    }
-
     /// Whether these are the places of `other`, whatever their cores.
     pub fn has_places_of(&self, other: &Self) -> bool {
         self.x == other.x && self.y == other.y && self.z == other.z
@@ -122,6 +114,25 @@ impl Points {
     /// The points in order.
     pub fn iter(&self) -> impl Iterator<Item = DVec3> + '_ {
         (0..self.len()).map(|i| self.get(i))
+    }
+}
+
+impl Clone for Points {
+    fn clone(&self) -> Self {
+        Self {
+            x: self.x.clone(),
+            y: self.y.clone(),
+            z: self.z.clone(),
+            core: self.core.clone(),
+        }
+    }
+
+    /// Keeps the memory.
+    fn clone_from(&mut self, other: &Self) {
+        self.x.clone_from(&other.x);
+        self.y.clone_from(&other.y);
+        self.z.clone_from(&other.z);
+        self.core.clone_from(&other.core);
     }
 }
 
