@@ -105,12 +105,11 @@ impl AlgebraicSum {
         all.for_each(|(((_, v), (_, s)), blobs)| {
             let blobs = Targets::new(blobs);
             let mut sums = [Block::ZERO, Block::ZERO];
-            match scheme {
-                Stretching::Classical => {
-                    dispatch!(self.level, simd => self.pairs::<_, true>(simd, &blobs, &mut sums));
-                }
-                _ => dispatch!(self.level, simd => self.pairs::<_, false>(simd, &blobs, &mut sums)),
-            }
+            dispatch!(self.level, simd => match scheme {
+                Stretching::Omitted => self.pairs::<_, false, false>(simd, &blobs, &mut sums),
+                Stretching::Transpose => self.pairs::<_, true, false>(simd, &blobs, &mut sums),
+                Stretching::Classical => self.pairs::<_, true, true>(simd, &blobs, &mut sums),
+            });
             add_block(&sums[0], v);
             if scheme != Stretching::Omitted {
                 add_block(&sums[1], s);
@@ -119,7 +118,7 @@ impl AlgebraicSum {
     }
 
     #[inline(always)]
-    fn pairs<S: Simd, const CLASSICAL: bool>(
+    fn pairs<S: Simd, const STRETCHES: bool, const CLASSICAL: bool>(
         &self,
         simd: S,
         targets: &Targets,
@@ -137,10 +136,13 @@ impl AlgebraicSum {
                 let rho2 = r[0] * r[0] + r[1] * r[1] + r[2] * r[2];
                 let [g, h] = smoothing(simd, rho2, (core + q.core) * 0.5);
                 let c = cross_with::<S>(a, r); // a x r
-                let turn = cross_with::<S>(a, alpha); // a x alpha_p
                 for k in 0..3 {
                     v[k] += g * c[k];
                 }
+                if !STRETCHES {
+                    continue;
+                }
+                let turn = cross_with::<S>(a, alpha); // a x alpha_p
                 if CLASSICAL {
                     let along = (alpha[0] * r[0] + alpha[1] * r[1] + alpha[2] * r[2]) * h;
                     for k in 0..3 {
