@@ -279,6 +279,14 @@ mod tests {
     }
 
     #[test]
+    fn exact_velocities_are_those_of_particles_that_stretch_where_they_do_not() {
+        let cloud = cloud(70);
+        let [of, with] = [Stretching::Omitted, Stretching::Transpose].map(|s| rates(&cloud, s));
+        assert_eq!(of[0], with[0]);
+        assert_eq!(of[1], Points::zeros(cloud.len()));
+    }
+
+    #[test]
     fn invariant_same_bits_for_every_instruction_set_and_thread_count() {
         let cloud = cloud(200);
         let of = |set: InstructionSet, threads: usize| {
