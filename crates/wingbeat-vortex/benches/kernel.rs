@@ -5,9 +5,7 @@
 use divan::{Bencher, counter::ItemsCount};
 use fearless_simd::dispatch;
 use wingbeat_vortex::DVec3;
-use wingbeat_vortex::{
-    CoreModel, DirectSum, FastSettings, FastSum, InstructionSet, Method, Points,
-};
+use wingbeat_vortex::{CoreModel, FastSettings, FastSum, InstructionSet, Method, Points};
 
 mod mix;
 #[path = "../tests/wavy/mod.rs"]
@@ -30,14 +28,18 @@ const MODELS: [(&str, CoreModel); 4] = [
     ),
 ];
 
-fn rate(bencher: Bencher, set: &InstructionSet, model: CoreModel, shared: bool) {
+/// In double precision.
+#[divan::bench(args = InstructionSet::available(), consts = [0, 1, 2, 3], sample_count = 20)]
+fn network<const MODEL: usize>(bencher: Bencher, set: &InstructionSet) {
+    let model = MODELS[MODEL].1;
     let net = wavy::sheet(model, 40);
     let targets = Points::from_iter((0..1024).map(|i| DVec3::splat(i as f64 / 1024.0)));
-    let mut sum = DirectSum::with_instructions(model, *set).expect("available");
-    match shared {
-        true => sum.load_network(&net),
-        false => sum.load_segments(&net.to_segments()),
-    }
+    let mut sum = FastSum::new(FastSettings {
+        method: Method::Direct,
+        instructions: *set,
+        ..FastSettings::new(model)
+    });
+    sum.load_network(&net);
     let mut out = Points::zeros(targets.len());
     let pool = rayon::ThreadPoolBuilder::new()
         .num_threads(1)
@@ -46,11 +48,6 @@ fn rate(bencher: Bencher, set: &InstructionSet, model: CoreModel, shared: bool) 
     bencher
         .counter(ItemsCount::new(net.len() * targets.len()))
         .bench_local(|| pool.install(|| sum.add_velocity(&targets, &mut out)));
-}
-
-#[divan::bench(args = InstructionSet::available(), consts = [0, 1, 2, 3], sample_count = 20)]
-fn network<const MODEL: usize>(bencher: Bencher, set: &InstructionSet) {
-    rate(bencher, set, MODELS[MODEL].1, true);
 }
 
 /// In single precision, the check against double included.
@@ -75,11 +72,6 @@ fn single_precision<const MODEL: usize>(bencher: Bencher, set: &InstructionSet) 
             let report = pool.install(|| sum.add_velocity(&net.nodes, &mut out));
             assert_eq!(report.method, Method::Single);
         });
-}
-
-#[divan::bench(args = InstructionSet::available(), sample_count = 20)]
-fn free_segments(bencher: Bencher, set: &InstructionSet) {
-    rate(bencher, set, MODELS[0].1, false);
 }
 
 /// The bound: the instructions of the cut-off kernel on a sheet (one new node for two edges) with

@@ -16,7 +16,7 @@ use crate::direct::sum::{sum_all, sum_both, sum_packed};
 use crate::fast::check::{Check, SAMPLES};
 use crate::fast::soft::Soft;
 use crate::instruction_set::InstructionSet;
-use crate::sources::{Network, Points, Segments};
+use crate::sources::{Network, Points};
 use crate::tree::cells::Cells;
 use crate::tree::groups::Groups;
 use fearless_simd::Level;
@@ -90,7 +90,6 @@ pub struct FastSum {
     groups: Groups,
     /// What serves wide algebraic cores.
     soft: Soft,
-    segments: Network,
 }
 
 impl FastSum {
@@ -100,7 +99,6 @@ impl FastSum {
         let level = level.unwrap_or_else(InstructionSet::best);
         let is_single = settings.tolerance >= SINGLE;
         let cells = Cells::new(settings.model, level, order(settings.tolerance), is_single);
-        let (groups, segments) = (Groups::default(), Network::default());
         Self {
             settings,
             level,
@@ -113,9 +111,8 @@ impl FastSum {
             cells,
             has_tree: false,
             is_grown: false,
-            groups,
+            groups: Groups::default(),
             soft: Soft::new(&settings, level),
-            segments,
         }
     }
 
@@ -163,14 +160,6 @@ impl FastSum {
             let clusters = clusters.map(|first| first..patches.min(first + CLUSTER));
             self.single.load(model, &self.packed, clusters);
         }
-    }
-
-    /// Replaces the sources by free segments; a network is summed twice as fast.
-    pub fn load_segments(&mut self, segments: &Segments) {
-        let mut network = std::mem::take(&mut self.segments);
-        network.set_segments(segments);
-        self.load_network(&network);
-        self.segments = network;
     }
 
     /// Whether expansions and meshes cost more than they gain at so few targets.

@@ -7,7 +7,7 @@ mod wakes;
 
 use wingbeat_vortex::DVec3;
 use wingbeat_vortex::{
-    CoreModel, FastSettings, FastSum, InstructionSet, Method, Network, Points, Segments,
+    CoreModel, FastSettings, FastSum, InstructionSet, Method, Network, Points,
 };
 
 use common::{bits, direct, error};
@@ -288,27 +288,14 @@ fn exact_no_sources_no_targets_and_all_in_one_place() {
     let mut v = Points::zeros(3);
     fast.add_velocity(&Points::zeros(3), &mut v);
     assert_eq!(v, Points::zeros(3));
-    let mut heap = Segments::default();
-    (0..500).for_each(|i| heap.push(DVec3::X, DVec3::Y, 1.0 / (1 + i) as f64, 4e-4));
-    fast.load_segments(&heap);
+    let mut heap = Network::default();
+    (0..500).for_each(|i| heap.push_segment(DVec3::X, DVec3::Y, 1.0 / (1 + i) as f64, 4e-4));
+    fast.load_network(&heap);
     fast.add_velocity(&Points::default(), &mut Points::default());
     let at: Points = (0..500)
         .map(|i| DVec3::new(0.0, 0.0, (i % 2) as f64))
         .collect();
-    let (mut v, mut exact) = (Points::zeros(500), Points::zeros(500));
+    let (mut v, exact) = (Points::zeros(500), direct(model, &heap, &at));
     fast.add_velocity(&at, &mut v);
-    wingbeat_vortex::add_velocity(model, &heap, &at, &mut exact);
     assert!(error(&v, &exact).0 < 1e-4 && v.z[0] > 0.0);
-}
-
-#[test]
-fn agrees_for_free_segments_too() {
-    let model = MODELS[1];
-    let net = wakes::hover(model, 8_000);
-    let exact = direct(model, &net, &net.nodes);
-    let mut fast = FastSum::new(tree(model));
-    fast.load_segments(&net.to_segments());
-    let mut v = Points::zeros(exact.len());
-    fast.add_velocity(&net.nodes, &mut v);
-    assert!(error(&v, &exact).0 < 1e-4);
 }

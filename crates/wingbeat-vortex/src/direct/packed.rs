@@ -7,7 +7,7 @@
 use crate::cores::CoreModel;
 use crate::cores::INV_4PI;
 use crate::direct::reference::CLOSE;
-use crate::sources::{Network, Segments};
+use crate::sources::Network;
 use glam::DVec3;
 use std::ops::Range;
 
@@ -86,18 +86,6 @@ impl Packed {
             nodes: &self.nodes,
             edges: &self.edges,
             patches: &self.patches,
-        }
-    }
-
-    /// Takes free segments: two nodes each.
-    pub fn load_segments(&mut self, model: CoreModel, s: &Segments) {
-        self.clear(0);
-        self.open_patch();
-        for i in 0..s.len() {
-            self.make_room(self.nodes.len());
-            let soft = model.softening(s.core[i]);
-            let (from, to) = (self.look_at(s.a(i), soft), self.look_at(s.b(i), soft));
-            self.add_edge(model, [from, to], s.gamma[i], s.core[i]);
         }
     }
 

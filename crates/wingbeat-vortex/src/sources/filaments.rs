@@ -1,84 +1,12 @@
-//! Vortex filaments: free segments, and networks of segments that share nodes.
+//! Vortex filaments: networks of segments that share nodes.
 
 use crate::sources::points::Points;
 use glam::DVec3;
 
-/// Vortex segments a -> b, each with its own end points.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Segments {
-    /// Start, along n1 \[m\].
-    pub ax: Vec<f64>,
-    /// Start, along n2 \[m\].
-    pub ay: Vec<f64>,
-    /// Start, along n3 \[m\].
-    pub az: Vec<f64>,
-    /// End, along n1 \[m\].
-    pub bx: Vec<f64>,
-    /// End, along n2 \[m\].
-    pub by: Vec<f64>,
-    /// End, along n3 \[m\].
-    pub bz: Vec<f64>,
-    /// Circulation \[m^2/s\].
-    pub gamma: Vec<f64>,
-    /// Regularisation number, [`crate::CoreModel::core`].
-    pub core: Vec<f64>,
-}
-
-impl Segments {
-    /// Number of segments.
-    pub fn len(&self) -> usize {
-        self.gamma.len()
-    }
-
-    /// True when there is no segment.
-    pub fn is_empty(&self) -> bool {
-        self.gamma.is_empty()
-    }
-
-    /// Appends the segment a -> b.
-    pub fn push(&mut self, a: DVec3, b: DVec3, gamma: f64, core: f64) {
-        self.ax.push(a.x);
-        self.ay.push(a.y);
-        self.az.push(a.z);
-        self.bx.push(b.x);
-        self.by.push(b.y);
-        self.bz.push(b.z);
-        self.gamma.push(gamma);
-        self.core.push(core);
-    }
-
-    /// Removes all segments and keeps the memory.
-    pub fn clear(&mut self) {
-        let Self {
-            ax,
-            ay,
-            az,
-            bx,
-            by,
-            bz,
-            gamma,
-            core,
-        } = self;
-        for c in [ax, ay, az, bx, by, bz, gamma, core] {
-            c.clear();
-        }
-    }
-
-    /// Start of segment `i` \[m\].
-    pub fn a(&self, i: usize) -> DVec3 {
-        DVec3::new(self.ax[i], self.ay[i], self.az[i])
-    }
-
-    /// End of segment `i` \[m\].
-    pub fn b(&self, i: usize) -> DVec3 {
-        DVec3::new(self.bx[i], self.by[i], self.bz[i])
-    }
-}
-
 /// Vortex segments between shared nodes, as in a lattice or a wake sheet.
 ///
-/// Distances to a node serve every segment that meets there, so a network is summed about twice as
-/// fast as the same [`Segments`], with the same bits if the order is the same. Neighbours in space
+/// Distances to a node serve every segment that meets there, so that they are summed about twice as
+/// fast as with nodes of their own, with the same bits if the order is the same. Neighbours in space
 /// should be neighbours in the edge order (row by row of a sheet).
 #[derive(Debug, Default, PartialEq)]
 pub struct Network {
@@ -142,30 +70,18 @@ impl Network {
         self.core.push(core);
     }
 
-    /// Makes it these segments, two nodes each.
-    pub fn set_segments(&mut self, segments: &Segments) {
-        self.clear();
-        for i in 0..segments.len() {
-            self.nodes.push(segments.a(i));
-            self.nodes.push(segments.b(i));
-            self.push_edge(2 * i, 2 * i + 1, segments.gamma[i], segments.core[i]);
-        }
+    /// Appends an edge from `a` to `b` \[m\] with nodes of its own.
+    pub fn push_segment(&mut self, a: DVec3, b: DVec3, gamma: f64, core: f64) {
+        let first = self.nodes.len();
+        self.nodes.push(a);
+        self.nodes.push(b);
+        self.push_edge(first, first + 1, gamma, core);
     }
 
     /// Start and end of edge `e` \[m\].
     pub fn ends(&self, e: usize) -> (DVec3, DVec3) {
         let [i, j] = self.edges[e];
         (self.nodes.get(i as usize), self.nodes.get(j as usize))
-    }
-
-    /// The same segments with their own end points, for tests and benches of sums over them.
-    pub fn to_segments(&self) -> Segments {
-        let mut out = Segments::default();
-        for (e, &[i, j]) in self.edges.iter().enumerate() {
-            let (a, b) = (self.nodes.get(i as usize), self.nodes.get(j as usize));
-            out.push(a, b, self.gamma[e], self.core[e]);
-        }
-        out
     }
 }
 
