@@ -5,9 +5,13 @@
 use divan::{Bencher, counter::ItemsCount};
 use fearless_simd::dispatch;
 use wingbeat_vortex::DVec3;
-use wingbeat_vortex::{CoreModel, FastSettings, FastSum, InstructionSet, Method, Points};
+use wingbeat_vortex::{
+    CoreModel, FastSettings, FastSum, InstructionSet, MESH_TOLERANCE, Method, Points,
+};
 
 mod mix;
+#[path = "../tests/wakes/mod.rs"]
+mod wakes;
 #[path = "../tests/wavy/mod.rs"]
 mod wavy;
 
@@ -15,7 +19,7 @@ fn main() {
     divan::main();
 }
 
-const MODELS: [(&str, CoreModel); 4] = [
+const MODELS: [(&str, CoreModel); 5] = [
     ("cut-off", CoreModel::CutOff { delta: 1e-4 }),
     ("vatistas", CoreModel::Vatistas { radius: 1e-3 }),
     ("scully", CoreModel::Scully { radius: 1e-3 }),
@@ -26,10 +30,17 @@ const MODELS: [(&str, CoreModel); 4] = [
             viscosity: 1.5e-5,
         },
     ),
+    (
+        "algebraic",
+        CoreModel::Algebraic {
+            radius: 1e-3,
+            viscosity: 1.5e-5,
+        },
+    ),
 ];
 
 /// In double precision.
-#[divan::bench(args = InstructionSet::available(), consts = [0, 1, 2, 3], sample_count = 20)]
+#[divan::bench(args = InstructionSet::available(), consts = [0, 1, 2, 3, 4], sample_count = 20)]
 fn network<const MODEL: usize>(bencher: Bencher, set: &InstructionSet) {
     let model = MODELS[MODEL].1;
     let net = wavy::sheet(model, 40);
@@ -51,7 +62,7 @@ fn network<const MODEL: usize>(bencher: Bencher, set: &InstructionSet) {
 }
 
 /// In single precision, the check against double included.
-#[divan::bench(args = InstructionSet::available(), consts = [0, 1, 2, 3], sample_count = 20)]
+#[divan::bench(args = InstructionSet::available(), consts = [0, 1, 2, 3, 4], sample_count = 20)]
 fn single_precision<const MODEL: usize>(bencher: Bencher, set: &InstructionSet) {
     let model = MODELS[MODEL].1;
     let net = wavy::sheet(model, 40);
@@ -72,6 +83,27 @@ fn single_precision<const MODEL: usize>(bencher: Bencher, set: &InstructionSet) 
             let report = pool.install(|| sum.add_velocity(&net.nodes, &mut out));
             assert_eq!(report.method, Method::Single);
         });
+}
+
+/// Velocity and vorticity in a hover-like wake of so many edges, as the wakes of insects are moved: algebraic cores that
+/// widen with age, loading included.
+#[divan::bench(args = [2_000, 10_000, 40_000], consts = [false, true], sample_count = 5, sample_size = 1)]
+fn velocity_and_vorticity<const MESH: bool>(bencher: Bencher, edges: usize) {
+    let model = MODELS[4].1;
+    let mut net = wakes::hover(model, edges);
+    let half = net.nodes.len() / 2;
+    let radius = |k: usize| 0.02 + 0.48 * (k % half) as f64 / half as f64;
+    net.nodes.core = (0..net.nodes.len()).map(|k| radius(k).powi(2)).collect();
+    let mut sum = FastSum::new(FastSettings {
+        method: if MESH { Method::Mesh } else { Method::Single },
+        tolerance: MESH_TOLERANCE,
+        ..FastSettings::new(model)
+    });
+    let [mut velocity, mut vorticity] = [0; 2].map(|_| Points::zeros(net.nodes.len()));
+    bencher.counter(ItemsCount::new(net.len())).bench_local(|| {
+        sum.load_network(&net);
+        sum.add_velocity_and_vorticity(&net.nodes, &mut velocity, &mut vorticity);
+    });
 }
 
 /// The bound: the instructions of the cut-off kernel on a sheet (one new node for two edges) with
