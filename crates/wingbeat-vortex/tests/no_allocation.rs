@@ -31,7 +31,7 @@ fn exact_no_allocation_after_warm_up() {
     });
 }
 
-/// Tree and meshes of algebraic cores.
+/// Tree, meshes and single precision of algebraic cores.
 #[test]
 fn exact_no_allocation_of_algebraic_cores_after_warm_up() {
     let model = CoreModel::Algebraic {
@@ -46,10 +46,14 @@ fn exact_no_allocation_of_algebraic_cores_after_warm_up() {
         Points::zeros(net.nodes.len()),
     ];
     on_one_thread(|| {
-        for method in [Method::Tree, Method::Mesh] {
+        for (method, tolerance) in [
+            (Method::Tree, 1e-3),
+            (Method::Mesh, 1e-3),
+            (Method::Single, 1e-4),
+        ] {
             let mut sum = FastSum::new(FastSettings {
                 method,
-                tolerance: 1e-3,
+                tolerance,
                 ..FastSettings::new(model)
             });
             let mut step = || {

@@ -103,3 +103,53 @@ impl Clone for Network {
         self.core.clone_from(&other.core);
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A line of edges whose nodes have these core radii [m].
+    fn line(radii: &[f64]) -> Network {
+        let mut net = Network::default();
+        for (k, radius) in radii.iter().enumerate() {
+            net.nodes
+                .push_with_core(k as f64 * DVec3::X, radius * radius);
+        }
+        (1..radii.len()).for_each(|k| net.push_edge(k - 1, k, k as f64, 0.5));
+        net
+    }
+
+    #[test]
+    fn exact_networks_after_each_other_keep_their_nodes_and_cores() {
+        let (mut both, other) = (line(&[0.1, 0.2]), line(&[0.3, 0.4, 0.5]));
+        both.append(&other);
+        assert_eq!(both.edges, [[0, 1], [2, 3], [3, 4]]);
+        assert_eq!(both.gamma, [1.0, 1.0, 2.0]);
+        assert_eq!(both.ends(2), other.ends(1));
+        assert_eq!(both.nodes.core[2..], other.nodes.core[..]);
+        let mut none = Network::default();
+        none.append(&other);
+        assert_eq!(none, other);
+    }
+
+    #[test]
+    #[cfg(debug_assertions)]
+    #[should_panic(expected = "cores of some points")]
+    fn refuses_networks_of_which_one_has_cores_at_its_nodes() {
+        let mut bare = line(&[0.1, 0.2]);
+        bare.nodes.core.clear();
+        bare.append(&line(&[0.1, 0.2]));
+    }
+
+    #[test]
+    fn exact_near_networks_differ_in_core_radii_alone() {
+        let net = line(&[0.1, 0.2, 0.3]);
+        let wider = line(&[0.1, 0.2, 0.3 + 1e-3]);
+        assert!(net.is_near(&net, 0.0) && !net.is_near(&wider, 0.0));
+        assert!(net.is_near(&wider, 2e-3) && !net.is_near(&wider, 5e-4));
+        let mut moved = net.clone();
+        moved.nodes.x[1] += 1e-12;
+        assert!(!net.is_near(&moved, 1.0));
+        assert!(!net.is_near(&line(&[0.1, 0.2]), 1.0));
+    }
+}
