@@ -210,13 +210,16 @@ mod tests {
                     |i: usize| Complex::cis(-std::f32::consts::TAU * (i * k % n) as f32 / n as f32);
                 for f in 0..2 {
                     let sum: Complex32 = (0..n - 2).map(|i| value(i, lane)[f] * wave(i)).sum();
-                    assert!((lines.at(k, lane)[f] - sum).norm() < 1e-5, "{k} {lane} {f}");
+                    let error = (lines.at(k, lane)[f] - sum).norm();
+                    println!("transform {error:e}");
+                    assert!(error < 1e-5, "{k} {lane} {f}");
                 }
             }
         }
         lines.transform(&*transform.backward);
         let back = lines.at(4, 1)[0] / n as f32 - value(4, 1)[0];
         assert!(back.norm() < 1e-6);
+        println!("back {:e} {:e}", back.norm(), lines.at(n - 1, 2)[1].norm());
         assert!(lines.at(n - 1, 2)[1].norm() < 1e-5);
     }
 
