@@ -275,6 +275,9 @@ impl Multilevel {
 
     /// Adds what narrow sources do at narrow targets; returns the number of pairs.
     fn sum_near(&mut self, plan: Plan, targets: &Points) -> u64 {
+        if self.narrow.is_empty() {
+            return 0;
+        }
         let near = &mut self.near;
         near.index.clear();
         near.targets.clear();
