@@ -145,9 +145,8 @@ impl Packed {
             return k;
         }
         self.last_seen[g as usize] = k;
-        let cores = &network.nodes.core;
-        let core = cores.get(g as usize).unwrap_or(&network.core[e]);
-        self.look_at(network.nodes.get(g as usize), model.softening(*core))
+        let softening = model.softening(network.core_at(e, g as usize));
+        self.look_at(network.nodes.get(g as usize), softening)
     }
 
     /// Ends the patch if it is full, or if two more nodes would hide one that its edges, or an edge

@@ -212,8 +212,7 @@ impl Interpolation {
     pub fn aim(&mut self, targets: &Points) {
         self.targets.items.clear();
         let items = targets.iter().enumerate().map(|(i, p)| {
-            let soft = targets.core.get(i).map_or(0.0, |core| 0.5 * core);
-            let at = place(p, soft);
+            let at = place(p, targets.softening(i));
             Item {
                 place: at,
                 low: at,
@@ -347,7 +346,6 @@ impl Interpolation {
 fn ends(network: &Network, e: usize) -> [Place; 2] {
     network.edges[e].map(|n| {
         let n = n as usize;
-        let core = network.nodes.core.get(n).unwrap_or(&network.core[e]);
-        place(network.nodes.get(n), 0.5 * core)
+        place(network.nodes.get(n), 0.5 * network.core_at(e, n))
     })
 }

@@ -255,7 +255,7 @@ impl Multilevel {
                 for mesh in meshes {
                     for (k, sum) in sums.iter_mut().enumerate() {
                         let i = TASK * task + k;
-                        let soft = softening(targets, i);
+                        let soft = targets.softening(i);
                         let is_narrow = soft < plan.least;
                         let least = if is_narrow { soft + plan.least } else { soft };
                         if !mesh.is_heard(least) {
@@ -281,7 +281,7 @@ impl Multilevel {
         let near = &mut self.near;
         near.index.clear();
         near.targets.clear();
-        for i in (0..targets.len()).filter(|&i| softening(targets, i) < plan.least) {
+        for i in (0..targets.len()).filter(|&i| targets.softening(i) < plan.least) {
             near.index.push(i as u32);
             let core = targets.core.get(i).copied().unwrap_or(0.0);
             near.targets.push_with_core(targets.get(i), core);
@@ -305,17 +305,11 @@ impl Multilevel {
     }
 }
 
-/// Half the squared core radius of a target \[m2\].
-fn softening(targets: &Points, i: usize) -> f64 {
-    targets.core.get(i).map_or(0.0, |core| 0.5 * core)
-}
-
 /// Filament number e.
 fn source(network: &Network, e: usize) -> Source {
     let (from, to) = network.ends(e);
     let soft = |end: usize| {
-        let n = network.edges[e][end] as usize;
-        0.5 * network.nodes.core.get(n).unwrap_or(&network.core[e])
+        0.5 * network.core_at(e, network.edges[e][end] as usize)
     };
     let along = to - from;
     Source {

@@ -78,6 +78,11 @@ impl Network {
         self.push_edge(first, first + 1, gamma, core);
     }
 
+    /// Regularisation number of edge `e` at its node `n`: that of the node, if nodes have one, or its own.
+    pub(crate) fn core_at(&self, e: usize, n: usize) -> f64 {
+        *self.nodes.core.get(n).unwrap_or(&self.core[e])
+    }
+
     /// Start and end of edge `e` \[m\].
     pub fn ends(&self, e: usize) -> (DVec3, DVec3) {
         let [i, j] = self.edges[e];

@@ -43,6 +43,11 @@ impl Points {
         DVec3::new(self.x[i], self.y[i], self.z[i])
     }
 
+    /// What softens distances from point `i`: half its squared core radius \[m2\], nothing at a bare point.
+    pub(crate) fn softening(&self, i: usize) -> f64 {
+        self.core.get(i).map_or(0.0, |core| 0.5 * core)
+    }
+
     /// Overwrites point `i`.
     pub fn set(&mut self, i: usize, p: DVec3) {
         (self.x[i], self.y[i], self.z[i]) = (p.x, p.y, p.z);
