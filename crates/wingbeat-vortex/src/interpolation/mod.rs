@@ -18,7 +18,7 @@
 //! targets.
 
 mod boxes;
-pub(crate) mod gaussians;
+mod gaussians;
 mod grid;
 mod pairs;
 #[cfg(test)]
@@ -30,6 +30,7 @@ use crate::direct::block::{BLOCK, Block, Targets};
 use crate::direct::moments;
 use crate::direct::packed::Packed;
 use crate::direct::single::Single;
+use crate::quadrature::gauss_legendre;
 use crate::sources::{Network, Points};
 use boxes::{Boxes, Item, Shape};
 use fearless_simd::Level;
@@ -120,7 +121,7 @@ impl Interpolation {
             grid: Grid::new(fineness.points),
             level,
             model,
-            quadrature: crate::tree::gauss_legendre(fineness.points[0] / 2 + 1),
+            quadrature: gauss_legendre(fineness.points[0] / 2 + 1),
             sources: Boxes::default(),
             packed: Packed::default(),
             single: Single::default(),

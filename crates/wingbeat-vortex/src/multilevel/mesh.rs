@@ -1,6 +1,6 @@
 //! One Gaussian on its mesh: filaments spread their strengths, the mesh is convolved, targets read it.
 
-use crate::interpolation::gaussians::exp_minus;
+use crate::cores::exp2::exp_minus;
 use crate::multilevel::convolution::{Both, Convolution, Node, Room};
 use crate::multilevel::spline::{ORDER, Stencil, weights};
 use fearless_simd::{Level, Simd, dispatch, f32x8, prelude::*};

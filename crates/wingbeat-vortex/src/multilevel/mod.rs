@@ -35,6 +35,7 @@ use crate::direct::moments;
 use crate::direct::packed::Packed;
 use crate::direct::single::{CLUSTER, Single};
 use crate::direct::sum::sum_both;
+use crate::quadrature::gauss_legendre;
 use crate::sources::{Network, Points};
 use fearless_simd::{Level, dispatch};
 use glam::DVec3;
@@ -111,7 +112,7 @@ impl Multilevel {
             model,
             stencils: FINENESS.map(|(width, reach)| Stencil::new(width, reach)),
             quadrature: (1..=mesh::MOST_POINTS)
-                .map(crate::tree::gauss_legendre)
+                .map(gauss_legendre)
                 .collect(),
             plan: None,
             box_of_sources: [[0.0; 3]; 2],

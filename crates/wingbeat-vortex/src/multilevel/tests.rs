@@ -6,6 +6,7 @@ use super::mesh::{Mesh, Source, Spreading};
 use super::plan::{FINENESS, Plan, fineness, spacing};
 use super::spline::{ORDER, Stencil, weights};
 use crate::instruction_set::InstructionSet;
+use crate::quadrature::gauss_legendre;
 use glam::DVec3;
 
 #[test]
@@ -159,9 +160,9 @@ fn exact_filament_on_the_mesh_of_a_gaussian() {
     };
     let level = InstructionSet::best();
     let quadrature: Vec<_> = (1..=super::mesh::MOST_POINTS)
-        .map(crate::tree::gauss_legendre)
+        .map(gauss_legendre)
         .collect();
-    let fine = crate::tree::gauss_legendre(20);
+    let fine = gauss_legendre(20);
     for k in 0..3 {
         let t = 4.0 / 0.25 / 2.4_f64.powi(k as i32);
         let (width, reach) = FINENESS[fineness(k)];
