@@ -37,6 +37,7 @@ mod instruction_set;
 mod interpolation;
 mod multilevel;
 mod particle_mesh;
+mod preorder;
 mod quadrature;
 mod sources;
 mod tree;

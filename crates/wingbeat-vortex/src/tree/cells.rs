@@ -4,6 +4,7 @@ use crate::cores::CoreModel;
 use crate::cores::INV_4PI;
 use crate::direct::packed::Packed;
 use crate::direct::single::Single;
+use crate::preorder::children;
 use crate::sources::Network;
 use crate::tree::harmonics::{Coefficient, Harmonics};
 use fearless_simd::{Level, dispatch};
@@ -134,10 +135,7 @@ impl Cells {
 
     /// The children of cell `c`, None if it is a leaf.
     pub fn children(&self, c: usize) -> Option<[usize; 2]> {
-        match self.cells[c].leaves.len() {
-            1 => None,
-            leaves => Some([c + 1, c + 2 * (leaves / 2)]),
-        }
+        children(c, self.cells[c].leaves.len())
     }
 }
 
