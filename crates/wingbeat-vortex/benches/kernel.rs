@@ -85,8 +85,8 @@ fn single_precision<const MODEL: usize>(bencher: Bencher, set: &InstructionSet) 
         });
 }
 
-/// Velocity and vorticity in a hover-like wake of so many edges, as the wakes of insects are moved: algebraic cores that
-/// widen with age, loading included.
+/// Velocity and vorticity in a hover-like wake of so many edges, as the wakes of insects are moved: algebraic cores
+/// that widen with age, loading included.
 #[divan::bench(args = [2_000, 10_000, 40_000], consts = [false, true], sample_count = 5, sample_size = 1)]
 fn velocity_and_vorticity<const MESH: bool>(bencher: Bencher, edges: usize) {
     let model = MODELS[4].1;

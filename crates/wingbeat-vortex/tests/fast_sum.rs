@@ -6,9 +6,7 @@ mod soft;
 mod wakes;
 
 use wingbeat_vortex::DVec3;
-use wingbeat_vortex::{
-    CoreModel, FastSettings, FastSum, InstructionSet, Method, Network, Points,
-};
+use wingbeat_vortex::{CoreModel, FastSettings, FastSum, InstructionSet, Method, Network, Points};
 
 use common::{bits, direct, error};
 

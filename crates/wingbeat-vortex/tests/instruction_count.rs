@@ -8,9 +8,7 @@ mod wavy;
 
 use std::process::Command;
 use wingbeat_vortex::DVec3;
-use wingbeat_vortex::{
-    CoreModel, FastSettings, FastSum, InstructionSet, Method, Points,
-};
+use wingbeat_vortex::{CoreModel, FastSettings, FastSum, InstructionSet, Method, Points};
 
 const MODEL: &str = "WINGBEAT_COUNTED_MODEL";
 const SUMS: &str = "WINGBEAT_COUNTED_SUMS";

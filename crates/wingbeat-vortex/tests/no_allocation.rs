@@ -4,9 +4,7 @@ mod wakes;
 
 use allocation_counter::measure;
 use wingbeat_vortex::DVec3;
-use wingbeat_vortex::{
-    Blob, CoreModel, FastSettings, FastSum, GaussianSum, Method, Points,
-};
+use wingbeat_vortex::{Blob, CoreModel, FastSettings, FastSum, GaussianSum, Method, Points};
 
 #[test]
 fn exact_no_allocation_after_warm_up() {

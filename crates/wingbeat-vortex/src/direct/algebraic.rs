@@ -274,7 +274,10 @@ mod tests {
             let size = slope.iter().map(|s| s.length()).sum::<f64>();
             // Differences of second order: e^2 over the core squared.
             let errors = [along - classical.get(i), across - transpose.get(i)];
-            println!("slopes {:e}", errors[0].length().max(errors[1].length()) / size);
+            println!(
+                "slopes {:e}",
+                errors[0].length().max(errors[1].length()) / size
+            );
             assert!(errors.iter().all(|e| e.length() < 1e-5 * size));
         }
     }

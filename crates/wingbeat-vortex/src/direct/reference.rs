@@ -71,7 +71,7 @@ pub fn segment_velocity(
 /// The part of l^2 below which t^2 - l^2 is too small a difference: it keeps ten digits.
 pub(crate) const CLOSE: f64 = 1e-6;
 
-/// Adds to `out` the velocities \[m/s\] of all edges at all targets, one after the other.
+/// Adds to `out` the velocities \[m/s\] of all edges at all targets, one after the other, with the edges' own cores.
 pub fn add_velocity(model: CoreModel, network: &Network, targets: &Points, out: &mut Points) {
     for t in 0..targets.len() {
         let p = targets.get(t);

@@ -15,8 +15,8 @@ const AUTO_EDGES: usize = 25_000;
 /// Edges from which meshes may gain more than their check costs; measured.
 const MESH_EDGES: usize = 8_000;
 
-/// The tolerance from which [`Method::Mesh`] serves, and [`Method::Tree`] of algebraic cores. Below it, single precision
-/// takes less time than a finer interpolation.
+/// The tolerance from which [`Method::Mesh`] serves, and [`Method::Tree`] of algebraic cores. Below it, single
+/// precision takes less time than a finer interpolation.
 pub const MESH_TOLERANCE: f64 = 1e-3;
 
 /// What sums of leaves cost in pairs of the sum in single precision, which finds more nodes in sight, in tenths.

@@ -111,9 +111,7 @@ impl Multilevel {
             level,
             model,
             stencils: FINENESS.map(|(width, reach)| Stencil::new(width, reach)),
-            quadrature: (1..=mesh::MOST_POINTS)
-                .map(gauss_legendre)
-                .collect(),
+            quadrature: (1..=mesh::MOST_POINTS).map(gauss_legendre).collect(),
             plan: None,
             box_of_sources: [[0.0; 3]; 2],
             widest: 0.0,
@@ -309,9 +307,7 @@ impl Multilevel {
 /// Filament number e.
 fn source(network: &Network, e: usize) -> Source {
     let (from, to) = network.ends(e);
-    let soft = |end: usize| {
-        0.5 * network.core_at(e, network.edges[e][end] as usize)
-    };
+    let soft = |end: usize| 0.5 * network.core_at(e, network.edges[e][end] as usize);
     let along = to - from;
     Source {
         from: from.to_array(),

@@ -159,9 +159,7 @@ fn exact_filament_on_the_mesh_of_a_gaussian() {
         index: 0,
     };
     let level = InstructionSet::best();
-    let quadrature: Vec<_> = (1..=super::mesh::MOST_POINTS)
-        .map(gauss_legendre)
-        .collect();
+    let quadrature: Vec<_> = (1..=super::mesh::MOST_POINTS).map(gauss_legendre).collect();
     let fine = gauss_legendre(20);
     for k in 0..3 {
         let t = 4.0 / 0.25 / 2.4_f64.powi(k as i32);

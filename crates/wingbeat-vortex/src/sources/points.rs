@@ -111,7 +111,10 @@ impl Points {
     /// Appends the points of `other`, with their cores; either both have some, or none.
     pub fn append(&mut self, other: &Self) {
         let is_alike = self.core.is_empty() == other.core.is_empty();
-        debug_assert!(self.is_empty() || other.is_empty() || is_alike, "cores of some points");
+        debug_assert!(
+            self.is_empty() || other.is_empty() || is_alike,
+            "cores of some points"
+        );
         self.x.extend_from_slice(&other.x);
         self.y.extend_from_slice(&other.y);
         self.z.extend_from_slice(&other.z);
