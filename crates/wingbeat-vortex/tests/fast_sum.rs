@@ -168,9 +168,8 @@ fn limit_a_whole_wake_from_afar_is_one_cell() {
     fast.load_network(&net);
     let mut v = Points::zeros(at.len());
     let report = fast.add_velocity(&at, &mut v);
-    println!("afar: {:?}", error(&v, &exact));
-    // A group of 64 sees from all around; the wake's part 7 is (2 / 400)^6 of the first.
-    assert!(error(&v, &exact).1 < 1e-4, "{:?}", error(&v, &exact));
+    // The first part left out is (2 / 400)^6 of the first; a wake of rings has little of that. Measured 4e-11.
+    assert!(error(&v, &exact).1 < 1e-10, "{:?}", error(&v, &exact));
     assert!(report.far <= 3 * 300 && report.near == 0, "{report:?}");
 }
 
@@ -199,7 +198,15 @@ fn agrees_in_single_precision_for_every_core_model() {
         // parts of its distance, which is a thousandth of an edge at the worst of these.
         assert_eq!(report.method, Method::Single);
         println!("{model:?} {rms:e} {max:e}");
-        assert!(rms < 3e-5 && max < 2e-3, "{model:?} {rms:e} {max:e}");
+        let allowed = match model {
+            CoreModel::CutOff { .. } => [4e-5, 2e-3],
+            CoreModel::Algebraic { .. } => [4e-5, 2e-4],
+            _ => [1e-6, 4e-5], // wider than that beside the filament
+        };
+        assert!(
+            rms < allowed[0] && max < allowed[1],
+            "{model:?} {rms:e} {max:e}"
+        );
         assert!(
             (1e-8..5e-5).contains(&report.error_rms),
             "{model:?} {report:?}"
@@ -297,6 +304,5 @@ fn exact_no_sources_no_targets_and_all_in_one_place() {
         .collect();
     let (mut v, exact) = (Points::zeros(500), direct(model, &heap, &at));
     fast.add_velocity(&at, &mut v);
-    println!("heap: {:e}", error(&v, &exact).0);
-    assert!(error(&v, &exact).0 < 1e-4 && v.z[0] > 0.0);
+    assert!(error(&v, &exact).0 < 1e-6 && v.z[0] > 0.0); // roundings of single precision
 }

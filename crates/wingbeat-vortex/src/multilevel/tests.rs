@@ -141,8 +141,7 @@ fn agrees_convolution_with_the_sum_over_nodes() {
                 }
                 let [wx, wy, wz, _, ux, uy, uz, _] = out.map(f64::from);
                 let error = w.distance(DVec3::new(wx, wy, wz)) + u.distance(DVec3::new(ux, uy, uz));
-                println!("planes {error:e}");
-                assert!(error < 2e-5, "{width} {to:?}: {error:e}"); // roundings of single precision
+                assert!(error < 5e-6, "{width} {to:?}: {error:e}"); // roundings of single precision
             }
         }
     }

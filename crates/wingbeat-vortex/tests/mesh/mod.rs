@@ -179,7 +179,7 @@ fn invariant_of_what_was_summed_before() {
     assert_eq!(both(&mut used, &small.nodes), expected);
 }
 
-/// Beside the plane halfway between two opposite lines vorticities cancel to a thousandth: there that of meshes is
+/// Beside the plane halfway between two opposite lines vorticities cancel to a few parts of ten thousand: there that of meshes is
 /// above the tolerance, and single precision takes over.
 #[test]
 fn exact_single_precision_where_meshes_do_not_keep_the_tolerance() {
@@ -194,15 +194,17 @@ fn exact_single_precision_where_meshes_do_not_keep_the_tolerance() {
     }
     let mut at = Points::default();
     for k in 0..1200 {
-        let [x, y, z] = [1.3, 2.1, 0.7].map(|f| (f * f64::from(k)).sin());
-        at.push_with_core(DVec3::new(2.0 + x, 1e-3 * y, z), 0.1);
+        let [x, y] = [1.3, 2.1].map(|f| (f * f64::from(k)).sin());
+        at.push_with_core(DVec3::new(2.0 + x, 2e-4 * y, 0.0), 0.1);
     }
     let [mut mesh, mut single, mut direct] =
         [Method::Mesh, Method::Single, Method::Direct].map(|m| loaded(m, &net));
     assert_eq!(velocity(&mut mesh, &at).1.method, Method::Mesh);
     let [by_mesh, by_single, exact] = [&mut mesh, &mut single, &mut direct].map(|s| both(s, &at));
-    assert_eq!(by_mesh, by_single);
-    assert!(by_single != exact && error(&by_single[1], &exact[1]).0 < MESH_TOLERANCE);
+    assert!(by_mesh == by_single, "the same bits");
+    let rms = error(&by_single[1], &exact[1]).0;
+    println!("{rms:e}");
+    assert!(0.0 < rms && rms < MESH_TOLERANCE, "{rms:e}");
 }
 
 /// Targets beside the sources enlarge the meshes; far away ones, and sources that no mesh serves, are summed
