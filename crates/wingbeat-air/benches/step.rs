@@ -36,11 +36,33 @@ impl Flight {
 
     /// With so many panels along chord and span, their shape at rest given or not.
     fn of(panels: [usize; 2], rest: bool, steps: usize) -> Self {
+        Self::with(panels, rest, steps, |_| {})
+    }
+
+    /// As insects fly: algebraic cores, wakes in single precision.
+    fn of_algebraic_cores(steps: usize) -> Self {
+        let core = CoreModel::Algebraic {
+            radius: 0.05,
+            viscosity: 1e-3,
+        };
+        Self::with([5, 10], true, steps, |settings| {
+            (settings.bound_core, settings.wake_core) = (core, core);
+            settings.summation = Method::Auto;
+        })
+    }
+
+    /// With these settings changed.
+    fn with(
+        panels: [usize; 2],
+        rest: bool,
+        steps: usize,
+        change: impl Fn(&mut AirSettings),
+    ) -> Self {
         let core = CoreModel::LambOseen {
             radius: 0.05,
             viscosity: 1e-3,
         };
-        let settings = AirSettings {
+        let mut settings = AirSettings {
             bound_core: core,
             wake_core: core,
             wake_overlap: 1.0,
@@ -53,6 +75,7 @@ impl Flight {
             summation: Method::Direct,
             ..AirSettings::accurate(1.2, DVec3::ZERO)
         };
+        change(&mut settings);
         let wings = [("right", 1.0), ("left", -1.0)].map(|(name, side)| {
             let surface = Surface::grid(name, panels[0], panels[1]);
             match rest {
@@ -141,6 +164,15 @@ fn influence_of_fine_wings<const REST: bool>(bencher: Bencher, panels: [usize; 2
 #[divan::bench(args = [20, 40, 80])]
 fn step(bencher: Bencher, rows: usize) {
     let mut flight = Flight::new(rows);
+    bencher
+        .counter(ItemsCount::new(50 * rows))
+        .bench_local(|| flight.step());
+}
+
+/// The same as insects fly.
+#[divan::bench(args = [20, 40, 80])]
+fn step_of_algebraic_cores(bencher: Bencher, rows: usize) {
+    let mut flight = Flight::of_algebraic_cores(rows);
     bencher
         .counter(ItemsCount::new(50 * rows))
         .bench_local(|| flight.step());

@@ -6,8 +6,10 @@ use crate::loads::Segments;
 use crate::solve::BoundaryCondition;
 use crate::wake::{Filaments, Sums, WakeMotion};
 
-/// Scratch memory of the air, good for any lattice: no result depends on what it held before. What is known of
-/// the shapes of a lattice is computed when it is first used.
+/// Scratch memory of the air, good for any lattice: no result depends on what it held before, but for the velocity of
+/// the free wakes at places that have moved by less than 1e-5 of a panel since it was last summed there, which is
+/// taken again. Finite differences with steps as small as that lack its gradient; a workspace each has it. What is
+/// known of the shapes of a lattice is computed when it is first used.
 #[derive(Default)]
 pub struct AirWorkspace {
     pub(crate) filaments: Filaments,

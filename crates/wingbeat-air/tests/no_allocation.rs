@@ -3,7 +3,7 @@
 use allocation_counter::measure;
 use wingbeat_air::{
     AirLoads, AirSettings, AirState, AirWorkspace, Lattice, LeadingEdge, LoadMethod, NodeMotion,
-    Surface, VortexLift, WakeSheet,
+    ParticleSettings, Stretching, Surface, VortexLift, WakeSheet,
 };
 use wingbeat_math::DVec3;
 use wingbeat_vortex::Method;
@@ -150,6 +150,28 @@ fn exact_no_allocation_in_steps_with_vortex_lift() {
         flight.rise = 1.0; // at 45 degrees at first
         (0..20).for_each(|_| flight.step());
         let five = measure(|| (0..5).for_each(|_| flight.step()));
+        assert_eq!(five.count_total, 0);
+    });
+}
+
+/// Rows become particles, and the oldest of these go.
+#[test]
+fn exact_no_allocation_in_steps_of_particles_that_come_and_go() {
+    on_one_thread(|| {
+        let mut flight = Flight::with(4, None, Method::Direct, |s| {
+            s.max_age = Some(3.0);
+            s.particles = Some(ParticleSettings {
+                after: Some(4),
+                leading_at_once: false,
+                radius: 1.0, // one for each filament
+                viscosity: 0.0,
+                stretching: Stretching::Transpose,
+            });
+        });
+        (0..40).for_each(|_| flight.step());
+        let before = flight.state.events.dropped_particles;
+        let five = measure(|| (0..5).for_each(|_| flight.step()));
+        assert!(flight.state.events.dropped_particles > before);
         assert_eq!(five.count_total, 0);
     });
 }

@@ -13,7 +13,7 @@ mod wakes;
 
 use std::time::Instant;
 use wingbeat_vortex::{
-    CoreModel, DirectSum, FastSettings, FastSum, Method, Network, Points, Report,
+    CoreModel, FastSettings, FastSum, Method, Network, Points, Report, add_velocity,
 };
 
 fn main() {
@@ -112,10 +112,8 @@ fn print_row(
 ) {
     let (n, part) = (net.nodes.len(), net.nodes.len().min(2048));
     let some: Points = (0..part).map(|i| net.nodes.get(i * n / part)).collect();
-    let mut direct = DirectSum::new(model);
-    direct.load_network(net);
     let mut exact = Points::zeros(part);
-    let (seconds, _, ()) = timed(|| direct.add_velocity(&some, &mut exact));
+    let (seconds, _, ()) = timed(|| add_velocity(model, net, &some, &mut exact));
     let all = seconds * n as f64 / part as f64;
     let error = |i: usize| exact.get(i).distance_squared(v.get(i * n / part));
     let square = exact.iter().map(|v| v.length_squared()).sum::<f64>() / part as f64;

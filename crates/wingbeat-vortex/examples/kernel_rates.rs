@@ -7,7 +7,7 @@
 use fearless_simd::dispatch;
 use std::hint::black_box;
 use std::time::Instant;
-use wingbeat_vortex::{CoreModel, DirectSum, InstructionSet, Points};
+use wingbeat_vortex::{CoreModel, FastSettings, FastSum, InstructionSet, Method, Points};
 
 #[path = "../benches/mix/mod.rs"]
 mod mix;
@@ -30,7 +30,11 @@ fn rates(set: InstructionSet) {
     let net = wavy::sheet(model, 40);
     let targets =
         Points::from_iter((0..256).map(|i| wingbeat_vortex::DVec3::splat(i as f64 / 256.0)));
-    let mut sum = DirectSum::with_instructions(model, set).expect("available");
+    let mut sum = FastSum::new(FastSettings {
+        method: Method::Direct,
+        instructions: set,
+        ..FastSettings::new(model)
+    });
     sum.load_network(&net);
     let mut out = Points::zeros(targets.len());
     let pairs = net.len() * targets.len();
@@ -41,7 +45,9 @@ fn rates(set: InstructionSet) {
         let mixed = time(|| {
             dispatch!(level, simd => black_box(mix::mix(simd, black_box(0.3), edges)));
         });
-        let summed = time(|| sum.add_velocity(black_box(&targets), &mut out));
+        let summed = time(|| {
+            sum.add_velocity(black_box(&targets), &mut out);
+        });
         seen.push([mixed, summed].map(|seconds| pairs as f64 / seconds / 1e6));
     }
     let sorted = |of: &dyn Fn(&[f64; 2]) -> f64| {

@@ -5,6 +5,7 @@ mod settings;
 mod soft;
 
 pub use settings::{FastSettings, Method, Report};
+pub use soft::MESH_TOLERANCE;
 
 use crate::cores::CoreModel;
 use crate::direct::lanes::{add_clusters, add_patches_with_vorticity};
@@ -15,7 +16,7 @@ use crate::direct::sum::{sum_all, sum_both, sum_packed};
 use crate::fast::check::{Check, SAMPLES};
 use crate::fast::soft::Soft;
 use crate::instruction_set::InstructionSet;
-use crate::sources::{Network, Points, Segments};
+use crate::sources::{Network, Points};
 use crate::tree::cells::Cells;
 use crate::tree::groups::Groups;
 use fearless_simd::Level;
@@ -46,9 +47,6 @@ const FAR: u64 = 160;
 
 /// How many times single precision is as fast.
 const SINGLE_GAIN: u64 = 2;
-
-/// The tolerance from which [`Method::Mesh`] serves.
-pub const MESH_TOLERANCE: f64 = soft::TOLERANCE;
 
 /// Attempts at the tolerance before the direct sum takes over.
 const ATTEMPTS: usize = 6;
@@ -84,12 +82,14 @@ pub struct FastSum {
     /// Velocities and vorticities in single precision, before they are checked.
     velocity: Points,
     vorticity: Points,
+    /// The sources, of which the tree is made when a sum first asks for it.
+    network: Network,
     cells: Cells,
     has_tree: bool,
+    is_grown: bool,
     groups: Groups,
     /// What serves wide algebraic cores.
     soft: Soft,
-    segments: Network,
 }
 
 impl FastSum {
@@ -99,7 +99,6 @@ impl FastSum {
         let level = level.unwrap_or_else(InstructionSet::best);
         let is_single = settings.tolerance >= SINGLE;
         let cells = Cells::new(settings.model, level, order(settings.tolerance), is_single);
-        let (groups, segments) = (Groups::default(), Network::default());
         Self {
             settings,
             level,
@@ -108,11 +107,12 @@ impl FastSum {
             has_single: false,
             velocity: Points::default(),
             vorticity: Points::default(),
+            network: Network::default(),
             cells,
             has_tree: false,
-            groups,
+            is_grown: false,
+            groups: Groups::default(),
             soft: Soft::new(&settings, level),
-            segments,
         }
     }
 
@@ -121,8 +121,15 @@ impl FastSum {
         &self.settings
     }
 
+    /// Whether it holds these sources, but for core radii of nodes that differ by no more than `near` \[m\].
+    pub fn holds(&self, network: &Network, near: f64) -> bool {
+        self.network.is_near(network, near)
+    }
+
     /// Replaces the sources.
     pub fn load_network(&mut self, network: &Network) {
+        self.network.clone_from(network);
+        self.is_grown = false;
         let FastSettings {
             method,
             model,
@@ -131,14 +138,15 @@ impl FastSum {
         } = self.settings;
         let has_cells = |least: usize| match method {
             Method::Auto => network.len() >= least,
-            Method::Direct | Method::Single => false,
-            Method::Tree | Method::Mesh => !network.is_empty(),
+            Method::Direct | Method::Single | Method::Mesh => false,
+            Method::Tree => !network.is_empty(),
         };
         self.soft.load(method, network);
         self.has_tree = !self.soft.serves() && has_cells(AUTO_EDGES);
         let may_be_single = match method {
             Method::Auto | Method::Single | Method::Mesh => true,
-            Method::Tree => self.soft.serves(),
+            // The expansions know no vorticities, which such cores are asked for.
+            Method::Tree => matches!(model, CoreModel::Algebraic { .. }),
             Method::Direct => false,
         };
         self.has_single = may_be_single && network.len() >= SINGLE_EDGES && tolerance >= SINGLE;
@@ -146,23 +154,12 @@ impl FastSum {
             true => self.packed.load_network(model, network),
             false => self.packed.load_moving(model, network),
         }
-        if self.has_tree {
-            self.cells.load(network);
-        }
         if self.has_single {
             let patches = self.packed.patches.len();
             let clusters = (0..patches).step_by(CLUSTER);
             let clusters = clusters.map(|first| first..patches.min(first + CLUSTER));
             self.single.load(model, &self.packed, clusters);
         }
-    }
-
-    /// Replaces the sources by free segments; a network is summed twice as fast.
-    pub fn load_segments(&mut self, segments: &Segments) {
-        let mut network = std::mem::take(&mut self.segments);
-        network.set_segments(segments);
-        self.load_network(&network);
-        self.segments = network;
     }
 
     /// Whether expansions and meshes cost more than they gain at so few targets.
@@ -174,9 +171,9 @@ impl FastSum {
     /// Adds to `out` \[m/s\] the velocity of all sources at the `targets` \[m\].
     pub fn add_velocity(&mut self, targets: &Points, out: &mut Points) -> Report {
         assert_eq!(targets.len(), out.len(), "as many velocities as targets");
-        let few = self.settings.method == Method::Auto && targets.len() < AUTO_TARGETS;
+        let few = self.is_few(targets);
         let has_tree = self.has_tree && !few;
-        let has_soft = self.soft.is_loaded() && !self.is_few(targets);
+        let has_soft = self.soft.is_loaded() && !few;
         let has_single = self.has_single && targets.len() >= SINGLE_TARGETS;
         if targets.is_empty() || !(has_tree || has_soft || has_single) {
             return self.add_direct(targets, out, 0);
@@ -190,6 +187,10 @@ impl FastSum {
             }
         }
         if has_tree {
+            if !self.is_grown {
+                self.cells.load(&self.network);
+                self.is_grown = true;
+            }
             self.groups.load(targets);
             match self.find_allowed(&check) {
                 Ok((allowed, made, error)) => {
@@ -266,8 +267,8 @@ impl FastSum {
         targets: &Points,
         out: (&mut Points, Option<&mut Points>),
     ) -> Result<Report, usize> {
-        let how = (&self.settings, self.packed.edges.len());
-        self.soft.add(check, targets, how, out)
+        let sources = (&self.network, self.packed.edges.len());
+        (self.soft).add(check, targets, (&self.settings, sources), out)
     }
 
     /// Error in single precision at the sampled targets, root mean square and largest, of the velocities and, where the

@@ -21,8 +21,8 @@ const POINT: usize = 150;
 /// Largest number of nodes of the finest mesh: some 4 GB of memory in all. A few blobs far off must not ask for more.
 const MAX_NODES: usize = 30_000_000;
 
-/// Tolerance from which a mesh may be used: finer ones are worth a trial.
-const MESH_TOLERANCE: f64 = 5e-6;
+/// Tolerance from which a mesh may be used: finer ones are not worth a trial.
+const FINEST: f64 = 5e-6;
 
 /// Targets at which the mesh is checked against the sum one by one.
 const SAMPLES: usize = 16;
@@ -151,7 +151,7 @@ impl GaussianSum {
         out: &mut Points,
     ) -> GaussianReport {
         assert_eq!(targets.len(), out.len(), "as many velocities as targets");
-        if tolerance < MESH_TOLERANCE || !self.gains_by_mesh() {
+        if tolerance < FINEST || !self.gains_by_mesh() {
             return self.add_each(targets, out);
         }
         let mut velocity = std::mem::take(&mut self.velocity);

@@ -16,10 +16,9 @@
 //!
 //! Vectors are in the inertial frame N.
 //!
-//! Two sums: [`DirectSum`] takes every segment at every target; [`FastSum`] does so in single precision, or
-//! sums far segments by the cells of a tree, expansions of bare filaments or interpolation of the kernel of
-//! wide ones, or wide filaments of algebraic cores by Gaussians on meshes, to a tolerance that it checks at
-//! every call.
+//! One sum, [`FastSum`], takes every segment at every target, in double or in single precision, or sums far
+//! segments by the cells of a tree, expansions of bare filaments or interpolation of the kernel of wide ones,
+//! or wide filaments of algebraic cores by Gaussians on meshes, to a tolerance that it checks at every call.
 //!
 //! Two more sum over vortex blobs: [`GaussianSum`] one by one or on a mesh, [`AlgebraicSum`] one by one, with the rate
 //! at which blobs stretch each other.
@@ -38,14 +37,16 @@ mod instruction_set;
 mod interpolation;
 mod multilevel;
 mod particle_mesh;
+mod preorder;
+mod quadrature;
 mod sources;
 mod tree;
 
 pub use cores::{CoreModel, LAMB_ALPHA};
 pub use direct::reference;
-pub use direct::{AlgebraicSum, BLOCK, DirectSum, Stretching, UnitEdges, WINDOW, add_velocity};
+pub use direct::{AlgebraicSum, BLOCK, Stretching, UnitEdges, WINDOW, add_velocity};
 pub use fast::{FastSettings, FastSum, MESH_TOLERANCE, Method, Report};
 pub use gaussian_sum::{GaussianReport, GaussianSum};
 pub use glam::DVec3;
 pub use instruction_set::InstructionSet;
-pub use sources::{Blob, Network, Points, Segments};
+pub use sources::{Blob, Network, Points};

@@ -6,9 +6,7 @@ mod soft;
 mod wakes;
 
 use wingbeat_vortex::DVec3;
-use wingbeat_vortex::{
-    CoreModel, FastSettings, FastSum, InstructionSet, Method, Network, Points, Segments,
-};
+use wingbeat_vortex::{CoreModel, FastSettings, FastSum, InstructionSet, Method, Network, Points};
 
 use common::{bits, direct, error};
 
@@ -170,8 +168,8 @@ fn limit_a_whole_wake_from_afar_is_one_cell() {
     fast.load_network(&net);
     let mut v = Points::zeros(at.len());
     let report = fast.add_velocity(&at, &mut v);
-    // A group of 64 sees from all around; the wake's part 7 is (2 / 400)^6 of the first.
-    assert!(error(&v, &exact).1 < 1e-4, "{:?}", error(&v, &exact));
+    // The first part left out is (2 / 400)^6 of the first; a wake of rings has little of that. Measured 4e-11.
+    assert!(error(&v, &exact).1 < 1e-10, "{:?}", error(&v, &exact));
     assert!(report.far <= 3 * 300 && report.near == 0, "{report:?}");
 }
 
@@ -199,7 +197,16 @@ fn agrees_in_single_precision_for_every_core_model() {
         // A rounding is 6e-8 of a cluster some thirty edges wide; a target beside a filament feels it in
         // parts of its distance, which is a thousandth of an edge at the worst of these.
         assert_eq!(report.method, Method::Single);
-        assert!(rms < 3e-5 && max < 2e-3, "{model:?} {rms:e} {max:e}");
+        println!("{model:?} {rms:e} {max:e}");
+        let allowed = match model {
+            CoreModel::CutOff { .. } => [4e-5, 2e-3],
+            CoreModel::Algebraic { .. } => [4e-5, 2e-4],
+            _ => [1e-6, 4e-5], // wider than that beside the filament
+        };
+        assert!(
+            rms < allowed[0] && max < allowed[1],
+            "{model:?} {rms:e} {max:e}"
+        );
         assert!(
             (1e-8..5e-5).contains(&report.error_rms),
             "{model:?} {report:?}"
@@ -249,6 +256,25 @@ fn exact_auto_takes_the_sum_that_is_fastest_at_its_size() {
     }
 }
 
+/// Meshes serve algebraic cores alone, from a tolerance on.
+#[test]
+fn exact_single_precision_where_meshes_do_not_serve() {
+    for model in MODELS {
+        let net = wakes::hover(model, 5_000);
+        let [mesh, single] = [Method::Mesh, Method::Single].map(|method| {
+            let mut fast = FastSum::new(FastSettings {
+                method,
+                ..FastSettings::new(model)
+            });
+            fast.load_network(&net);
+            let mut v = Points::zeros(net.nodes.len());
+            (fast.add_velocity(&net.nodes, &mut v), bits(&v))
+        });
+        assert_eq!(mesh, single, "{model:?}");
+        assert_eq!(mesh.0.method, Method::Single);
+    }
+}
+
 #[test]
 fn exact_nothing_moves_where_nothing_turns() {
     let model = MODELS[1];
@@ -269,27 +295,14 @@ fn exact_no_sources_no_targets_and_all_in_one_place() {
     let mut v = Points::zeros(3);
     fast.add_velocity(&Points::zeros(3), &mut v);
     assert_eq!(v, Points::zeros(3));
-    let mut heap = Segments::default();
-    (0..500).for_each(|i| heap.push(DVec3::X, DVec3::Y, 1.0 / (1 + i) as f64, 4e-4));
-    fast.load_segments(&heap);
+    let mut heap = Network::default();
+    (0..500).for_each(|i| heap.push_segment(DVec3::X, DVec3::Y, 1.0 / (1 + i) as f64, 4e-4));
+    fast.load_network(&heap);
     fast.add_velocity(&Points::default(), &mut Points::default());
     let at: Points = (0..500)
         .map(|i| DVec3::new(0.0, 0.0, (i % 2) as f64))
         .collect();
-    let (mut v, mut exact) = (Points::zeros(500), Points::zeros(500));
+    let (mut v, exact) = (Points::zeros(500), direct(model, &heap, &at));
     fast.add_velocity(&at, &mut v);
-    wingbeat_vortex::add_velocity(model, &heap, &at, &mut exact);
-    assert!(error(&v, &exact).0 < 1e-4 && v.z[0] > 0.0);
-}
-
-#[test]
-fn agrees_for_free_segments_too() {
-    let model = MODELS[1];
-    let net = wakes::hover(model, 8_000);
-    let exact = direct(model, &net, &net.nodes);
-    let mut fast = FastSum::new(tree(model));
-    fast.load_segments(&net.to_segments());
-    let mut v = Points::zeros(exact.len());
-    fast.add_velocity(&net.nodes, &mut v);
-    assert!(error(&v, &exact).0 < 1e-4);
+    assert!(error(&v, &exact).0 < 1e-6 && v.z[0] > 0.0); // roundings of single precision
 }

@@ -8,9 +8,7 @@ mod wavy;
 
 use std::process::Command;
 use wingbeat_vortex::DVec3;
-use wingbeat_vortex::{
-    CoreModel, DirectSum, FastSettings, FastSum, InstructionSet, Method, Points,
-};
+use wingbeat_vortex::{CoreModel, FastSettings, FastSum, InstructionSet, Method, Points};
 
 const MODEL: &str = "WINGBEAT_COUNTED_MODEL";
 const SUMS: &str = "WINGBEAT_COUNTED_SUMS";
@@ -56,19 +54,23 @@ fn sum(model: CoreModel, times: usize) {
     let line = |i: usize| DVec3::splat(i as f64 / count as f64);
     let targets: Points = (0..count).map(line).collect();
     let [mut out, mut more] = [0; 2].map(|_| Points::zeros(count));
-    if model == ALGEBRAIC {
-        let method = Method::Single;
-        let mut kernel = FastSum::new(FastSettings {
-            method,
-            ..FastSettings::new(model)
-        });
-        kernel.load_network(&net);
+    let is_single = model == ALGEBRAIC;
+    let mut kernel = FastSum::new(FastSettings {
+        method: if is_single {
+            Method::Single
+        } else {
+            Method::Direct
+        },
+        ..FastSettings::new(model)
+    });
+    kernel.load_network(&net);
+    if is_single {
         let mut add = || kernel.add_velocity_and_vorticity(&targets, &mut out, &mut more);
         (0..times).for_each(|_| add());
     } else {
-        let mut kernel = DirectSum::new(model);
-        kernel.load_network(&net);
-        (0..times).for_each(|_| kernel.add_velocity(&targets, &mut out));
+        (0..times).for_each(|_| {
+            kernel.add_velocity(&targets, &mut out);
+        });
     }
     assert!(out.iter().chain(more.iter()).all(|v| v.is_finite()));
 }

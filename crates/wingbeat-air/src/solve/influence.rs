@@ -4,7 +4,6 @@ use crate::error::AirError;
 use crate::geometry::{Edge, NodeMotion, Panels, Wash};
 use crate::images::Mirror;
 use crate::lattice::Lattice;
-use crate::settings::NewestRow;
 use crate::solve::circulation::Circulation;
 use crate::solve::row_blocks::RowBlocks;
 use crate::solve::self_influence::{KnownShapes, SelfInfluence, augment};
@@ -189,8 +188,9 @@ struct Sources {
     /// Edges of the surfaces, in groups that belong to one surface: their numbers and the surface.
     bound: UnitEdges,
     groups: Vec<(Range<usize>, usize)>,
-    /// Edges of the newest rows, if they have a part of the panels' present circulation.
+    /// Edges of the newest rows that have a part of the panels' present circulation, and their numbers.
     near_wake: UnitEdges,
+    near_edges: Vec<usize>,
     /// Part of the circulation of its panel that each edge keeps, the newest row taking the rest.
     keeps: Vec<f64>,
     /// Which of the surfaces of known shape have it now.
@@ -206,13 +206,11 @@ impl Sources {
         let lattice = now.lattice;
         let settings = lattice.settings();
         self.load_bound(lattice, filaments);
-        match settings.newest_row {
-            NewestRow::Constant => self.near_wake.clear(),
-            NewestRow::Matched => {
-                let all = std::iter::once(0..filaments.near_wake.len());
-                (self.near_wake).load(settings.wake_core, &filaments.near_wake, all);
-            }
-        }
+        let has_part = |&e: &usize| filaments.shares[e].part != [0.0; 2];
+        self.near_edges.clear();
+        (self.near_edges).extend((0..filaments.shares.len()).filter(has_part));
+        let near = std::iter::once(self.near_edges.iter().copied());
+        (self.near_wake).load(settings.wake_core, &filaments.near_wake, near);
         let keeps = |edge: &Edge| {
             let part = edge.wake.map_or(0.0, |w| {
                 let (s, shape) = (w.sheet, &filaments.newest[w.sheet]);
@@ -318,13 +316,12 @@ impl Sources {
         (rates, lane): (&mut [f64], usize),
         block: &mut [f64],
     ) {
-        let (model, edges) = (lattice.settings().bound_core, &lattice.topology().edges);
-        let count = points.len();
+        let (edges, count) = (&lattice.topology().edges, points.len());
         for (group, (range, surface)) in self.groups.iter().enumerate() {
             if Some(*surface) == except {
                 continue;
             }
-            (self.bound).normal_velocities(model, group, points.clone(), rates);
+            (self.bound).normal_velocities(group, points.clone(), rates);
             for e in range.clone() {
                 for (unknown, part) in columns(lattice, &edges[e], self.keeps[e]) {
                     let to = &mut block[unknown * BLOCK + lane..][..count];
@@ -343,9 +340,10 @@ impl Sources {
         rates: &mut [f64],
         block: &mut [f64],
     ) {
-        let (model, count) = (lattice.settings().wake_core, points.len());
-        self.near_wake.normal_velocities(model, 0, points, rates);
-        for (share, rates) in shares.iter().zip(rates.chunks(BLOCK)) {
+        let count = points.len();
+        self.near_wake.normal_velocities(0, points, rates);
+        for (&edge, rates) in self.near_edges.iter().zip(rates.chunks(BLOCK)) {
+            let share = &shares[edge];
             for (&panel, &part) in share.panel.iter().zip(&share.part) {
                 let to = &mut block[unknown(lattice, panel) * BLOCK..][..count];
                 add_part(to, part, rates);
@@ -366,5 +364,40 @@ impl Influence {
 
     pub(crate) fn circulation(&self) -> &Circulation {
         &self.circulation
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::{AirLoads, AirSettings, Lattice, NodeMotion, Surface};
+    use wingbeat_math::DVec3;
+
+    /// In a row of up to a panel all that is shed within the step sits on the edge; in longer ones strips have a part.
+    #[test]
+    fn exact_edges_of_newest_rows_are_in_the_matrix_where_they_have_a_part() {
+        let edges = |step: f64| {
+            let nodes = (0..25).map(|k| DVec3::new((k / 5) as f64, (k % 5) as f64, 0.0));
+            let motion = NodeMotion {
+                position: nodes.collect(),
+                velocity: vec![DVec3::ZERO; 25],
+            };
+            let settings = AirSettings::accurate(1.0, DVec3::new(1.0, 0.0, 0.2));
+            let lattice = Lattice::new(vec![Surface::grid("wing", 4, 4)], settings).unwrap();
+            let (mut state, mut ws) = (lattice.initial_state(&motion), lattice.workspace());
+            let mut loads = AirLoads::default();
+            for k in 0..2 {
+                let time = step * k as f64;
+                (lattice.loads(&state, time, step, &motion, &mut ws, &mut loads)).unwrap();
+                lattice.accept(&mut state, &motion, &loads).unwrap();
+                lattice.convect(&mut state, step, &mut ws).unwrap();
+            }
+            (lattice.loads(&state, 2.0 * step, step, &motion, &mut ws, &mut loads)).unwrap();
+            let seen = &ws.boundary.influence.sources.near_edges;
+            (seen.len(), ws.filaments.near_wake.len())
+        };
+        let (short, long) = (edges(0.8), edges(2.5));
+        println!("{short:?} {long:?}");
+        assert_eq!(short.0, 0);
+        assert!(0 < long.0 && long.0 < long.1, "{long:?}");
     }
 }

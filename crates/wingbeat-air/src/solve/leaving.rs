@@ -62,7 +62,6 @@ impl Leaving {
         if self.near_wake.is_empty() {
             return;
         }
-        let model = lattice.settings().wake_core;
         let unknown = &lattice.suction().unknown;
         let Self {
             near_wake,
@@ -71,7 +70,7 @@ impl Leaving {
             ..
         } = self;
         on_all_sides(lattice.mirrors(), points, reflected, |first, chunk| {
-            near_wake.normal_velocities(model, 0, chunk.iter().copied(), rates);
+            near_wake.normal_velocities(0, chunk.iter().copied(), rates);
             for (share, rates) in shares.iter().zip(rates.chunks(BLOCK)) {
                 for (i, rate) in rates[..chunk.len()].iter().enumerate() {
                     see(first + i, InducedBy::Fixed, share.fixed * rate);
@@ -95,7 +94,6 @@ impl Leaving {
         points: &[[DVec3; 2]],
         mut see: impl FnMut(usize, usize, f64),
     ) {
-        let model = lattice.settings().bound_core;
         let Self {
             leading,
             unknown,
@@ -104,7 +102,7 @@ impl Leaving {
             ..
         } = self;
         on_all_sides(lattice.mirrors(), points, reflected, |first, chunk| {
-            leading.normal_velocities(model, 0, chunk.iter().copied(), rates);
+            leading.normal_velocities(0, chunk.iter().copied(), rates);
             for (strip, rates) in unknown.iter().zip(rates.chunks(BLOCK)) {
                 for (i, rate) in rates[..chunk.len()].iter().enumerate() {
                     see(first + i, *strip, -rate);

@@ -137,7 +137,7 @@ impl SelfInfluence {
         unit.load(model, &network, std::iter::once(0..edges.len()));
         let mut rates = vec![0.0; edges.len() * BLOCK];
         for (b, points) in points.chunks(BLOCK).enumerate() {
-            unit.normal_velocities(model, 0, points.iter().copied(), &mut rates);
+            unit.normal_velocities(0, points.iter().copied(), &mut rates);
             let here = |column: usize| {
                 let from = column * rows + b * BLOCK;
                 from..from + points.len()

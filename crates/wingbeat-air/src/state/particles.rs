@@ -82,27 +82,69 @@ impl Particles {
         self.shed_time.clone_from(&source.shed_time);
     }
 
-    /// Drops particles for which `keep` is false; returns how many.
+    /// Drops particles for which `keep` is false of position [m], N, and time of shedding [s]; returns how many.
     pub(crate) fn retain(&mut self, keep: impl Fn(DVec3, f64) -> bool) -> u64 {
         let before = self.len();
-        let kept = |i: &usize| keep(self.position.get(*i), self.shed_time[*i]);
-        let stay: Vec<usize> = (0..before).filter(kept).collect();
-        if stay.len() == before {
-            return 0;
+        let (mut kept, mut past) = (0, 0);
+        for i in 0..before {
+            if !keep(self.position.get(i), self.shed_time[i]) {
+                continue;
+            }
+            self.position.set(kept, self.position.get(i));
+            self.strength.set(kept, self.strength.get(i));
+            self.first_size[kept] = self.first_size[i];
+            self.shed_time[kept] = self.shed_time[i];
+            kept += 1;
+            if i < self.velocity.len() {
+                self.velocity.set(past, self.velocity.get(i));
+                self.rate.set(past, self.rate.get(i));
+                past += 1;
+            }
         }
-        let past = stay.partition_point(|&i| i < self.velocity.len());
-        let pick = |p: &mut Points, from: &[usize]| *p = from.iter().map(|&i| p.get(i)).collect();
-        pick(&mut self.position, &stay);
-        pick(&mut self.strength, &stay);
-        pick(&mut self.velocity, &stay[..past]);
-        pick(&mut self.rate, &stay[..past]);
-        self.first_size = stay.iter().map(|&i| self.first_size[i]).collect();
-        self.shed_time = stay.iter().map(|&i| self.shed_time[i]).collect();
-        (before - stay.len()) as u64
+        self.position.truncate(kept);
+        self.strength.truncate(kept);
+        self.velocity.truncate(past);
+        self.rate.truncate(past);
+        self.first_size.truncate(kept);
+        self.shed_time.truncate(kept);
+        (before - kept) as u64
     }
 }
 
 /// Whether there are as many components of each kind, perhaps after reading a file.
 pub(crate) fn is_whole(points: &Points) -> bool {
     points.y.len() == points.len() && points.z.len() == points.len()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The newest particles, whose velocities are not known yet, and older ones, of which every third goes.
+    #[test]
+    fn exact_particles_that_stay_keep_all_they_have() {
+        let mut all = Particles::default();
+        for k in 0..10 {
+            let shed = f64::from(k);
+            all.push(shed * DVec3::X, shed * DVec3::Y, shed);
+            if k < 7 {
+                all.velocity.push(shed * DVec3::Z);
+                all.rate.push(-shed * DVec3::Z);
+            }
+        }
+        let mut expected = Particles::default();
+        for shed in [1.0, 2.0, 4.0, 5.0, 7.0, 8.0] {
+            expected.push(shed * DVec3::X, shed * DVec3::Y, shed);
+            if shed < 7.0 {
+                expected.velocity.push(shed * DVec3::Z);
+                expected.rate.push(-shed * DVec3::Z);
+            }
+        }
+        let goes = |x: DVec3, shed: f64| x.x % 3.0 == 0.0 && shed == x.x;
+        assert_eq!(all.retain(|x, shed| !goes(x, shed)), 4);
+        assert_eq!(all, expected);
+        assert_eq!(all.retain(|_, _| true), 0);
+        assert_eq!(all, expected);
+        assert!(all.is_sound());
+    }
 }

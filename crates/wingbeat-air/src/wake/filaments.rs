@@ -5,6 +5,7 @@ use crate::lattice::Lattice;
 use crate::settings::AirSettings;
 use crate::state::{AirState, WakeSheet};
 use crate::wake::cores::{add_cores, join_cores};
+use crate::wake::gathered::Gathered;
 use crate::wake::near_wake::{
     NearWakeRow, NearWakeShare, RowShape, RowStrips, add_near_wake, at_edge, strips,
 };
@@ -42,6 +43,8 @@ pub struct Filaments {
     /// All other edges of the wakes, which do not move within a step. Nodes: sheet after sheet,
     /// oldest row first.
     pub wake: Network,
+    /// What they and the blobs were made of.
+    gathered: Gathered,
     /// What stretched edges of the wakes have given up, see [`AirSettings::wake_blob_length`].
     pub blobs: Vec<Blob>,
     /// Particles of all sheets.
@@ -61,8 +64,13 @@ impl Filaments {
         self.gather_bound(lattice, position);
         self.inner.clear();
         self.levels = strips(lattice.settings()) + 1;
-        self.wake.clear();
-        self.blobs.clear();
+        let is_known = (self.gathered).is(lattice, state, t, &self.wake.nodes);
+        if !is_known {
+            self.wake.clear();
+            self.blobs.clear();
+            self.gathered.take(lattice, state, t);
+        }
+        self.wake.nodes.core.clear(); // they follow from where the edges are, too
         self.near_wake.clear();
         self.shares.clear();
         self.newest
@@ -73,7 +81,9 @@ impl Filaments {
                 let cores = &mut self.wake.nodes.core;
                 add_cores(cores, sheet, lattice.settings(), t, edge.clone());
             }
-            self.add_sheet(sheet, lattice.settings(), t);
+            if !is_known {
+                self.add_sheet(sheet, lattice.settings(), t);
+            }
             let edge = root.nodes.iter().map(|&n| self.roots[n]);
             self.newest[s].take((lattice, state), s, &self.bound.nodes, t);
             let row = NearWakeRow {

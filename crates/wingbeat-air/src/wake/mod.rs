@@ -8,6 +8,7 @@ mod conversion;
 mod cores;
 mod filaments;
 mod force_free;
+mod gathered;
 mod joined_nodes;
 mod move_step;
 mod near_wake;

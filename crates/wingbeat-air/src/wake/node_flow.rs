@@ -56,7 +56,7 @@ impl NodeFlow {
 
     /// Where the flow is plane: in the middle of each row, far from its ends.
     fn find_middles(&mut self, lattice: &Lattice, state: &AirState) {
-        self.middles.copy_from(&self.places);
+        self.middles.clone_from(&self.places);
         for row in rows(lattice, state) {
             let ends = [row.start, row.end - 1].map(|n| self.places.get(n));
             row.for_each(|n| self.middles.set(n, ends[0].midpoint(ends[1])));

@@ -13,7 +13,6 @@ use wingbeat_vortex::{
 #[derive(Clone, Debug, Default)]
 struct Summation {
     sum: Option<FastSum>,
-    loaded: Network,
 }
 
 impl Summation {
@@ -25,13 +24,12 @@ impl Summation {
     /// The same unless they differ in nothing but core radii of nodes, by `near` [m] at most.
     fn load_unless_near(&mut self, settings: FastSettings, sources: &Network, near: f64) -> bool {
         let kept = self.sum.take_if(|sum| *sum.settings() == settings);
-        let is_known = kept.is_some() && self.loaded.is_near(sources, near);
+        let is_known = kept.as_ref().is_some_and(|sum| sum.holds(sources, near));
         let sum = self
             .sum
             .insert(kept.unwrap_or_else(|| FastSum::new(settings)));
         if !is_known {
             sum.load_network(sources);
-            self.loaded.copy_from(sources);
         }
         !is_known
     }
@@ -339,10 +337,10 @@ impl WakeVelocityCache {
             self.generation = sums.generation;
             self.mirrors.clear();
             self.mirrors.extend_from_slice(mirrors);
-            self.points.copy_from(points);
+            self.points.clone_from(points);
             self.velocity.reset(points.len());
             sums.add_free(points, mirrors, &mut self.velocity);
         }
-        out.copy_from(&self.velocity);
+        out.clone_from(&self.velocity);
     }
 }

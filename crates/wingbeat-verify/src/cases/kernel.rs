@@ -4,7 +4,7 @@ use crate::lab::order;
 use crate::{Case, Part, Row, VerifyError};
 use std::f64::consts::{PI, TAU};
 use wingbeat_math::DVec3;
-use wingbeat_vortex::{CoreModel, Points, Segments, add_velocity};
+use wingbeat_vortex::{CoreModel, Network, Points, add_velocity};
 
 pub(super) const CASES: &[Case] = &[
     Case {
@@ -25,16 +25,16 @@ pub(super) const CASES: &[Case] = &[
 
 const BARE: CoreModel = CoreModel::Scully { radius: 0.0 };
 
-fn velocity(model: CoreModel, segments: &Segments, at: DVec3) -> DVec3 {
+fn velocity(model: CoreModel, segments: &Network, at: DVec3) -> DVec3 {
     let mut v = Points::zeros(1);
     add_velocity(model, segments, &Points::from_iter([at]), &mut v);
     v.get(0)
 }
 
 fn filament() -> Vec<Row> {
-    let mut one = Segments::default();
+    let mut one = Network::default();
     let (a, b) = (DVec3::new(-0.3, 0.0, 0.0), DVec3::new(1.1, 0.0, 0.0));
-    one.push(a, b, 2.0, 0.0);
+    one.push_segment(a, b, 2.0, 0.0);
     let mut worst = 0.0_f64;
     for (x, h) in [
         (0.4, 0.2),
@@ -50,10 +50,10 @@ fn filament() -> Vec<Row> {
         let direction = DVec3::X.cross(p).normalize();
         worst = worst.max((computed - exact * direction).length() / exact.abs());
     }
-    let mut pair = Segments::default();
+    let mut pair = Network::default();
     let half = 1e5 * DVec3::X;
-    pair.push(-half, half, 1.5, 0.0);
-    pair.push(half + 0.4 * DVec3::Y, -half + 0.4 * DVec3::Y, 1.5, 0.0);
+    pair.push_segment(-half, half, 1.5, 0.0);
+    pair.push_segment(half + 0.4 * DVec3::Y, -half + 0.4 * DVec3::Y, 1.5, 0.0);
     let speed = velocity(BARE, &pair, DVec3::ZERO).length();
     vec![
         Row::new(
@@ -73,14 +73,14 @@ fn filament() -> Vec<Row> {
 }
 
 /// A regular polygon of `n` sides on the circle of radius `r` at the height z.
-fn polygon(segments: &mut Segments, model: CoreModel, n: usize, r: f64, z: f64, gamma: f64) {
+fn polygon(segments: &mut Network, model: CoreModel, n: usize, r: f64, z: f64, gamma: f64) {
     let at = |k: usize| {
         let (s, c) = (TAU * (k % n) as f64 / n as f64).sin_cos();
         DVec3::new(r * c, r * s, z)
     };
     for k in 0..n {
         let length = (at(k + 1) - at(k)).length();
-        segments.push(at(k), at(k + 1), gamma, model.core(length, 0.0));
+        segments.push_segment(at(k), at(k + 1), gamma, model.core(length, 0.0));
     }
 }
 
@@ -99,13 +99,13 @@ fn scully_ring_speed(rc: f64) -> f64 {
 
 fn ring(_quick: bool) -> Result<Vec<Row>, VerifyError> {
     let axis = |n: usize, z: f64| {
-        let mut s = Segments::default();
+        let mut s = Network::default();
         polygon(&mut s, BARE, n, 1.0, 0.0, 1.0);
         velocity(BARE, &s, z * DVec3::Z).z - 0.5 / (1.0 + z * z).powf(1.5)
     };
     let model = CoreModel::Scully { radius: 0.1 };
     let own = |n: usize| {
-        let mut s = Segments::default();
+        let mut s = Network::default();
         polygon(&mut s, model, n, 1.0, 0.0, 1.0);
         velocity(model, &s, DVec3::X).z
     };
@@ -150,7 +150,7 @@ fn ring(_quick: bool) -> Result<Vec<Row>, VerifyError> {
 fn leapfrog(model: CoreModel) -> [f64; 2] {
     let mut y = [1.0, 0.0, 1.0, 0.6];
     let rate = |y: [f64; 4]| {
-        let mut s = Segments::default();
+        let mut s = Network::default();
         polygon(&mut s, model, 96, y[0], y[1], 1.0);
         polygon(&mut s, model, 96, y[2], y[3], 1.0);
         let v =

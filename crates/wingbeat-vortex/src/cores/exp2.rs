@@ -1,4 +1,4 @@
-//! The exponential of Lamb and Oseen, with the same bits on every processor.
+//! Exponentials with the same bits on every processor: that of Lamb and Oseen, and that of Gaussians.
 
 /// u = 1 - 2^-z, z >= 0, to a few units in the last place, with operations that give the same bits on every
 /// processor. With z = k + f, k the nearest integer: u = (1 - 2^-k) + 2^-k f R(f), a sum that cancels nothing.
@@ -38,3 +38,19 @@ pub(crate) const EXP2_POLYNOMIAL: [f64; 10] = [
     1.0205905413765595e-07,
     -7.070977866508138e-09,
 ];
+
+/// exp(-x) for a number x >= 0 in plain arithmetic of single precision, to its last digits; nothing where that is less
+/// than 1e-36.
+#[inline(always)]
+pub(crate) fn exp_minus(x: f32) -> f32 {
+    const SHIFT: f32 = 12_582_912.0; // 1.5 * 2^23: adding it rounds to a whole number
+    let y = (x * -std::f32::consts::LOG2_E).max(-120.0);
+    let shifted = y + SHIFT;
+    let f = (y - (shifted - SHIFT)) * std::f32::consts::LN_2;
+    let mut sum = 1.0 / 5040.0;
+    for k in [720.0, 120.0, 24.0, 6.0, 2.0, 1.0, 1.0_f32] {
+        sum = sum * f + 1.0 / k;
+    }
+    let power = shifted.to_bits().wrapping_sub(SHIFT.to_bits() - 127) << 23;
+    sum * f32::from_bits(power)
+}

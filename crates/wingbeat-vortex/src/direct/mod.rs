@@ -14,4 +14,4 @@ pub(crate) mod sum;
 pub use algebraic::{AlgebraicSum, Stretching};
 pub use block::BLOCK;
 pub use packed::WINDOW;
-pub use sum::{DirectSum, UnitEdges, add_velocity};
+pub use sum::{UnitEdges, add_velocity};

@@ -7,7 +7,7 @@
 use crate::cores::CoreModel;
 use crate::cores::INV_4PI;
 use crate::direct::reference::CLOSE;
-use crate::sources::{Network, Segments};
+use crate::sources::Network;
 use glam::DVec3;
 use std::ops::Range;
 
@@ -89,18 +89,6 @@ impl Packed {
         }
     }
 
-    /// Takes free segments: two nodes each.
-    pub fn load_segments(&mut self, model: CoreModel, s: &Segments) {
-        self.clear(0);
-        self.open_patch();
-        for i in 0..s.len() {
-            self.make_room(self.nodes.len());
-            let soft = model.softening(s.core[i]);
-            let (from, to) = (self.look_at(s.a(i), soft), self.look_at(s.b(i), soft));
-            self.add_edge(model, [from, to], s.gamma[i], s.core[i]);
-        }
-    }
-
     /// Takes a network: nodes in sight are used again.
     pub fn load_network(&mut self, model: CoreModel, network: &Network) {
         self.clear(network.nodes.len());
@@ -157,9 +145,8 @@ impl Packed {
             return k;
         }
         self.last_seen[g as usize] = k;
-        let cores = &network.nodes.core;
-        let core = cores.get(g as usize).unwrap_or(&network.core[e]);
-        self.look_at(network.nodes.get(g as usize), model.softening(*core))
+        let softening = model.softening(network.core_at(e, g as usize));
+        self.look_at(network.nodes.get(g as usize), softening)
     }
 
     /// Ends the patch if it is full, or if two more nodes would hide one that its edges, or an edge

@@ -4,7 +4,7 @@
 
 pub use crate::cores::exp2::one_minus_exp2;
 use crate::cores::{CoreModel, INV_4PI};
-use crate::sources::{Points, Segments};
+use crate::sources::{Network, Points};
 use glam::DVec3;
 
 /// Velocity \[m/s\] at `p` induced by the segment a -> b (frame N, m) of circulation `gamma`
@@ -71,14 +71,14 @@ pub fn segment_velocity(
 /// The part of l^2 below which t^2 - l^2 is too small a difference: it keeps ten digits.
 pub(crate) const CLOSE: f64 = 1e-6;
 
-/// Adds to `out` the velocities \[m/s\] of all segments at all targets, one after the other.
-pub fn add_velocity(model: CoreModel, segments: &Segments, targets: &Points, out: &mut Points) {
+/// Adds to `out` the velocities \[m/s\] of all edges at all targets, one after the other, with the edges' own cores.
+pub fn add_velocity(model: CoreModel, network: &Network, targets: &Points, out: &mut Points) {
     for t in 0..targets.len() {
         let p = targets.get(t);
         let mut v = DVec3::ZERO;
-        for i in 0..segments.len() {
-            let (a, b) = (segments.a(i), segments.b(i));
-            v += segment_velocity(model, p, a, b, segments.gamma[i], segments.core[i]);
+        for e in 0..network.len() {
+            let (a, b) = network.ends(e);
+            v += segment_velocity(model, p, a, b, network.gamma[e], network.core[e]);
         }
         out.add(t, v);
     }

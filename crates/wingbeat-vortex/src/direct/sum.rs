@@ -5,7 +5,7 @@ use crate::direct::block::{BLOCK, Block, Targets, add_block, block_at, par_block
 use crate::direct::lanes::{add_patches, edge_normal_velocities};
 use crate::direct::packed::Packed;
 use crate::instruction_set::InstructionSet;
-use crate::sources::{Network, Points, Segments};
+use crate::sources::{Network, Points};
 use fearless_simd::Level;
 use glam::DVec3;
 use rayon::prelude::*;
@@ -13,65 +13,6 @@ use std::ops::Range;
 
 /// Pairs of a task below which threads cost more than they give (some 30 microseconds of work).
 const TASK_PAIRS: usize = 10_000;
-
-/// Sources made ready for summing. Loading is linear in their number and allocates only while they
-/// grow; the sum allocates nothing.
-///
-/// ```
-/// use wingbeat_vortex::{CoreModel, DirectSum, Points, Segments};
-/// use wingbeat_vortex::DVec3;
-/// let model = CoreModel::Scully { radius: 0.0 };
-/// let mut segments = Segments::default();
-/// segments.push(-DVec3::X, DVec3::X, 1.0, model.core(2.0, 0.0));
-/// let mut sum = DirectSum::new(model);
-/// sum.load_segments(&segments);
-/// let mut v = Points::zeros(1);
-/// sum.add_velocity(&Points::from_iter([DVec3::Z]), &mut v);
-/// assert!((v.y[0] + 2f64.sqrt() / (4.0 * std::f64::consts::PI)).abs() < 1e-16);
-/// ```
-#[derive(Clone, Debug)]
-pub struct DirectSum {
-    model: CoreModel,
-    level: Level,
-    packed: Packed,
-}
-
-impl DirectSum {
-    /// No sources yet; the best instructions of this processor.
-    pub fn new(model: CoreModel) -> Self {
-        Self::at_level(model, InstructionSet::best())
-    }
-
-    /// As [`DirectSum::new`] with these instructions, for tests and benches of them; None where the processor lacks
-    /// them.
-    pub fn with_instructions(model: CoreModel, set: InstructionSet) -> Option<Self> {
-        Some(Self::at_level(model, set.level()?))
-    }
-
-    fn at_level(model: CoreModel, level: Level) -> Self {
-        Self {
-            model,
-            level,
-            packed: Packed::default(),
-        }
-    }
-
-    /// Replaces the sources by free segments.
-    pub fn load_segments(&mut self, segments: &Segments) {
-        self.packed.load_segments(self.model, segments);
-    }
-
-    /// Replaces the sources by a network, whose nodes serve all edges that meet there.
-    pub fn load_network(&mut self, network: &Network) {
-        self.packed.load_network(self.model, network);
-    }
-
-    /// Adds to `out` \[m/s\] the velocity of all sources at the `targets` \[m\]; same bits for any
-    /// number of threads of the current rayon pool.
-    pub fn add_velocity(&self, targets: &Points, out: &mut Points) {
-        sum_packed(self.level, self.model, &self.packed, targets, out);
-    }
-}
 
 /// Adds to `out` what `add` adds at all targets, block by block over threads; it sums so many `sources`.
 pub(crate) fn sum_all(
@@ -130,6 +71,8 @@ pub(crate) fn sum_packed(
 #[derive(Clone, Debug)]
 pub struct UnitEdges {
     level: Level,
+    /// Regularisation of the edges that were loaded.
+    model: Option<CoreModel>,
     packed: Packed,
     /// Patches of each group.
     groups: Vec<Range<usize>>,
@@ -139,6 +82,7 @@ impl Default for UnitEdges {
     fn default() -> Self {
         Self {
             level: InstructionSet::best(),
+            model: None,
             packed: Packed::default(),
             groups: Vec::new(),
         }
@@ -146,26 +90,21 @@ impl Default for UnitEdges {
 }
 
 impl UnitEdges {
-    /// Replaces the edges by groups that together are those of the network, in its order.
+    /// Replaces the edges by these of the network, group by group.
     pub fn load(
         &mut self,
         model: CoreModel,
         network: &Network,
-        groups: impl IntoIterator<Item = Range<usize>>,
+        groups: impl IntoIterator<Item = impl IntoIterator<Item = usize>>,
     ) {
+        self.model = Some(model);
         self.packed.clear(network.nodes.len());
         self.groups.clear();
         for edges in groups {
-            let edges = edges.start as u32..edges.end as u32;
+            let edges = edges.into_iter().map(|e| e as u32);
             let patches = self.packed.load_group(model, network, edges);
             self.groups.push(patches);
         }
-    }
-
-    /// Forgets all edges.
-    pub fn clear(&mut self) {
-        self.packed.clear(0);
-        self.groups.clear();
     }
 
     /// Number of edges.
@@ -182,11 +121,11 @@ impl UnitEdges {
     /// `out[edge * BLOCK + point]`.
     pub fn normal_velocities(
         &self,
-        model: CoreModel,
         group: usize,
         points: impl Iterator<Item = [DVec3; 2]>,
         out: &mut [f64],
     ) {
+        let model = self.model.expect("edges are loaded");
         let (mut block, mut normals, mut count) = (Block::ZERO, Block::ZERO, 0);
         for (k, [x, n]) in points.enumerate() {
             block.set(k, x);
@@ -208,10 +147,21 @@ impl UnitEdges {
     }
 }
 
-/// Adds to `out` \[m/s\] the velocity of `segments` at `targets`: [`DirectSum`] in one call, for
-/// where its memory need not be kept.
-pub fn add_velocity(model: CoreModel, segments: &Segments, targets: &Points, out: &mut Points) {
-    let mut sum = DirectSum::new(model);
-    sum.load_segments(segments);
-    sum.add_velocity(targets, out);
+/// Adds to `out` \[m/s\] the velocity of all edges at the `targets` \[m\], in double precision: a direct
+/// [`crate::FastSum`] in one call, for where its memory need not be kept.
+///
+/// ```
+/// use wingbeat_vortex::{CoreModel, Network, Points};
+/// use wingbeat_vortex::DVec3;
+/// let model = CoreModel::Scully { radius: 0.0 };
+/// let mut net = Network::default();
+/// net.push_segment(-DVec3::X, DVec3::X, 1.0, model.core(2.0, 0.0));
+/// let mut v = Points::zeros(1);
+/// wingbeat_vortex::add_velocity(model, &net, &Points::from_iter([DVec3::Z]), &mut v);
+/// assert!((v.y[0] + 2f64.sqrt() / (4.0 * std::f64::consts::PI)).abs() < 1e-16);
+/// ```
+pub fn add_velocity(model: CoreModel, network: &Network, targets: &Points, out: &mut Points) {
+    let mut packed = Packed::default();
+    packed.load_moving(model, network);
+    sum_packed(InstructionSet::best(), model, &packed, targets, out);
 }

@@ -107,7 +107,7 @@ fn direct<const K: usize>(
             let (mut block, mut velocity, mut vorticity) = (Block::ZERO, Block::ZERO, Block::ZERO);
             for (lane, &i) in index.iter().enumerate() {
                 block.set(lane, targets.get(i));
-                block.softening[lane] = targets.core.get(i).map_or(0.0, |core| 0.5 * core);
+                block.softening[lane] = targets.softening(i);
             }
             let all = 0..packed.patches.len();
             let targets = Targets {

@@ -15,8 +15,9 @@ const AUTO_EDGES: usize = 25_000;
 /// Edges from which meshes may gain more than their check costs; measured.
 const MESH_EDGES: usize = 8_000;
 
-/// The tolerance from which both serve. Below it, single precision takes less time than a finer interpolation.
-pub(super) const TOLERANCE: f64 = 1e-3;
+/// The tolerance from which [`Method::Mesh`] serves, and [`Method::Tree`] of algebraic cores. Below it, single
+/// precision takes less time than a finer interpolation.
+pub const MESH_TOLERANCE: f64 = 1e-3;
 
 /// What sums of leaves cost in pairs of the sum in single precision, which finds more nodes in sight, in tenths.
 const NEAR: u64 = 16;
@@ -35,7 +36,9 @@ const CHEAP: f64 = 0.7;
 #[derive(Clone, Debug)]
 pub(super) struct Soft {
     cells: Option<Interpolation>,
+    /// Whether cells may gain something, and whether they have the sources already.
     has_cells: bool,
+    is_grown: bool,
     meshes: Option<Multilevel>,
     /// What meshes cost for each target, in pairs of filament and target, where they are loaded.
     mesh_cost: Option<f64>,
@@ -45,12 +48,13 @@ impl Soft {
     /// For cores, tolerances and methods that they serve; else nothing.
     pub fn new(settings: &FastSettings, level: Level) -> Self {
         let (model, tolerance) = (settings.model, settings.tolerance);
-        let serves = matches!(model, CoreModel::Algebraic { .. }) && tolerance >= TOLERANCE;
+        let serves = matches!(model, CoreModel::Algebraic { .. }) && tolerance >= MESH_TOLERANCE;
         let may_be = |method| serves && [Method::Auto, method].contains(&settings.method);
         let cells = || Interpolation::new(model, level, Fineness::for_tolerance(tolerance));
         Self {
             cells: may_be(Method::Tree).then(cells),
             has_cells: false,
+            is_grown: false,
             meshes: may_be(Method::Mesh).then(|| Multilevel::new(model, level)),
             mesh_cost: None,
         }
@@ -81,28 +85,26 @@ impl Soft {
         let is_cheap = self
             .mesh_cost
             .is_some_and(|cost| cost < CHEAP * edges as f64);
-        let cells = self
-            .cells
-            .as_mut()
-            .filter(|_| is_large(AUTO_EDGES) && !is_cheap);
-        self.has_cells = cells.is_some();
-        if let Some(cells) = cells {
-            cells.load(network);
-        }
+        self.has_cells = self.cells.is_some() && is_large(AUTO_EDGES) && !is_cheap;
+        self.is_grown = false;
     }
 
-    /// Adds velocities, and vorticities if they are wanted, of so many `edges`; or adds nothing and says how
-    /// many attempts were made.
+    /// Adds velocities, and vorticities if they are wanted, of the network that was loaded last, of so many packed
+    /// `edges`; or adds nothing and says how many attempts were made.
     pub fn add(
         &mut self,
         check: &Check,
         targets: &Points,
-        (settings, edges): (&FastSettings, usize),
+        (settings, (network, edges)): (&FastSettings, (&Network, usize)),
         (velocity, vorticity): (&mut Points, Option<&mut Points>),
     ) -> Result<Report, usize> {
         let (tolerance, mut attempts) = (settings.tolerance, 0);
         let mut found = None;
         if let Some(cells) = self.cells.as_mut().filter(|_| self.has_cells) {
+            if !self.is_grown {
+                cells.load(network);
+                self.is_grown = true;
+            }
             let others = self.mesh_cost.map_or(edges, |cost| cost as usize);
             let dearest = (settings.method == Method::Auto).then_some(others);
             match sum(cells, check, targets, (tolerance, dearest)) {

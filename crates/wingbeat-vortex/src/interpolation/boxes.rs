@@ -1,6 +1,7 @@
 //! Things with a place and a softening in a binary tree of boxes, halved in number along their longest side.
 
 use crate::interpolation::grid::{Frame, Place};
+use crate::preorder::children;
 use std::ops::Range;
 
 /// Something to be sorted: where it is, the corners of the box around it, and its number.
@@ -54,10 +55,7 @@ impl Boxes {
 
     /// The children of cell `c`, None if it is a leaf.
     pub fn children(&self, c: usize) -> Option<[usize; 2]> {
-        match self.cells[c].leaves.len() {
-            1 => None,
-            leaves => Some([c + 1, c + 2 * (leaves / 2)]),
-        }
+        children(c, self.cells[c].leaves.len())
     }
 
     /// Items of a cell.

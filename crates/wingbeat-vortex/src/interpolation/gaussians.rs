@@ -14,19 +14,3 @@ pub(crate) const GAUSSIANS: [(f64, f64); 5] = [
     (1.457_209_96, 1.761_797_65),
     (3.564_742_58, 6.986_905_72),
 ];
-
-/// exp(-x) for x >= 0 in plain arithmetic of single precision, to its last digits; nothing where that is less
-/// than 1e-36.
-#[inline(always)]
-pub(crate) fn exp_minus(x: f32) -> f32 {
-    const SHIFT: f32 = 12_582_912.0; // 1.5 * 2^23: adding it rounds to a whole number
-    let y = (x * -std::f32::consts::LOG2_E).max(-120.0);
-    let shifted = y + SHIFT;
-    let f = (y - (shifted - SHIFT)) * std::f32::consts::LN_2;
-    let mut sum = 1.0 / 5040.0;
-    for k in [720.0, 120.0, 24.0, 6.0, 2.0, 1.0, 1.0_f32] {
-        sum = sum * f + 1.0 / k;
-    }
-    let power = shifted.to_bits().wrapping_sub(SHIFT.to_bits() - 127) << 23;
-    sum * f32::from_bits(power)
-}

@@ -18,7 +18,7 @@
 //! targets.
 
 mod boxes;
-pub(crate) mod gaussians;
+mod gaussians;
 mod grid;
 mod pairs;
 #[cfg(test)]
@@ -30,6 +30,7 @@ use crate::direct::block::{BLOCK, Block, Targets};
 use crate::direct::moments;
 use crate::direct::packed::Packed;
 use crate::direct::single::Single;
+use crate::quadrature::gauss_legendre;
 use crate::sources::{Network, Points};
 use boxes::{Boxes, Item, Shape};
 use fearless_simd::Level;
@@ -44,6 +45,8 @@ const SOURCE_LEAF: usize = 192;
 
 /// Targets of a leaf.
 const TARGET_LEAF: usize = BLOCK;
+
+const _: () = assert!(SOURCE_LEAF * TARGET_LEAF <= pairs::FEW);
 
 /// How fine the interpolation is.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -118,7 +121,7 @@ impl Interpolation {
             grid: Grid::new(fineness.points),
             level,
             model,
-            quadrature: crate::tree::gauss_legendre(fineness.points[0] / 2 + 1),
+            quadrature: gauss_legendre(fineness.points[0] / 2 + 1),
             sources: Boxes::default(),
             packed: Packed::default(),
             single: Single::default(),
@@ -210,8 +213,7 @@ impl Interpolation {
     pub fn aim(&mut self, targets: &Points) {
         self.targets.items.clear();
         let items = targets.iter().enumerate().map(|(i, p)| {
-            let soft = targets.core.get(i).map_or(0.0, |core| 0.5 * core);
-            let at = place(p, soft);
+            let at = place(p, targets.softening(i));
             Item {
                 place: at,
                 low: at,
@@ -345,7 +347,6 @@ impl Interpolation {
 fn ends(network: &Network, e: usize) -> [Place; 2] {
     network.edges[e].map(|n| {
         let n = n as usize;
-        let core = network.nodes.core.get(n).unwrap_or(&network.core[e]);
-        place(network.nodes.get(n), 0.5 * core)
+        place(network.nodes.get(n), 0.5 * network.core_at(e, n))
     })
 }

@@ -1,7 +1,8 @@
 //! Evidence for the steps of the interpolation.
 
+use crate::cores::exp2::exp_minus;
 use crate::instruction_set::InstructionSet;
-use crate::interpolation::gaussians::{GAUSSIANS, RANGE, exp_minus};
+use crate::interpolation::gaussians::{GAUSSIANS, RANGE};
 use crate::interpolation::grid::{Frame, Grid, Place, Room, VALUES};
 use crate::interpolation::translate::{self, Received};
 use glam::DVec3;

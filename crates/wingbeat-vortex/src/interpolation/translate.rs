@@ -4,7 +4,8 @@
 //! sum k w` and `M = sum k w x (y - o)` are summed, `k = 1 / D^3`, and `W x (p - o) - M` is taken last. k is a
 //! sum of products of Gaussians ([`super::gaussians`]), so a sum over a grid is done direction by direction.
 
-use crate::interpolation::gaussians::{GAUSSIANS, RANGE, exp_minus};
+use crate::cores::exp2::exp_minus;
+use crate::interpolation::gaussians::{GAUSSIANS, RANGE};
 use crate::interpolation::grid::{Frame, Grid, MOST};
 use fearless_simd::{Level, Simd, dispatch, f32x8, prelude::*};
 use glam::DVec3;

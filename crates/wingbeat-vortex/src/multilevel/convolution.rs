@@ -17,6 +17,7 @@ pub(super) type Both = [f32; 8];
 /// Memory for a plane of nodes.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Room {
+    size: [usize; 2],
     zero: Vec<Node>,
     planes: [Vec<Node>; 2],
     /// A, (B_y - A'_z, -B_x, A'_x) and (0, A_z, -A_y) along x, with zeros at both ends.
@@ -24,7 +25,13 @@ pub(super) struct Room {
 }
 
 impl Room {
-    fn fit(&mut self, [nx, ny]: [usize; 2]) {
+    /// Planes and the middles of lines are overwritten, the rest stays zero.
+    fn fit(&mut self, size: [usize; 2]) {
+        if self.size == size {
+            return;
+        }
+        self.size = size;
+        let [nx, ny] = size;
         for plane in self.planes.iter_mut().chain([&mut self.zero]) {
             plane.clear();
             plane.resize(nx * ny, [0.0; 4]);
@@ -81,7 +88,7 @@ pub(super) struct Convolution<'a> {
 }
 
 impl Convolution<'_> {
-    /// Plane number `z`; or adds it to what is there.
+    /// Adds plane number `z`.
     pub fn plane(&self, level: fearless_simd::Level, z: usize, room: &mut Room, out: &mut [Both]) {
         use fearless_simd::dispatch;
         room.fit([self.size[0], self.size[1]]);

@@ -1,6 +1,6 @@
 //! One Gaussian on its mesh: filaments spread their strengths, the mesh is convolved, targets read it.
 
-use crate::interpolation::gaussians::exp_minus;
+use crate::cores::exp2::exp_minus;
 use crate::multilevel::convolution::{Both, Convolution, Node, Room};
 use crate::multilevel::spline::{ORDER, Stencil, weights};
 use fearless_simd::{Level, Simd, dispatch, f32x8, prelude::*};
@@ -76,8 +76,9 @@ pub(super) struct Mesh {
     /// Nodes along each axis.
     pub size: [usize; 3],
     strengths: Vec<Node>,
-    /// Of wide sources, and of all.
+    /// Of wide sources, and of all where narrow ones have a part.
     sums: [Vec<Both>; 2],
+    has_narrow: bool,
     rooms: Vec<Room>,
 }
 
@@ -96,6 +97,7 @@ impl Mesh {
             size: [0; 3],
             strengths: vec![],
             sums: [vec![], vec![]],
+            has_narrow: false,
             rooms: vec![],
         }
     }
@@ -116,8 +118,9 @@ impl Mesh {
         if self.spread(level, wide, how) {
             self.convolve(level, of_wide);
         }
-        of_all.clone_from(of_wide);
-        if self.spread(level, narrow, how) {
+        self.has_narrow = !narrow.is_empty() && self.spread(level, narrow, how);
+        if self.has_narrow {
+            of_all.clone_from(of_wide);
             self.convolve(level, of_all);
         }
         self.sums = sums;
@@ -220,7 +223,7 @@ impl Mesh {
         (x, softening): ([f64; 3], f64),
         wide_only: bool,
     ) -> [f64; 6] {
-        let sums = &self.sums[usize::from(!wide_only)];
+        let sums = &self.sums[usize::from(self.has_narrow && !wide_only)];
         let (first, [wx, wy, wz]) = self.place(x);
         let mut sum = f32x8::splat(simd, 0.0);
         for (k, wz) in wz.iter().enumerate() {

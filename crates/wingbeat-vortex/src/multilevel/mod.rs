@@ -35,6 +35,7 @@ use crate::direct::moments;
 use crate::direct::packed::Packed;
 use crate::direct::single::{CLUSTER, Single};
 use crate::direct::sum::sum_both;
+use crate::quadrature::gauss_legendre;
 use crate::sources::{Network, Points};
 use fearless_simd::{Level, dispatch};
 use glam::DVec3;
@@ -110,9 +111,7 @@ impl Multilevel {
             level,
             model,
             stencils: FINENESS.map(|(width, reach)| Stencil::new(width, reach)),
-            quadrature: (1..=mesh::MOST_POINTS)
-                .map(crate::tree::gauss_legendre)
-                .collect(),
+            quadrature: (1..=mesh::MOST_POINTS).map(gauss_legendre).collect(),
             plan: None,
             box_of_sources: [[0.0; 3]; 2],
             widest: 0.0,
@@ -255,7 +254,7 @@ impl Multilevel {
                 for mesh in meshes {
                     for (k, sum) in sums.iter_mut().enumerate() {
                         let i = TASK * task + k;
-                        let soft = softening(targets, i);
+                        let soft = targets.softening(i);
                         let is_narrow = soft < plan.least;
                         let least = if is_narrow { soft + plan.least } else { soft };
                         if !mesh.is_heard(least) {
@@ -275,10 +274,13 @@ impl Multilevel {
 
     /// Adds what narrow sources do at narrow targets; returns the number of pairs.
     fn sum_near(&mut self, plan: Plan, targets: &Points) -> u64 {
+        if self.narrow.is_empty() {
+            return 0;
+        }
         let near = &mut self.near;
         near.index.clear();
         near.targets.clear();
-        for i in (0..targets.len()).filter(|&i| softening(targets, i) < plan.least) {
+        for i in (0..targets.len()).filter(|&i| targets.softening(i) < plan.least) {
             near.index.push(i as u32);
             let core = targets.core.get(i).copied().unwrap_or(0.0);
             near.targets.push_with_core(targets.get(i), core);
@@ -302,18 +304,10 @@ impl Multilevel {
     }
 }
 
-/// Half the squared core radius of a target \[m2\].
-fn softening(targets: &Points, i: usize) -> f64 {
-    targets.core.get(i).map_or(0.0, |core| 0.5 * core)
-}
-
 /// Filament number e.
 fn source(network: &Network, e: usize) -> Source {
     let (from, to) = network.ends(e);
-    let soft = |end: usize| {
-        let n = network.edges[e][end] as usize;
-        0.5 * network.nodes.core.get(n).unwrap_or(&network.core[e])
-    };
+    let soft = |end: usize| 0.5 * network.core_at(e, network.edges[e][end] as usize);
     let along = to - from;
     Source {
         from: from.to_array(),

@@ -6,7 +6,7 @@ use super::mesh::{Mesh, Source, Spreading};
 use super::plan::{FINENESS, Plan, fineness, spacing};
 use super::spline::{ORDER, Stencil, weights};
 use crate::instruction_set::InstructionSet;
-use crate::interpolation::gaussians::exp_minus;
+use crate::quadrature::gauss_legendre;
 use glam::DVec3;
 
 #[test]
@@ -141,7 +141,7 @@ fn agrees_convolution_with_the_sum_over_nodes() {
                 }
                 let [wx, wy, wz, _, ux, uy, uz, _] = out.map(f64::from);
                 let error = w.distance(DVec3::new(wx, wy, wz)) + u.distance(DVec3::new(ux, uy, uz));
-                assert!(error < 2e-5, "{width} {to:?}: {error:e}"); // roundings of single precision
+                assert!(error < 5e-6, "{width} {to:?}: {error:e}"); // roundings of single precision
             }
         }
     }
@@ -158,10 +158,8 @@ fn exact_filament_on_the_mesh_of_a_gaussian() {
         index: 0,
     };
     let level = InstructionSet::best();
-    let quadrature: Vec<_> = (1..=super::mesh::MOST_POINTS)
-        .map(crate::tree::gauss_legendre)
-        .collect();
-    let fine = crate::tree::gauss_legendre(20);
+    let quadrature: Vec<_> = (1..=super::mesh::MOST_POINTS).map(gauss_legendre).collect();
+    let fine = gauss_legendre(20);
     for k in 0..3 {
         let t = 4.0 / 0.25 / 2.4_f64.powi(k as i32);
         let (width, reach) = FINENESS[fineness(k)];
@@ -200,7 +198,6 @@ fn exact_filament_on_the_mesh_of_a_gaussian() {
         let most = [3e-2, 5e-3, 1e-3][k];
         assert!(rms.iter().all(|e| *e < most), "{k}: {rms:?}");
     }
-    assert!(exp_minus(9.0) < 1.3e-4);
 }
 
 /// What is wide follows from what it costs: nothing is narrow among equal cores as wide as their wake;

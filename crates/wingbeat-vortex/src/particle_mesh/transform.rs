@@ -210,14 +210,15 @@ mod tests {
                     |i: usize| Complex::cis(-std::f32::consts::TAU * (i * k % n) as f32 / n as f32);
                 for f in 0..2 {
                     let sum: Complex32 = (0..n - 2).map(|i| value(i, lane)[f] * wave(i)).sum();
-                    assert!((lines.at(k, lane)[f] - sum).norm() < 1e-5, "{k} {lane} {f}");
+                    let error = (lines.at(k, lane)[f] - sum).norm();
+                    assert!(error < 5e-6, "{k} {lane} {f}: {error:e}"); // roundings, of the sum too
                 }
             }
         }
         lines.transform(&*transform.backward);
         let back = lines.at(4, 1)[0] / n as f32 - value(4, 1)[0];
-        assert!(back.norm() < 1e-6);
-        assert!(lines.at(n - 1, 2)[1].norm() < 1e-5);
+        assert!(back.norm() < 5e-7);
+        assert!(lines.at(n - 1, 2)[1].norm() < 5e-6);
     }
 
     #[test]

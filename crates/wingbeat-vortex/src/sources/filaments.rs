@@ -1,86 +1,14 @@
-//! Vortex filaments: free segments, and networks of segments that share nodes.
+//! Vortex filaments: networks of segments that share nodes.
 
 use crate::sources::points::Points;
 use glam::DVec3;
 
-/// Vortex segments a -> b, each with its own end points.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Segments {
-    /// Start, along n1 \[m\].
-    pub ax: Vec<f64>,
-    /// Start, along n2 \[m\].
-    pub ay: Vec<f64>,
-    /// Start, along n3 \[m\].
-    pub az: Vec<f64>,
-    /// End, along n1 \[m\].
-    pub bx: Vec<f64>,
-    /// End, along n2 \[m\].
-    pub by: Vec<f64>,
-    /// End, along n3 \[m\].
-    pub bz: Vec<f64>,
-    /// Circulation \[m^2/s\].
-    pub gamma: Vec<f64>,
-    /// Regularisation number, [`crate::CoreModel::core`].
-    pub core: Vec<f64>,
-}
-
-impl Segments {
-    /// Number of segments.
-    pub fn len(&self) -> usize {
-        self.gamma.len()
-    }
-
-    /// True when there is no segment.
-    pub fn is_empty(&self) -> bool {
-        self.gamma.is_empty()
-    }
-
-    /// Appends the segment a -> b.
-    pub fn push(&mut self, a: DVec3, b: DVec3, gamma: f64, core: f64) {
-        self.ax.push(a.x);
-        self.ay.push(a.y);
-        self.az.push(a.z);
-        self.bx.push(b.x);
-        self.by.push(b.y);
-        self.bz.push(b.z);
-        self.gamma.push(gamma);
-        self.core.push(core);
-    }
-
-    /// Removes all segments and keeps the memory.
-    pub fn clear(&mut self) {
-        let Self {
-            ax,
-            ay,
-            az,
-            bx,
-            by,
-            bz,
-            gamma,
-            core,
-        } = self;
-        for c in [ax, ay, az, bx, by, bz, gamma, core] {
-            c.clear();
-        }
-    }
-
-    /// Start of segment `i` \[m\].
-    pub fn a(&self, i: usize) -> DVec3 {
-        DVec3::new(self.ax[i], self.ay[i], self.az[i])
-    }
-
-    /// End of segment `i` \[m\].
-    pub fn b(&self, i: usize) -> DVec3 {
-        DVec3::new(self.bx[i], self.by[i], self.bz[i])
-    }
-}
-
 /// Vortex segments between shared nodes, as in a lattice or a wake sheet.
 ///
-/// Distances to a node serve every segment that meets there, so a network is summed about twice as
-/// fast as the same [`Segments`], with the same bits if the order is the same. Neighbours in space
+/// Distances to a node serve every segment that meets there, so that they are summed about twice as
+/// fast as with nodes of their own, with the same bits if the order is the same. Neighbours in space
 /// should be neighbours in the edge order (row by row of a sheet).
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Debug, Default, PartialEq)]
 pub struct Network {
     /// Nodes \[m\].
     pub nodes: Points,
@@ -93,14 +21,6 @@ pub struct Network {
 }
 
 impl Network {
-    /// Takes nodes and edges of `other` and keeps the memory, which `clone_from` does not.
-    pub fn copy_from(&mut self, other: &Self) {
-        self.nodes.copy_from(&other.nodes);
-        self.edges.clone_from(&other.edges);
-        self.gamma.clone_from(&other.gamma);
-        self.core.clone_from(&other.core);
-    }
-
     /// Whether this is `other` but for the core radii of its nodes, which differ by no more than `near` \[m\].
     pub fn is_near(&self, other: &Self, near: f64) -> bool {
         self.edges == other.edges
@@ -150,14 +70,17 @@ impl Network {
         self.core.push(core);
     }
 
-    /// Makes it these segments, two nodes each.
-    pub fn set_segments(&mut self, segments: &Segments) {
-        self.clear();
-        for i in 0..segments.len() {
-            self.nodes.push(segments.a(i));
-            self.nodes.push(segments.b(i));
-            self.push_edge(2 * i, 2 * i + 1, segments.gamma[i], segments.core[i]);
-        }
+    /// Appends an edge from `a` to `b` \[m\] with nodes of its own.
+    pub fn push_segment(&mut self, a: DVec3, b: DVec3, gamma: f64, core: f64) {
+        let first = self.nodes.len();
+        self.nodes.push(a);
+        self.nodes.push(b);
+        self.push_edge(first, first + 1, gamma, core);
+    }
+
+    /// Regularisation number of edge `e` at its node `n`: that of the node, if nodes have one, or its own.
+    pub(crate) fn core_at(&self, e: usize, n: usize) -> f64 {
+        *self.nodes.core.get(n).unwrap_or(&self.core[e])
     }
 
     /// Start and end of edge `e` \[m\].
@@ -165,14 +88,73 @@ impl Network {
         let [i, j] = self.edges[e];
         (self.nodes.get(i as usize), self.nodes.get(j as usize))
     }
+}
 
-    /// The same segments with their own end points, for tests and benches of sums over them.
-    pub fn to_segments(&self) -> Segments {
-        let mut out = Segments::default();
-        for (e, &[i, j]) in self.edges.iter().enumerate() {
-            let (a, b) = (self.nodes.get(i as usize), self.nodes.get(j as usize));
-            out.push(a, b, self.gamma[e], self.core[e]);
+impl Clone for Network {
+    fn clone(&self) -> Self {
+        Self {
+            nodes: self.nodes.clone(),
+            edges: self.edges.clone(),
+            gamma: self.gamma.clone(),
+            core: self.core.clone(),
         }
-        out
+    }
+
+    /// Keeps the memory.
+    fn clone_from(&mut self, other: &Self) {
+        self.nodes.clone_from(&other.nodes);
+        self.edges.clone_from(&other.edges);
+        self.gamma.clone_from(&other.gamma);
+        self.core.clone_from(&other.core);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A line of edges whose nodes have these core radii [m].
+    fn line(radii: &[f64]) -> Network {
+        let mut net = Network::default();
+        for (k, radius) in radii.iter().enumerate() {
+            net.nodes
+                .push_with_core(k as f64 * DVec3::X, radius * radius);
+        }
+        (1..radii.len()).for_each(|k| net.push_edge(k - 1, k, k as f64, 0.5));
+        net
+    }
+
+    #[test]
+    fn exact_networks_after_each_other_keep_their_nodes_and_cores() {
+        let (mut both, other) = (line(&[0.1, 0.2]), line(&[0.3, 0.4, 0.5]));
+        both.append(&other);
+        assert_eq!(both.edges, [[0, 1], [2, 3], [3, 4]]);
+        assert_eq!(both.gamma, [1.0, 1.0, 2.0]);
+        assert_eq!(both.ends(2), other.ends(1));
+        assert_eq!(both.nodes.core[2..], other.nodes.core[..]);
+        let mut none = Network::default();
+        none.append(&other);
+        assert_eq!(none, other);
+    }
+
+    #[test]
+    #[cfg(debug_assertions)]
+    #[should_panic(expected = "cores of some points")]
+    fn refuses_networks_of_which_one_has_cores_at_its_nodes() {
+        let mut bare = line(&[0.1, 0.2]);
+        bare.nodes.core.clear();
+        bare.append(&line(&[0.1, 0.2]));
+    }
+
+    #[test]
+    fn exact_near_networks_differ_in_core_radii_alone() {
+        let net = line(&[0.1, 0.2, 0.3]);
+        let wider = line(&[0.1, 0.2, 0.3 + 1e-3]);
+        assert!(net.is_near(&net, 0.0) && !net.is_near(&wider, 0.0));
+        assert!(net.is_near(&wider, 2e-3) && !net.is_near(&wider, 5e-4));
+        let mut moved = net.clone();
+        moved.nodes.x[1] += 1e-12;
+        assert!(!net.is_near(&moved, 1.0));
+        assert!(!net.is_near(&line(&[0.1, 0.2]), 1.0));
     }
 }

@@ -5,5 +5,5 @@ mod filaments;
 mod points;
 
 pub use blob::Blob;
-pub use filaments::{Network, Segments};
+pub use filaments::Network;
 pub use points::Points;

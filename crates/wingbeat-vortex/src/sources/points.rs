@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 /// Positions \[m\] or velocities \[m/s\], frame N, one array per component.
-#[derive(Clone, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
+#[derive(Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Points {
     /// Components along n1.
     pub x: Vec<f64>,
@@ -43,6 +43,11 @@ impl Points {
         DVec3::new(self.x[i], self.y[i], self.z[i])
     }
 
+    /// What softens distances from point `i`: half its squared core radius \[m2\], nothing at a bare point.
+    pub(crate) fn softening(&self, i: usize) -> f64 {
+        self.core.get(i).map_or(0.0, |core| 0.5 * core)
+    }
+
     /// Overwrites point `i`.
     pub fn set(&mut self, i: usize, p: DVec3) {
         (self.x[i], self.y[i], self.z[i]) = (p.x, p.y, p.z);
@@ -75,6 +80,13 @@ impl Points {
         self.core.clear();
     }
 
+    /// Drops all points but the first `n` and keeps the memory.
+    pub fn truncate(&mut self, n: usize) {
+        for c in [&mut self.x, &mut self.y, &mut self.z, &mut self.core] {
+            c.truncate(n);
+        }
+    }
+
     /// Makes it `n` points, all zero, and keeps the memory.
     pub fn reset(&mut self, n: usize) {
         for c in [&mut self.x, &mut self.y, &mut self.z] {
@@ -82,14 +94,6 @@ impl Points {
             c.resize(n, 0.0);
         }
         self.core.clear();
-    }
-
-    /// Takes the points of `other` and keeps the memory, which `clone_from` does not.
-    pub fn copy_from(&mut self, other: &Self) {
-        self.x.clone_from(&other.x);
-        self.y.clone_from(&other.y);
-        self.z.clone_from(&other.z);
-        self.core.clone_from(&other.core);
     }
 
     /// Whether these are the places of `other`, whatever their cores.
@@ -104,8 +108,13 @@ impl Points {
         self.core.len() == other.core.len() && self.core.iter().zip(&other.core).all(is_near)
     }
 
-    /// Appends the points of `other`, with their cores.
+    /// Appends the points of `other`, with their cores; either both have some, or none.
     pub fn append(&mut self, other: &Self) {
+        let is_alike = self.core.is_empty() == other.core.is_empty();
+        debug_assert!(
+            self.is_empty() || other.is_empty() || is_alike,
+            "cores of some points"
+        );
         self.x.extend_from_slice(&other.x);
         self.y.extend_from_slice(&other.y);
         self.z.extend_from_slice(&other.z);
@@ -115,6 +124,25 @@ impl Points {
     /// The points in order.
     pub fn iter(&self) -> impl Iterator<Item = DVec3> + '_ {
         (0..self.len()).map(|i| self.get(i))
+    }
+}
+
+impl Clone for Points {
+    fn clone(&self) -> Self {
+        Self {
+            x: self.x.clone(),
+            y: self.y.clone(),
+            z: self.z.clone(),
+            core: self.core.clone(),
+        }
+    }
+
+    /// Keeps the memory.
+    fn clone_from(&mut self, other: &Self) {
+        self.x.clone_from(&other.x);
+        self.y.clone_from(&other.y);
+        self.z.clone_from(&other.z);
+        self.core.clone_from(&other.core);
     }
 }
 

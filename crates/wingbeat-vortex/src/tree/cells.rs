@@ -4,6 +4,7 @@ use crate::cores::CoreModel;
 use crate::cores::INV_4PI;
 use crate::direct::packed::Packed;
 use crate::direct::single::Single;
+use crate::preorder::children;
 use crate::sources::Network;
 use crate::tree::harmonics::{Coefficient, Harmonics};
 use fearless_simd::{Level, dispatch};
@@ -15,6 +16,12 @@ pub(crate) const LEAF: usize = 32;
 
 /// Leaves of a subtree that is worth a task of its own.
 const TASK_LEAVES: usize = 32;
+
+/// How much more than estimated the change of the far velocity by cores counts.
+const WEIGHT: f64 = 10.0;
+
+/// The same of cores whose function fades with the fourth power of the distance or faster.
+const WEIGHT_OF_COMPACT: f64 = 40.0;
 
 /// Something with a place, to be sorted in space.
 #[derive(Clone, Copy, Debug)]
@@ -128,10 +135,7 @@ impl Cells {
 
     /// The children of cell `c`, None if it is a leaf.
     pub fn children(&self, c: usize) -> Option<[usize; 2]> {
-        match self.cells[c].leaves.len() {
-            1 => None,
-            leaves => Some([c + 1, c + 2 * (leaves / 2)]),
-        }
+        children(c, self.cells[c].leaves.len())
     }
 }
 
@@ -223,18 +227,22 @@ impl Grower<'_> {
 
     /// Change of the far velocity by the core, times D^4 (cut-off: D^6).
     ///
-    /// The cut-off divides it by 1 + core / (2 D^4). The others multiply it by 1 - f(h), h = D sin a
-    /// the distance from the **line** of the segment, which may be short at any D. The root mean
-    /// square over all directions of sin a f is c (r_c / D)^2 with c = 0.3 (Vatistas, Lamb-Oseen),
-    /// c = 1.5 at D = 20 r_c (Scully). A third of it, for the segments of a cell add with either
-    /// sign: measured on sheets, and checked at every sum.
+    /// The cut-off divides it by 1 + core / (2 D^4), a change of c = 0.5 times core / D^4. The others multiply it by
+    /// 1 - f(h), h = D sin a the distance from the **line** of the segment, which may be short at any D. The root mean
+    /// square over all directions of sin a f is 3 c (r_c / D)^2 with c = 0.1 (Vatistas, Lamb-Oseen) and c = 0.5 at D =
+    /// 20 r_c (Scully); a third of it, for the segments of a cell add with either sign. Algebraic cores count as
+    /// Scully's, those at nodes and at targets not at all.
+    ///
+    /// [`WEIGHT`] and [`WEIGHT_OF_COMPACT`] are what that counts for beside what the expansion leaves out: the share of
+    /// the tolerance that a cell may leave out is laxer than either estimate. Measured on sheets, and checked at every
+    /// sum.
     fn smear(&self, e: usize) -> f64 {
         let (a, b) = self.network.ends(e);
         let strength = (self.network.gamma[e] * INV_4PI).abs() * a.distance(b);
         let change = match self.model {
-            CoreModel::CutOff { .. } => 5.0,
-            CoreModel::Vatistas { .. } | CoreModel::LambOseen { .. } => 4.00,
-            CoreModel::Scully { .. } | CoreModel::Algebraic { .. } => 5.0,
+            CoreModel::CutOff { .. } => 0.5 * WEIGHT,
+            CoreModel::Vatistas { .. } | CoreModel::LambOseen { .. } => 0.1 * WEIGHT_OF_COMPACT,
+            CoreModel::Scully { .. } | CoreModel::Algebraic { .. } => 0.5 * WEIGHT,
         };
         strength * self.network.core[e] * change
     }

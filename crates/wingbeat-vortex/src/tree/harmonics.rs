@@ -16,6 +16,7 @@
 //! v = sum of conj(N_nm) T_nm over 1 <= n <= P = p + 1, each N_nm a complex 3-vector.
 
 use crate::cores::INV_4PI;
+use crate::quadrature::gauss_legendre;
 use crate::sources::Network;
 use crate::tree::moments::{Complex, MAX_ORDER, Moment, Moments, regular, square_index};
 use fearless_simd::{Simd, prelude::*};
@@ -258,26 +259,4 @@ fn product(from: f64, step: f64, to: f64) -> f64 {
     std::iter::successors(Some(from), |k| Some(k + step))
         .take_while(|k| *k <= to)
         .product()
-}
-
-/// Abscissas and weights of n points on (0, 1): roots of the Legendre polynomial by Newton.
-pub(crate) fn gauss_legendre(n: usize) -> Vec<(f64, f64)> {
-    let legendre = |x: f64| {
-        let (mut old, mut new) = (1.0, x);
-        for k in 2..=n {
-            let k = k as f64;
-            (old, new) = (new, ((2.0 * k - 1.0) * x * new - (k - 1.0) * old) / k);
-        }
-        (new, n as f64 * (x * new - old) / (x * x - 1.0))
-    };
-    let root = |i: usize| {
-        let mut x = (std::f64::consts::PI * (i as f64 + 0.75) / (n as f64 + 0.5)).cos();
-        (0..20).for_each(|_| x -= legendre(x).0 / legendre(x).1);
-        x
-    };
-    let weight = |x: f64| 1.0 / ((1.0 - x * x) * legendre(x).1.powi(2));
-    (0..n)
-        .map(root)
-        .map(|x| (0.5 * (1.0 - x), weight(x)))
-        .collect()
 }

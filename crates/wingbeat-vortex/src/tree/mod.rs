@@ -6,5 +6,3 @@ mod harmonics;
 #[cfg(test)]
 mod harmonics_tests;
 mod moments;
-
-pub(crate) use harmonics::gauss_legendre;

@@ -84,20 +84,23 @@ impl<S: Simd> Moments<S> {
         self.waiting = 0;
     }
 
-    /// The moments of all points.
+    /// The moments of all points, zero beyond the order.
     #[inline(always)]
     pub fn total(&mut self) -> [Moment; MOMENTS] {
         if self.waiting > 0 {
             self.take_batch();
         }
         let add = |v: f64x8<S>| v.as_slice().iter().sum::<f64>();
-        self.sums.map(|s| {
-            [
+        let mut total = [[[0.0; 2]; 3]; MOMENTS];
+        let count = (self.order + 1) * (self.order + 2) / 2;
+        for (total, s) in total[..count].iter_mut().zip(&self.sums) {
+            *total = [
                 [add(s[0]), add(s[1])],
                 [add(s[2]), add(s[3])],
                 [add(s[4]), add(s[5])],
-            ]
-        })
+            ];
+        }
+        total
     }
 }
 

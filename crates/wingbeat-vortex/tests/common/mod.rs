@@ -1,6 +1,6 @@
 //! Sums and how they are compared.
 
-use wingbeat_vortex::{CoreModel, DirectSum, Network, Points};
+use wingbeat_vortex::{CoreModel, Network, Points, add_velocity};
 
 /// Error at all targets, relative to the root mean square velocity: root mean square and largest.
 pub fn error(v: &Points, exact: &Points) -> (f64, f64) {
@@ -19,9 +19,8 @@ pub fn error(v: &Points, exact: &Points) -> (f64, f64) {
 
 /// Velocity by the direct sum.
 pub fn direct(model: CoreModel, net: &Network, at: &Points) -> Points {
-    let (mut sum, mut v) = (DirectSum::new(model), Points::zeros(at.len()));
-    sum.load_network(net);
-    sum.add_velocity(at, &mut v);
+    let mut v = Points::zeros(at.len());
+    add_velocity(model, net, at, &mut v);
     v
 }
 

@@ -179,6 +179,34 @@ fn invariant_of_what_was_summed_before() {
     assert_eq!(both(&mut used, &small.nodes), expected);
 }
 
+/// Beside the plane halfway between two opposite lines vorticities cancel to a few parts of ten thousand: there that of meshes is
+/// above the tolerance, and single precision takes over.
+#[test]
+fn exact_single_precision_where_meshes_do_not_keep_the_tolerance() {
+    let mut net = Network::default();
+    for (y, gamma) in [(-1.0, 1.0), (1.0, -1.0)] {
+        let first = net.nodes.len();
+        for k in 0..=400 {
+            let place = DVec3::new(0.01 * f64::from(k), y, 0.0);
+            net.nodes.push_with_core(place, 0.1 + 1e-4 * f64::from(k));
+        }
+        (first..first + 400).for_each(|n| net.push_edge(n, n + 1, gamma, 0.0));
+    }
+    let mut at = Points::default();
+    for k in 0..1200 {
+        let [x, y] = [1.3, 2.1].map(|f| (f * f64::from(k)).sin());
+        at.push_with_core(DVec3::new(2.0 + x, 2e-4 * y, 0.0), 0.1);
+    }
+    let [mut mesh, mut single, mut direct] =
+        [Method::Mesh, Method::Single, Method::Direct].map(|m| loaded(m, &net));
+    assert_eq!(velocity(&mut mesh, &at).1.method, Method::Mesh);
+    let [by_mesh, by_single, exact] = [&mut mesh, &mut single, &mut direct].map(|s| both(s, &at));
+    assert!(by_mesh == by_single, "the same bits");
+    let rms = error(&by_single[1], &exact[1]).0;
+    println!("{rms:e}");
+    assert!(0.0 < rms && rms < MESH_TOLERANCE, "{rms:e}");
+}
+
 /// Targets beside the sources enlarge the meshes; far away ones, and sources that no mesh serves, are summed
 /// one by one.
 #[test]

@@ -239,3 +239,25 @@ fn behaves_auto_takes_cells_only_where_they_pay() {
     assert_eq!(report.method, Method::Single);
     assert_eq!(bits(&fine), bits(&velocity(single, &net, &net.nodes).0));
 }
+
+/// Velocity and vorticity at a tolerance too fine for cells: the expansions of other cores know no vorticity, single
+/// precision takes over.
+#[test]
+fn agrees_tree_below_the_tolerance_of_cells_takes_single_precision() {
+    let net = wake(6_000, [0.02, 0.5]);
+    let single = FastSettings {
+        method: Method::Single,
+        ..FastSettings::new(MODEL)
+    };
+    let [tree, single, double] = [
+        both(settings(1e-4), &net, &net.nodes),
+        both(single, &net, &net.nodes),
+        exact(&net, &net.nodes),
+    ];
+    assert_eq!(tree, single, "the same bits");
+    for (sum, exact) in tree.iter().zip(&double) {
+        let rms = error(sum, exact).0;
+        println!("{rms:e}");
+        assert!(0.0 < rms && rms < 1e-5, "{rms:e}");
+    }
+}
