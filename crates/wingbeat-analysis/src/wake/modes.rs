@@ -10,7 +10,6 @@ use super::free_beat::{
 use super::trim::WakeTrim;
 use crate::AnalysisError;
 use crate::beat::level::Perturbation;
-use crate::stability::disturbance::Disturbance;
 use crate::stability::eigen::eigen;
 use crate::stability::modes::ModeSet;
 
