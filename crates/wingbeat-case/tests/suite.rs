@@ -52,6 +52,7 @@ mod times;
 mod too_short;
 mod towed_glides;
 mod turns;
+mod twisted_past;
 mod wingless;
 mod wings;
 mod wings_on_bodies;

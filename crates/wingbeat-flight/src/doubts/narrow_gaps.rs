@@ -44,7 +44,7 @@ impl FlightSetup {
                 Some((p + r * in_root.p, r * in_root.r))
             };
             let poses: Vec<_> = (0..=bodies).map(placed).collect();
-            gaps.see(&poses, std::iter::empty());
+            gaps.see(&poses, std::iter::empty(), |m| m.impulsive().phase_at(t)[0]);
         }
         self.say_narrow_gaps(&gaps, "beat")
     }

@@ -41,7 +41,7 @@ fn part_of_time(wings: [&Wing; 2], carried: impl Fn(usize, f64) -> Option<(DVec3
     };
     let (sheet, other) = (Sheet::new(wings[small]), Sheet::new(wings[large]));
     let at = |sheet: &Sheet, k: usize, t: f64| match carried(k, t) {
-        Some(place) => sheet.placed(place),
+        Some(place) => sheet.carried(place, t),
         None => sheet.at(t),
     };
     let count = instants(wings).count();

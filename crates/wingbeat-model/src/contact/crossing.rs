@@ -36,7 +36,7 @@ pub fn are_joined(joined: &[[usize; 2]], pair: [usize; 2]) -> bool {
 }
 
 /// Which of `wings` of the animal pass through each other once their motion has started: at 100 instants of a
-/// beat, in ten beats where frequencies differ, shapes at rest, on at most 8 x 16 panels. Pairs that are
+/// beat, in ten beats where frequencies differ, deformed as prescribed, on at most 8 x 16 panels. Pairs that are
 /// `joined` at their roots have the edge there midway, as in the lattice, unless their roots part by more than
 /// [`root_gap`].
 pub fn crossings(animal: &Animal, wings: &[usize], joined: &[[usize; 2]]) -> Vec<Crossing> {
@@ -252,7 +252,7 @@ mod tests {
                 (w.hinge_b, motion.at(t).c)
             };
             let poses: Vec<_> = flown.wings.iter().map(pose).collect();
-            counted.see(&poses, std::iter::empty());
+            counted.see(&poses, std::iter::empty(), |m| m.phase_at(t)[0]);
         }
         let [(crossing, depth)] = &counted.found()[..] else {
             panic!("{:?}", counted.found());

@@ -1,17 +1,16 @@
-//! Wings as they are flown: elastic ones with the shapes that loads give them.
+//! Wings as they are flown: elastic ones with the shapes that loads give them, deforming ones with those prescribed.
 
 use crate::animal::{Animal, Wing};
 use crate::contact::bent::{Bending, Column, bend};
-use crate::contact::sheet::{LINES, Sheet};
-use wingbeat_math::{DMat3, DVec3};
-
-/// Place of the origin \[m\] and attitude.
-pub type Pose = (DVec3, DMat3);
+use crate::contact::sheet::{LINES, Pose, Sheet};
+use crate::motion::WingMotion;
+use wingbeat_math::DVec3;
 
 /// The wings of an animal.
 #[derive(Clone, Debug)]
 pub struct FlownSheets {
     pub sheets: Vec<Sheet>,
+    motions: Vec<WingMotion>,
     /// Of elastic wings.
     columns: Vec<Option<Vec<Column>>>,
 }
@@ -24,23 +23,26 @@ impl FlownSheets {
         };
         Self {
             sheets: animal.wings.iter().map(Sheet::new).collect(),
+            motions: animal.wings.iter().map(|w| w.motion.clone()).collect(),
             columns: animal.wings.iter().map(elastic).collect(),
         }
     }
 
     /// Nodes of all wings \[m\] whose hinges are here with these attitudes, how the elastic ones are bent in their order;
-    /// of wings without a pose none, of elastic ones of which no shape is left that at rest.
+    /// of wings without a pose none, of elastic ones of which no shape is left that at rest. `phase` of the beat of a wing
+    /// of some motion \[wingbeats\].
     pub fn placed(
         &self,
         poses: impl Iterator<Item = Option<Pose>>,
         mut bent: impl Iterator<Item = Bending>,
+        phase: impl Fn(&WingMotion) -> f64,
     ) -> Vec<Option<Vec<DVec3>>> {
-        let wings = self.sheets.iter().zip(&self.columns).zip(poses);
-        let placed = wings.map(|((sheet, columns), pose)| {
+        let wings = self.sheets.iter().zip(&self.motions).zip(&self.columns);
+        let placed = wings.zip(poses).map(|(((sheet, motion), columns), pose)| {
             let bending = columns.as_ref().and_then(|c| Some((c, bent.next()?)));
             let pose = pose?;
             let Some((columns, bending)) = bending else {
-                return Some(sheet.placed(pose));
+                return Some(sheet.placed(pose, phase(motion)));
             };
             let mut nodes = sheet.nodes.clone();
             bend(&mut nodes, columns, &bending);

@@ -24,7 +24,7 @@ pub struct Inside {
 }
 
 /// Which of `wings` of the animal are inside parts of the central body once their motion has started: at 100
-/// instants of a beat, shapes at rest, on at most 8 x 16 panels, deeper than 3 % of the way from the middle of
+/// instants of a beat, deformed as prescribed, on at most 8 x 16 panels, deeper than 3 % of the way from the middle of
 /// the part to its surface.
 pub fn inside(animal: &Animal, wings: &[usize]) -> Vec<Inside> {
     let solids: Vec<Solid> = animal.parts.iter().map(|p| Solid::new(&p.mesh)).collect();

@@ -18,8 +18,9 @@
 use crate::animal::{Animal, Wing};
 use crate::contact::bent::Bending;
 use crate::contact::crossing::{instants, pairs};
-use crate::contact::flown_sheets::{FlownSheets, Pose};
-use crate::contact::sheet::{EDGE, LINES, Sheet, bounds, lines};
+use crate::contact::flown_sheets::FlownSheets;
+use crate::contact::sheet::{EDGE, LINES, Pose, Sheet, bounds, lines};
+use crate::motion::WingMotion;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
 use wingbeat_math::DVec3;
@@ -161,10 +162,16 @@ impl NarrowGaps {
     }
 
     /// Looks at an instant: places \[m\] and attitudes of the central body, the wings and the segments in the frame of the
-    /// planes, none of those that are left out, and how the elastic wings are bent, in their order.
-    pub fn see(&mut self, poses: &[Option<Pose>], bent: impl Iterator<Item = Bending>) {
+    /// planes, none of those that are left out, and how the elastic wings are bent, in their order; `phase` of the beat of a
+    /// wing of some motion \[wingbeats\].
+    pub fn see(
+        &mut self,
+        poses: &[Option<Pose>],
+        bent: impl Iterator<Item = Bending>,
+        phase: impl Fn(&WingMotion) -> f64,
+    ) {
         self.seen.instants += 1;
-        let nodes = self.wings.placed(poses.iter().skip(1).copied(), bent);
+        let nodes = self.wings.placed(poses.iter().skip(1).copied(), bent, phase);
         let cells: Vec<Cells> = (0..nodes.len()).map(|w| self.cells(w, &nodes)).collect();
         let faced = |of: Faced| -> Vec<Vec<[DVec3; 3]>> {
             match of {

@@ -1,7 +1,8 @@
 //! Wings as sheets of nodes that are looked at against others.
 
 use crate::animal::Wing;
-use crate::motion::{Start, WingMotion};
+use crate::deformation::DeformingMesh;
+use crate::motion::WingMotion;
 use wingbeat_math::{DMat3, DVec3, RotationLaw};
 
 /// Lines of nodes along chord and span that are compared at most.
@@ -11,11 +12,15 @@ const TOUCH: f64 = 1e-6;
 /// What is on the edge of a triangle, over its area: lines of mirrored wings meet each other \[1\].
 pub(super) const EDGE: f64 = 1e-9;
 
+/// Place of the origin \[m\] and attitude.
+pub type Pose = (DVec3, DMat3);
+
 /// Nodes of a wing at rest, and what moves them.
 #[derive(Clone, Debug)]
 pub(crate) struct Sheet {
     motion: WingMotion,
     hinge: DVec3,
+    shape: Option<Shape>,
     /// Lines of nodes along the span.
     pub rows: usize,
     /// Lines of nodes along the chord.
@@ -26,21 +31,31 @@ pub(crate) struct Sheet {
     pub size: f64,
 }
 
+/// What a prescribed deformation makes of a wing.
+#[derive(Clone, Debug)]
+struct Shape {
+    mesh: DeformingMesh,
+    /// The nodes of the mesh that are those of the sheet.
+    nodes: Vec<usize>,
+}
+
 impl Sheet {
     pub fn new(wing: &Wing) -> Self {
         let mesh = &wing.mesh;
         let rows = lines(mesh.rows, LINES[0]);
         let columns = lines(mesh.cols, LINES[1]);
-        let row = |&i: &usize| columns.iter().map(move |&j| mesh.nodes[mesh.node(i, j)]);
-        let nodes: Vec<DVec3> = rows.iter().flat_map(row).collect();
-        let motion = WingMotion {
-            start: Start::Impulsive,
-            ..wing.motion.clone()
-        };
+        let row = |&i: &usize| columns.iter().map(move |&j| mesh.node(i, j));
+        let places: Vec<usize> = rows.iter().flat_map(row).collect();
+        let nodes: Vec<DVec3> = places.iter().map(|&n| mesh.nodes[n]).collect();
+        let shape = wing.deformation.as_ref().map(|d| Shape {
+            mesh: DeformingMesh::new(mesh, d),
+            nodes: places,
+        });
         let far = |x: &DVec3| x.distance(nodes[0]);
         Self {
-            motion,
+            motion: wing.motion.impulsive(),
             hinge: wing.hinge_b,
+            shape,
             rows: rows.len(),
             columns: columns.len(),
             size: 2.0 * nodes.iter().map(far).fold(0.0, f64::max),
@@ -50,12 +65,24 @@ impl Sheet {
 
     /// Its nodes at time `t` \[s\], body components \[m\].
     pub fn at(&self, t: f64) -> Vec<DVec3> {
-        self.placed((self.hinge, self.motion.at(t).c))
+        self.carried((self.hinge, self.motion.at(t).c), t)
     }
 
-    /// Its nodes \[m\] where the hinge is here and the wing has this attitude.
-    pub fn placed(&self, (hinge, r): (DVec3, DMat3)) -> Vec<DVec3> {
-        self.nodes.iter().map(|x| hinge + r * *x).collect()
+    /// Its nodes at time `t` \[s\] where the hinge is here and the wing has this attitude \[m\].
+    pub fn carried(&self, pose: Pose, t: f64) -> Vec<DVec3> {
+        self.placed(pose, self.motion.phase_at(t)[0])
+    }
+
+    /// Its nodes \[m\] where the hinge is here and the wing has this attitude, at the `phase` of the beat \[wingbeats\].
+    pub fn placed(&self, (hinge, r): Pose, phase: f64) -> Vec<DVec3> {
+        let moved = |x: DVec3| hinge + r * x;
+        match &self.shape {
+            None => self.nodes.iter().copied().map(moved).collect(),
+            Some(shape) => {
+                let places = shape.mesh.places(phase);
+                shape.nodes.iter().map(|&n| moved(places[n])).collect()
+            }
+        }
     }
 
     /// Lines of this sheet, whose nodes are at `a`, that pass through triangles of the other, whose are at `b`, with the

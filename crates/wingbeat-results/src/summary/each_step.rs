@@ -5,7 +5,7 @@
 use serde::{Deserialize, Serialize};
 use wingbeat_flight::{FlightSetup, Record, TurnedOver};
 use wingbeat_math::{DVec3, EulerSequence};
-use wingbeat_model::{FlownCounts, FlownCrossings, NarrowGaps, SeenGaps};
+use wingbeat_model::{FlownCounts, FlownCrossings, NarrowGaps, SeenGaps, WingMotion};
 
 use super::alternation::Alternation;
 use super::bent::{self, Bent};
@@ -132,12 +132,13 @@ impl EachStep {
                 (DVec3::from_slice(q), attitude)
             })
         };
+        let phase = |motion: &WingMotion| motion.phase_at(r.time)[0];
         if let Some(crossings) = &mut self.crossings {
             let of_wings: Vec<_> = poses().skip(1).take(wings).collect();
-            crossings.see(&of_wings, bent());
+            crossings.see(&of_wings, bent(), phase);
         }
         if let Some(gaps) = &mut self.gaps {
-            gaps.see(&poses().map(Some).collect::<Vec<_>>(), bent());
+            gaps.see(&poses().map(Some).collect::<Vec<_>>(), bent(), phase);
         }
     }
 }

@@ -120,7 +120,7 @@ mod tests {
         let (about, place) = (turn([13.0, -7.0, 31.0]), DVec3::new(0.3, -0.7, 0.11));
         let turned = |(x, r)| (place + about * x, about * r);
         let poses = [(DVec3::ZERO, turn([0.0; 3])), hand].map(turned);
-        counted.see(&poses, std::iter::empty());
+        counted.see(&poses, std::iter::empty(), |_| 0.0);
         counted
             .found()
             .into_iter()

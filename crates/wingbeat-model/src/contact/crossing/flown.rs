@@ -4,11 +4,13 @@ use super::depth::deeper;
 use super::{Crossing, Shared, are_joined, edge_gap, joined, pairs, pass_through};
 use crate::animal::Animal;
 use crate::contact::bent::Bending;
-use crate::contact::flown_sheets::{FlownSheets, Pose};
+use crate::contact::flown_sheets::FlownSheets;
+use crate::contact::sheet::Pose;
+use crate::motion::WingMotion;
 use serde::{Deserialize, Serialize};
 
 /// Counts how often wings pass through each other as they are flown, and how deep, elastic wings with the shapes that
-/// loads give them.
+/// loads give them and deforming ones with those prescribed.
 #[derive(Clone, Debug)]
 pub struct FlownCrossings {
     wings: FlownSheets,
@@ -60,10 +62,15 @@ impl FlownCrossings {
     }
 
     /// Looks at an instant: places of the hinges \[m\] and attitudes of all wings in one frame, and how the elastic ones
-    /// are bent, in their order.
-    pub fn see(&mut self, poses: &[Pose], bent: impl Iterator<Item = Bending>) {
+    /// are bent, in their order; `phase` of the beat of a wing of some motion \[wingbeats\].
+    pub fn see(
+        &mut self,
+        poses: &[Pose],
+        bent: impl Iterator<Item = Bending>,
+        phase: impl Fn(&WingMotion) -> f64,
+    ) {
         self.counts.instants += 1;
-        let nodes = self.wings.placed(poses.iter().copied().map(Some), bent);
+        let nodes = self.wings.placed(poses.iter().copied().map(Some), bent, phase);
         for (pair, (met, deepest)) in self.pairs.iter().zip(&mut self.counts.met) {
             let sheets = pair.wings.map(|w| &self.wings.sheets[w]);
             let [Some(a), Some(b)] = pair.wings.map(|w| nodes[w].clone()) else {

@@ -35,7 +35,7 @@ fn found(wings: &[(usize, DVec3, DMat3)], planes: Vec<[DVec3; 2]>) -> Vec<Narrow
     let body = Some((DVec3::ZERO, DMat3::IDENTITY));
     let wings = wings.iter().map(|w| Some((w.1, w.2)));
     let poses: Vec<_> = std::iter::once(body).chain(wings).collect();
-    gaps.see(&poses, std::iter::empty());
+    gaps.see(&poses, std::iter::empty(), |_| 0.0);
     gaps.found()
 }
 
@@ -152,7 +152,7 @@ fn behaves_wings_along_a_part_face_it() {
     let faced = |at: DVec3| {
         let mut gaps = NarrowGaps::new(&animal, true, vec![]);
         let poses = [DVec3::ZERO, at].map(|at| Some((at, DMat3::IDENTITY)));
-        gaps.see(&poses, std::iter::empty());
+        gaps.see(&poses, std::iter::empty(), |_| 0.0);
         gaps.found()
     };
     let along = faced(DVec3::new(0.0, -0.5, -1.02));
@@ -177,7 +177,7 @@ fn behaves_gaps_are_counted_over_the_beat() {
         for (k, t) in instants_of_gaps(&animal).enumerate() {
             let pose = |w: &Wing| Some((w.hinge_b, w.motion.impulsive().at(t).c));
             let poses = [None, pose(&animal.wings[0]), pose(&animal.wings[1])];
-            gaps.see(&poses, std::iter::empty());
+            gaps.see(&poses, std::iter::empty(), |_| 0.0);
             if stop == Some(k) {
                 let seen = gaps.seen().clone();
                 gaps = NarrowGaps::new(&animal, false, vec![]);
