@@ -247,7 +247,7 @@ pub(crate) fn check_unknowns(
         Err(AnalysisError::not_covered(why, remedy))
     };
     if let Some(joint) = setup.joints.first() {
-        let remedy = "choose other unknowns, or shift at_m of the joints in the case";
+        let remedy = "choose other unknowns, or shift at_m of the joints, or hinge_m of wings on joints without it, in the case";
         return refused(format!("joint `{}`", joint.name), remedy);
     }
     let mut springs = setup.springs.iter();
