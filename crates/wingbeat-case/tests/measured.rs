@@ -323,14 +323,6 @@ fn behaves_a_force_of_feathering_that_jumps_is_named() {
         "{named}"
     );
     assert!(!doubts(&[]).contains("jumps"));
-    let fixed = |x: f64| doubts(&[format!("air.blade.centre_of_pressure={{ fixed = {x} }}")]);
-    let named = fixed(0.25);
-    assert!(
-        named.contains("air.blade.centre_of_pressure.fixed has a moment that jumps"),
-        "{named}"
-    );
-    // At mid chord it is the same from either edge.
-    assert!(!fixed(0.5).contains("jumps"));
 }
 
 /// Rotation angles of other conventions, or signs, hardly change the lift, which a plate has both ways round.

@@ -90,7 +90,7 @@ fn behaves_summaries_say_what_is_doubted_of_the_setup() {
         ),
         (
             "air.blade.rotation=\"sane_dickinson\"",
-            DoubtKind::JumpingForces,
+            DoubtKind::JumpingRotation,
             false,
         ),
     ] {

@@ -18,8 +18,8 @@ pub enum DoubtKind {
     LongStart,
     /// Commands of a controller that the flight is too short for.
     LateCommands,
-    /// Blade elements whose forces or moments jump.
-    JumpingForces,
+    /// Blade elements whose force of feathering jumps.
+    JumpingRotation,
     /// Blade elements that excite the torsion of elastic wings.
     ExcitedTorsion,
     /// Masses beside lengths, or a gravity, that no animal has.
@@ -104,7 +104,7 @@ impl FlightSetup {
         add(LateGusts, self.gusts_that_never_arrive());
         add(ShortGusts, self.gusts_between_steps());
         add(PressedAir, self.gusts_that_press_air());
-        add(JumpingForces, one(self.jumping_forces()));
+        add(JumpingRotation, one(self.jumping_rotation()));
         add(ExcitedTorsion, one(self.excited_torsion()));
         add(InsideParts, self.wings_inside_parts());
         add(NarrowGaps, self.surfaces_in_narrow_gaps());

@@ -12,7 +12,7 @@ fn flown(set: &[&str]) -> (Option<String>, Option<String>) {
     let setup = LoadedCase::find("hawkmoth-elastic", &strings(&set))
         .unwrap()
         .setup;
-    let said = setup.jumping_forces();
+    let said = setup.jumping_rotation();
     let mut flight = Simulation::new(setup).unwrap();
     while !flight.finished() {
         if let Err(error) = flight.step() {
@@ -44,6 +44,6 @@ fn refuses_steps_across_a_jump_of_the_air_and_names_laws_without_one() {
     let (ended, said) = flown(&["air.blade.rotation_coefficient=1.5707963267948966"]);
     assert_eq!((ended, said), (None, None));
     let rigid = LoadedCase::find("hawkmoth-blade", &strings(&[JUMPS])).unwrap();
-    let said = rigid.setup.jumping_forces().expect("a doubt");
+    let said = rigid.setup.jumping_rotation().expect("a doubt");
     assert!(!said.contains("elastic"), "{said}");
 }

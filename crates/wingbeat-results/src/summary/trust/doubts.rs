@@ -67,7 +67,7 @@ fn heard(kind: DoubtKind, is_lattice: bool) -> (Place, Verdict, &'static str, &'
         DoubtKind::LateGusts => (Motion, Green, "A gust without effect: ", ""),
         DoubtKind::ShortGusts => (Motion, Amber, "Gusts that the steps do not resolve: ", ""),
         DoubtKind::PressedAir => (Motion, Amber, "Air that is pressed together: ", ""),
-        DoubtKind::JumpingForces => (Motion, Green, "No derivatives of the air are known: ", ""),
+        DoubtKind::JumpingRotation => (Motion, Green, "No derivatives of the air are known: ", ""),
         DoubtKind::ExcitedTorsion => (Cause, Amber, "Torsion that the air excites: ", ""),
         DoubtKind::InsideParts => (Air, Red, "A wing and a body cannot both be surfaces of the lattice in one place: ", NO_MEANING),
         DoubtKind::NarrowGaps => (Air, Amber, "Gaps narrower than the panels: ", ""),

@@ -169,7 +169,7 @@ fn warn(report: &mut Report, t: &TrimSolution, setup: &FlightSetup) {
         )],
         false => crossing_wings.clone(),
     };
-    let jumps = setup.jumping_forces();
+    let jumps = setup.jumping_rotation();
     warnings.extend(jumps.clone());
     report.value("derivatives_in_doubt", jumps);
     let reynolds = doubtful_reynolds_numbers(setup);
