@@ -404,7 +404,7 @@ fn refuses_at_its_key_what_only_the_flight_finds() {
     let hover = presets::find("fruit-fly-hover").unwrap().text;
     let blade = presets::find("fruit-fly-blade").unwrap().text;
     let (before, after) = blade.split_once("[air]").unwrap();
-    let rest = &after[after.find("\n[output]").unwrap()..];
+    let rest = &after[after.find("\n[body]").unwrap()..];
     let external = "[air]\nmodel = \"external\"\n[air.external]\ncommand = [\"/nowhere\"]\n";
     for (text, at) in [
         // A yawed body is not its own mirror image.

@@ -238,7 +238,7 @@ fn refuses_one_rotor_for_the_wings_of_both_sides() {
             ),
         ]
     };
-    let wing = "joint.stroke={ child = \"right\", parent = \"rotor-right\", kind = \"revolute\", at_m = [0, 0, 0], axis = [0, 1, 0], element = [{ direction = 0, stiffness_newton_m_per_rad = 1e-4 }] }";
+    let wing = "joint.stroke={ child = \"right\", parent = \"rotor-right\", kind = \"revolute\", axis = [0, 1, 0], element = [{ direction = 0, stiffness_newton_m_per_rad = 1e-4 }] }";
     let right = rotor("right", 6e-3);
     let one: Vec<&str> = right.iter().map(String::as_str).chain([wing]).collect();
     let said = load(&one).unwrap_err();

@@ -56,7 +56,10 @@ fn twisted(deg: f64) -> String {
 #[test]
 fn agrees_crossings_of_twisted_wings_with_those_of_feathered_ones() {
     let rigid = robot(&feathered(-50.0), &feathered(50.0)).prescribed_crossings();
-    assert!(rigid.len() >= 2 && rigid.iter().all(|c| c.part > 0.3), "{rigid:?}");
+    assert!(
+        rigid.len() >= 2 && rigid.iter().all(|c| c.part > 0.3),
+        "{rigid:?}"
+    );
     let setup = robot(&twisted(-50.0), &twisted(50.0));
     assert_eq!(setup.prescribed_crossings(), rigid);
     // As they are flown, too.

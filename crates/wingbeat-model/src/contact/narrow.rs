@@ -171,7 +171,9 @@ impl NarrowGaps {
         phase: impl Fn(&WingMotion) -> f64,
     ) {
         self.seen.instants += 1;
-        let nodes = self.wings.placed(poses.iter().skip(1).copied(), bent, phase);
+        let nodes = self
+            .wings
+            .placed(poses.iter().skip(1).copied(), bent, phase);
         let cells: Vec<Cells> = (0..nodes.len()).map(|w| self.cells(w, &nodes)).collect();
         let faced = |of: Faced| -> Vec<Vec<[DVec3; 3]>> {
             match of {

@@ -70,7 +70,9 @@ impl FlownCrossings {
         phase: impl Fn(&WingMotion) -> f64,
     ) {
         self.counts.instants += 1;
-        let nodes = self.wings.placed(poses.iter().copied().map(Some), bent, phase);
+        let nodes = self
+            .wings
+            .placed(poses.iter().copied().map(Some), bent, phase);
         for (pair, (met, deepest)) in self.pairs.iter().zip(&mut self.counts.met) {
             let sheets = pair.wings.map(|w| &self.wings.sheets[w]);
             let [Some(a), Some(b)] = pair.wings.map(|w| nodes[w].clone()) else {
