@@ -38,7 +38,9 @@ impl FlightSetup {
         }
         if lasts(tether, hold) {
             let until = match hold < end {
-                true => format!("the body is held for {hold:.3} s (flight.held_beats, flight.held_s)"),
+                true => {
+                    format!("the body is held for {hold:.3} s (flight.held_beats, flight.held_s)")
+                }
                 false => format!("the flight lasts {end:.3} s"),
             };
             list.push(format!(

@@ -162,7 +162,9 @@ fn mode(setup: &FlightSetup, summary: &Summary, list: &mut Warnings) {
         });
     }
     if setup.mode.is_held_throughout(summary.steps) {
-        list.note("Held to its end (flight.held_beats, flight.held_s): the body has not been released.");
+        list.note(
+            "Held to its end (flight.held_beats, flight.held_s): the body has not been released.",
+        );
     }
     if !summary.has_n3_down() {
         let along = summary
