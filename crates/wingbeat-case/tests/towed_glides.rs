@@ -4,7 +4,7 @@ use std::path::Path;
 use std::sync::LazyLock;
 
 use wingbeat_analysis::wake::{
-    WakeSettings, WakeTrim, elastic_floquet, steady_model, trim_with_wake,
+    WakeMemory, WakeSettings, WakeTrim, elastic_floquet, steady_model, trim_with_wake, wake_floquet,
 };
 use wingbeat_analysis::{Plane, Trim, TrimRequest, Unknown, power_with_wake, trim};
 use wingbeat_case::{LoadedCase, wake_trimmed_case};
@@ -183,6 +183,52 @@ fn agrees_the_written_case_of_a_glide_in_the_lattice_with_its_glide() {
     assert!((again.velocity - trim.velocity).length() < 1e-4);
 }
 
+/// A vortex across the span b at the distance L is felt by (b / L)^2.
+#[test]
+fn order_the_start_of_the_wake_is_felt_by_the_square_of_the_way() {
+    let case = case(LATTICE, &[]);
+    let mut problem = TrimRequest::default().problem(&case.setup).unwrap();
+    (problem.velocity, problem.body_pitch) = (GLIDE.velocity, GLIDE.solution.body_pitch);
+    let change = |held_beats: usize| {
+        let settings = WakeSettings {
+            held_beats,
+            iterations: 0,
+            ..WakeSettings::of(&case.setup)
+        };
+        let found = trim_with_wake(&case.setup, &problem, &settings).unwrap();
+        found.tow.unwrap().change
+    };
+    let [near, far] = [change(16), change(32)];
+    assert!((3.4..4.6).contains(&(near / far)), "{near:e} {far:e}");
+}
+
+/// Rectangular wings of the aspect ratio 6.25 about their quarter chord: induced drag and lift slope of the lifting line
+/// [Glauert 1926, ch. 11: delta 0.05, tau 0.17], of which surfaces of that ratio have some 7 % less slope.
+#[test]
+fn limit_a_flying_wing_glides_as_the_lifting_line_has_it() {
+    let unknowns = vec![Unknown::BodyPitch, Unknown::Climb, Unknown::MassCentre];
+    let trim = glide(&case(FLYING_WING, &[]), 6.0, Some(unknowns), 1e-5);
+    let glide = trim.glide().unwrap();
+    let pressure = 0.5 * 1.225 * glide.airspeed.powi(2);
+    let lift = 0.03 * 9.81 * glide.angle.cos() / (pressure * 0.04);
+    let ratio = 0.5 / 0.08;
+    let line = std::f64::consts::PI * ratio;
+    let induced = glide.angle.tan() * lift - 0.01;
+    assert!(
+        (induced / (1.05 * lift * lift / line) - 1.0).abs() < 0.03,
+        "{induced}"
+    );
+    let incidence = trim.solution.body_pitch + glide.angle;
+    let slope = 2.0 * std::f64::consts::PI / (1.0 + 2.0 * 1.17 / ratio);
+    let found = lift / incidence / slope;
+    assert!((0.9..1.0).contains(&found), "{found}");
+    // The lift of a flat wing acts at a quarter of its chord, as far as it is high beside its span.
+    let behind = (0.015 - trim.solution.mass_centre - 0.02) / 0.08;
+    assert!(behind.abs() < 0.02, "{behind}");
+    let neutral = steady_model(&trim).unwrap().neutral_point();
+    assert!(neutral.abs() < 0.01 * 0.08, "{neutral}");
+}
+
 /// Wings far behind the mass centre: to them pitching is a velocity along their normal, at three quarters of the chord,
 /// and their lift acts at a quarter.
 #[test]
@@ -206,6 +252,26 @@ fn limit_derivatives_of_wings_far_behind_are_those_of_their_distance() {
     near(d[4][2] / d[2][2], 0.82);
     near(d[2][4] / d[2][2], 0.86);
     near(d[4][4] / d[2][4], 0.82);
+}
+
+/// The phugoid of a heavy glider is Lanchester's but for an arm of the tail over the radius of its path.
+#[test]
+fn limit_a_heavy_glider_in_the_lattice_has_the_phugoid_of_lanchester() {
+    let set = [
+        "body.mass_kg=1.2",
+        "time.step_s=2e-3",
+        "flight.velocity_m_s=[36, 0, 3]",
+    ];
+    let trim = glide(&case(LATTICE, &set), 0.0, None, 1e-6);
+    let glide = trim.glide().unwrap();
+    let rate = 9.81 / glide.airspeed;
+    let steady = steady_model(&trim).unwrap().modes;
+    let carried = wake_floquet(&trim, WakeMemory::Carried).unwrap();
+    for modes in [&steady, &carried] {
+        let mode = modes.find(Plane::Longitudinal, "stable phugoid").unwrap();
+        let frequency = mode.growth.hypot(mode.frequency) / (2f64.sqrt() * rate);
+        assert!((frequency - 1.0).abs() < 0.02, "{frequency}");
+    }
 }
 
 /// A wake of plane flow is no longer felt at constant incidence: what is left is the quasi-steady law.
@@ -260,6 +326,27 @@ fn exact_the_twist_of_a_glider_is_that_before_divergence() {
     let expected = root * (1.0 / (0.25 * k).cos() - 1.0);
     // The sines of the law at 3.8 deg, and ten elements.
     assert!((twist / expected - 1.0).abs() < 0.01, "{twist} {expected}");
+}
+
+#[test]
+fn limit_stiff_wings_glide_as_rigid_ones() {
+    let rigid = case(BLADES, &[]);
+    let rigid = trim(
+        &rigid.setup,
+        &TrimRequest::default().problem(&rigid.setup).unwrap(),
+    )
+    .unwrap();
+    let off = |stiffness: f64| {
+        let found = glide(
+            &case(BLADES, &[&beam(stiffness, stiffness)]),
+            0.0,
+            None,
+            1e-9,
+        );
+        (found.velocity - rigid.velocity).length()
+    };
+    let [soft, stiff] = [off(2.0), off(20.0)];
+    assert!((9.0..11.0).contains(&(soft / stiff)), "{soft:e} {stiff:e}");
 }
 
 #[test]
