@@ -42,6 +42,7 @@ pub use shipped::data::data_sets;
 pub use shipped::presets;
 pub use text::nearest::nearest;
 pub use text::shell::{operand, shell, shell_path};
+pub use written::averaged::derivative_case;
 pub use written::case_of;
 pub use written::differences::{Difference, differences};
-pub use written::trimmed::{derivative_case, lacks_feedback, trimmed_case, wake_trimmed_case};
+pub use written::trimmed::{lacks_feedback, trimmed_case, wake_trimmed_case};

@@ -5,6 +5,7 @@
 
 mod air;
 mod animal;
+pub(crate) mod averaged;
 pub(crate) mod differences;
 pub(crate) mod flight;
 mod motion;

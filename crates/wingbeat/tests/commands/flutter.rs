@@ -80,6 +80,24 @@ fn behaves_json_of_speeds_that_fail_says_what_is_missing() {
     );
 }
 
+/// Goland's wing in strips: an onset between far speeds is the zero of a straight line, and it is said so.
+#[test]
+fn behaves_an_onset_between_far_speeds_asks_for_closer_ones() {
+    let scratch = Scratch::new("flutter-wide");
+    let text = include_str!("../../../wingbeat-verify/data/goland-strips.toml");
+    fs::write(scratch.0.join("goland.toml"), text).unwrap();
+    let told = |speeds: &str| {
+        let coarse = "wing.right.mesh.spanwise=8";
+        let asked = ["flutter", "goland.toml", "--speeds", speeds];
+        let rest = ["--modes", "2", "--set", coarse];
+        let text = said(&scratch.0, &[&asked[..], &rest].concat());
+        assert!(text.contains("Flutter begins at 137."), "{text}");
+        text.contains("--speeds 120:160:5 looks closer")
+    };
+    assert!(told("120:160:2"));
+    assert!(!told("132:142:2"));
+}
+
 #[test]
 fn behaves_one_speed_has_its_modes_and_what_grows() {
     let scratch = Scratch::new("flutter-one-speed");
