@@ -1,17 +1,17 @@
 //! A campaign: its file read and checked, its points with their cases and hashes.
 
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
 use sha2::{Digest, Sha256};
 use wingbeat_case::{IoError, LoadedCase};
-use wingbeat_flight::FlightSetup;
 use wingbeat_results::summary::starting_beats;
 
 use crate::digest::{LAW_OF_BLADES, law_of, of_case};
 use crate::plan::blocks::points_of_block;
 use crate::plan::cases;
 use crate::plan::file::CampaignFile;
-use crate::plan::named::{self, Contents, Programs};
+use crate::plan::named::{self, Contents, Programs, Seen};
 use crate::plan::number::Number;
 use crate::plan::raw::{RawCampaign, Task, TrimOptions};
 use crate::plan::{Place, Plan};
@@ -32,6 +32,8 @@ pub struct Campaign {
     contents: Contents,
     /// What is in the files that commands name.
     programs: Programs,
+    /// The files that points read, as they were.
+    files: BTreeMap<PathBuf, Seen>,
 }
 
 impl Campaign {
@@ -42,7 +44,9 @@ impl Campaign {
     pub fn read(path: &Path) -> Result<Self, IoError> {
         let file = checked(path)?;
         let numbers = file.kept()?;
+        let files = named::files(&file.raw, &file.plan, &file.base, &file.case_folder);
         Ok(Self {
+            files,
             path: path.to_owned(),
             digest: digest_of(&file, &numbers),
             contents: named::contents(&file.plan, &file.base, &file.case_folder),
@@ -149,6 +153,32 @@ impl Campaign {
         changed.map(|(path, _)| path).collect()
     }
 
+    /// The files that points follow from beside the campaign's own: the case, the table, those that they name.
+    pub fn inputs(&self) -> Vec<PathBuf> {
+        let origin = PathBuf::from(self.file.base.origin());
+        let table = self.raw().table.as_ref();
+        let table = table.map(|t| self.path.parent().unwrap_or(Path::new("")).join(t));
+        let named = self.files.keys().chain(self.programs.keys()).cloned();
+        let all = [origin].into_iter().chain(table).chain(named);
+        let files: BTreeSet<PathBuf> = all.filter(|path| path.is_file()).collect();
+        files.into_iter().collect()
+    }
+
+    /// Refuses results of points where a file that they read is no longer what it was when the campaign was read.
+    ///
+    /// # Errors
+    /// The file.
+    pub fn refuse_changed_files(&self) -> Result<(), IoError> {
+        let mut files = self.files.iter();
+        match files.find(|(path, seen)| seen.differs(path)) {
+            None => Ok(()),
+            Some((path, _)) => Err(IoError::Damaged {
+                path: path.clone(),
+                problem: "it was changed while the campaign was flown, and its points read it: the same command flies them as it is now".to_owned(),
+            }),
+        }
+    }
+
     /// SHA-256 of the whole plan, which blocks of points belong to: which points there are and in which order,
     /// and what is kept of them.
     pub fn plan_hash(&self) -> [u8; 32] {
@@ -166,11 +196,13 @@ impl Campaign {
         hash.finalize().into()
     }
 
-    /// Whether point `i` has a result directory of its own while it is flown: it keeps files, or its air has
-    /// wakes in space and takes long.
-    pub fn has_directory(&self, i: usize, setup: &FlightSetup) -> bool {
-        let runs = self.file.raw.tasks.contains(&Task::Run);
-        runs && (self.keeps_files(i) || setup.air.keeps_wake())
+    /// Whether point `i`, whose case is `case`, has a result directory of its own while it is flown: it keeps files,
+    /// also if it fails, its history leaves steps out, or its air has wakes in space and takes long.
+    pub fn has_directory(&self, i: usize, case: &LoadedCase) -> bool {
+        let raw = &self.file.raw;
+        let keeps = self.keeps_files(i) || raw.retention.failed;
+        let needs = case.output.history_every > 1 || case.setup.air.keeps_wake();
+        raw.tasks.contains(&Task::Run) && (keeps || needs)
     }
 
     /// Whether files of point `i` are kept.
@@ -192,6 +224,9 @@ fn digest_of(file: &CampaignFile, numbers: &[Number]) -> Sha256 {
     let mut hash = of_case(base);
     let tasks = (&raw.tasks, &raw.trim, &raw.keep, raw.mean_beats(), &raw.set);
     hash.update(format!("{tasks:?}\n"));
+    if !raw.remove.is_empty() {
+        hash.update(format!("without {:?}\n", raw.remove));
+    }
     if let Some(programs) = named::of_programs(base) {
         hash.update(programs);
     }

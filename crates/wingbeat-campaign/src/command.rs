@@ -52,9 +52,9 @@ pub fn command(campaign: &Campaign, i: usize) -> String {
     if let Some(unknowns) = of_all.unknowns {
         let _ = write!(text, " --unknowns {}", unknowns.join(" "));
     }
-    text.push_str(" --write trimmed.toml");
+    let _ = write!(text, " --write trimmed-{i}.toml");
     if raw.tasks.contains(&Task::Run) {
-        text.push_str(" && wingbeat run trimmed.toml");
+        let _ = write!(text, " && wingbeat run trimmed-{i}.toml");
     }
     text
 }
@@ -81,11 +81,11 @@ mod tests {
         fs::remove_file(&file).unwrap();
         assert!(campaign.trim_options(1).is_err());
         let words = [1, 2].map(|i| command(&campaign, i));
-        let of = |speed| {
+        let of = |i: usize, speed: f64| {
             format!(
-                "wingbeat trim fruit-fly-blade --forward {speed} --climb -0.5 --write trimmed.toml"
+                "wingbeat trim fruit-fly-blade --forward {speed} --climb -0.5 --write trimmed-{i}.toml"
             )
         };
-        assert_eq!(words, [of(400.0), of(0.02)]);
+        assert_eq!(words, [of(1, 400.0), of(2, 0.02)]);
     }
 }

@@ -41,13 +41,20 @@ exec wingbeat campaign run {file} --out {out} --shard "$SLURM_ARRAY_TASK_ID/{sha
         )
     }
 
-    /// A Snakefile: a rule for each shard, one that merges.
-    pub fn snakemake(&self) -> String {
+    /// A Snakefile: a rule for each shard, one that merges; `inputs` are the files that points follow from beside the
+    /// campaign's own ([`Campaign::inputs`]).
+    pub fn snakemake(&self, inputs: &[String]) -> String {
         let Self { shards, jobs, .. } = self;
-        let [file, out] = [self.file, self.out].map(for_pattern);
+        let out = for_pattern(self.out);
+        let files = [self.file]
+            .into_iter()
+            .chain(inputs.iter().map(String::as_str));
+        let files: Vec<_> = files.map(|path| python(&for_pattern(path))).collect();
+        let files = files.join(", ");
         let place = |name: &str| python(&format!("{out}/{name}"));
         let tables = FILES.map(place).join(", ");
-        let [pattern, done] = [python(&file), place("shards/{k}.done")];
+        // Snakemake makes the folders of outputs: in the campaign's own they would stand in its way.
+        let done = python(&format!("{out}.shards/{{k}}.done"));
         let asked = format!("{} --out {}", shell(self.file), shell(self.out));
         let asked = for_pattern(&asked);
         let merge = python(&format!("wingbeat campaign merge {asked}"));
@@ -59,12 +66,12 @@ exec wingbeat campaign run {file} --out {out} --shard "$SLURM_ARRAY_TASK_ID/{sha
 SHARDS = range(1, {shards} + 1)
 
 rule points:
-    input: {pattern}, expand({done}, k=SHARDS)
+    input: {files}, expand({done}, k=SHARDS)
     output: {tables}
     shell: {merge}
 
 rule shard:
-    input: {pattern}
+    input: {files}
     output: touch({done})
     threads: {jobs}
     shell: {run}
@@ -98,7 +105,7 @@ mod tests {
 
     #[test]
     fn behaves_a_snakefile_quotes_commands_for_python_and_the_shell() {
-        let text = engine("map.toml").snakemake();
+        let text = engine("map.toml").snakemake(&[]);
         let merge = r#"    shell: "wingbeat campaign merge map.toml --out 'all maps'""#;
         assert!(text.lines().any(|l| l == merge), "{text}");
         let run = r#"    shell: "wingbeat campaign run map.toml --out 'all maps' --shard {wildcards.k}/2 --jobs {threads} --quiet""#;
@@ -107,11 +114,10 @@ mod tests {
 
     #[test]
     fn behaves_quotes_and_braces_in_names_of_files_stay_in_their_strings() {
-        let text = engine(r#"a "b" it's {c}.toml"#).snakemake();
+        let text = engine(r#"a "b" it's {c}.toml"#).snakemake(&["case.toml".to_owned()]);
         let merge = r#"    shell: "wingbeat campaign merge 'a \"b\" it'\\''s {{c}}.toml' --out 'all maps'""#;
         assert!(text.lines().any(|l| l == merge), "{text}");
-        let input =
-            r#"    input: "a \"b\" it's {{c}}.toml", expand("all maps/shards/{k}.done", k=SHARDS)"#;
+        let input = r#"    input: "a \"b\" it's {{c}}.toml", "case.toml", expand("all maps.shards/{k}.done", k=SHARDS)"#;
         assert!(text.lines().any(|l| l == input), "{text}");
     }
 }

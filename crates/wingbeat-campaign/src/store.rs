@@ -71,7 +71,11 @@ impl Store {
         remedy: &'static str,
     ) -> Result<Self, IoError> {
         let root = root.to_owned();
-        let is_empty = fs::read_dir(&root).map_or(true, |mut d| d.next().is_none());
+        // Others that begin here at the same time are about to put it there.
+        let is_half = |name: &str| name.starts_with(file) && name.ends_with(".part");
+        let is_ours = |e: &fs::DirEntry| e.file_name().to_str().is_some_and(is_half);
+        let is_empty =
+            fs::read_dir(&root).map_or(true, |d| d.flatten().all(|entry| is_ours(&entry)));
         match is_empty || root.join(file).is_file() {
             true => Ok(Self { root, file }),
             false => Err(IoError::Exists { path: root, remedy }),
@@ -173,13 +177,20 @@ impl Store {
         self.place(hash, "ok").exists() || self.place(hash, "failed").exists()
     }
 
-    /// Keeps the result of a point.
+    /// Keeps the result of a point; a failure is none where there are numbers, which take its place otherwise.
     ///
     /// # Errors
     /// A file that cannot be written.
     pub fn put(&self, hash: &str, result: &PointResult) -> Result<(), IoError> {
         let (text, ending) = encoded(hash, result);
+        let has_failed = result.failed.is_some();
+        if has_failed && self.place(hash, "ok").exists() {
+            return Ok(()); // who flew it was taken for dead
+        }
         self.write(&self.place(hash, ending), text.as_bytes())?;
+        if !has_failed {
+            let _ = fs::remove_file(self.place(hash, "failed")); // there may be none; numbers count
+        }
         let attempts = self.path("attempts").join(hash);
         if attempts.exists() && result.failed.is_none() {
             let _ = fs::remove_file(attempts); // says nothing any more
@@ -277,7 +288,8 @@ impl Store {
                     continue;
                 };
                 if hash.len() == 64 && (ending == "ok" || ending == "failed") {
-                    done.insert(hash.to_owned(), ending == "failed");
+                    let failed = done.entry(hash.to_owned()).or_insert(true);
+                    *failed &= ending == "failed"; // numbers count
                 }
             }
         }
@@ -371,6 +383,15 @@ mod tests {
         assert_eq!(store.count_death(&hash, 0).unwrap(), 1);
         assert_eq!(store.count_death(&hash, 0).unwrap(), 2);
         assert_eq!(store.count_death(&hash, 40).unwrap(), 1, "it advanced");
+        // Numbers take the place of a failure, and not the other way round.
+        let failure = PointResult::failure(Reason::Died, "taken for dead".to_owned());
+        let numbers = PointResult::of(&[0.25], None);
+        let third = hexadecimal(&[0x55; 32]);
+        for result in [&failure, &numbers, &failure] {
+            store.put(&third, result).unwrap();
+        }
+        assert_eq!(store.get(&third).unwrap(), Some(numbers));
+        assert!(!store.place(&third, "failed").exists() && !store.done().unwrap()[&third]);
         fs::remove_dir_all(root).unwrap();
     }
 

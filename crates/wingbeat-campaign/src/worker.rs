@@ -218,6 +218,7 @@ impl<'a> Worker<'a> {
                 Done::Stopped => return Ok(Tried::Stopped),
                 Done::Busy => return Ok(Tried::Busy),
                 Done::Result(result) => {
+                    self.campaign.refuse_changed_files()?;
                     self.store.put(hash, &result)?;
                     return Ok(Tried::Kept);
                 }

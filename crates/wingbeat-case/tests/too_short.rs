@@ -12,6 +12,7 @@ fn behaves_what_the_flight_is_too_short_for_is_doubted() {
         let set = [way, "air.model=blade_element", beats].map(str::to_owned);
         LoadedCase::find("fruit-fly-controlled", &set)
             .unwrap()
+            .setup
             .late_waypoints()
     };
     let said = late("time.beats=12").unwrap();
@@ -66,7 +67,7 @@ fn behaves_controllers_that_never_act_are_doubted() {
             set,
         ]
         .concat();
-        preset("fruit-fly-controlled", &set).single_look()
+        preset("fruit-fly-controlled", &set).setup.single_look()
     };
     let once = looks(&["control.every_beats=5"]).unwrap();
     assert!(once.contains("control.every_beats"), "{once}");

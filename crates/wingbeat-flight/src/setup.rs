@@ -166,6 +166,16 @@ pub trait ControlModel: fmt::Debug + Send + Sync {
         false
     }
 
+    /// Looks from one of its commands to the next; between them the command is kept.
+    fn every(&self) -> usize {
+        1
+    }
+
+    /// When it is to reach each of its waypoints, after the release [s].
+    fn arrivals(&self) -> Vec<f64> {
+        vec![]
+    }
+
     /// Whether it holds an attitude that does not follow from that at the release; the departure from it is
     /// recorded ([`crate::Record::attitude_departure`]).
     fn holds_attitude(&self) -> bool {

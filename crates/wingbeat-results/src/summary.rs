@@ -83,15 +83,7 @@ impl Summary {
     ) -> Result<Self, IoError> {
         let knows_all = each.is_some();
         let statistics = Statistics::read(history, &case.setup, each)?;
-        let more = |list: &mut Warnings| {
-            if let Some(said) = case.late_waypoints() {
-                list.note(format!("A way that is not flown to its end: {said}."));
-            }
-            if let Some(said) = case.single_look() {
-                list.limit(format!("A controller without effect: {said}."));
-            }
-            thinning(case, knows_all, list);
-        };
+        let more = |list: &mut Warnings| thinning(case, knows_all, list);
         Ok(Self::from_statistics(
             &case.setup,
             statistics,

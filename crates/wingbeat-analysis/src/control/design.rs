@@ -234,6 +234,14 @@ impl ControlModel for Design {
         !self.route.0.is_empty()
     }
 
+    fn every(&self) -> usize {
+        self.every
+    }
+
+    fn arrivals(&self) -> Vec<f64> {
+        self.route.arrivals()
+    }
+
     fn holds_attitude(&self) -> bool {
         self.target == Target::Trimmed
     }

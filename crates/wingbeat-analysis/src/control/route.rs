@@ -22,6 +22,11 @@ pub struct Waypoint {
 pub struct Route(pub Vec<Waypoint>);
 
 impl Route {
+    /// When each waypoint is to be reached, after the release [s].
+    pub fn arrivals(&self) -> Vec<f64> {
+        self.0.iter().map(|w| w.time).collect()
+    }
+
     /// Where to be at `time` [s] since the release, relative to place and heading there.
     ///
     /// ```

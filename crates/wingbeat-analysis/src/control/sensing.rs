@@ -35,6 +35,14 @@ impl ControlModel for Sensing {
         self.controller.follows()
     }
 
+    fn every(&self) -> usize {
+        self.every
+    }
+
+    fn arrivals(&self) -> Vec<f64> {
+        self.controller.arrivals()
+    }
+
     fn holds_attitude(&self) -> bool {
         self.controller.holds_attitude()
     }

@@ -43,7 +43,7 @@ impl Reader<'_> {
             match self.listed(&place, variation)? {
                 Some(values) => axes.push(Axis::of_key(&key, values)),
                 None => {
-                    let dimension = samplers.len();
+                    let dimension = samplers.iter().filter(|s: &&Sampler| s.is_sobol()).count();
                     self.check_law(&place, variation, samples, dimension)?;
                     samplers.push(Sampler::new(&key, seed, variation, samples, dimension));
                 }

@@ -1,6 +1,6 @@
 //! What is drawn: sample number s of a key follows from the seed, the key and s alone, so that samples can be had in
 //! any order and more of them leave the first ones as they are (a Latin hypercube apart, whose parts are as many as its
-//! samples). A Sobol sequence has a dimension in place of the key: how many keys are drawn before it in the file.
+//! samples). A Sobol sequence has a dimension in place of the key: how many keys of such a sequence stand before it in the file.
 //!
 //! Random numbers are SHA-256 of (seed, key, s), read as a fraction. Values are rounded to 12 digits, which
 //! hides the last bits in which mathematical libraries of different systems differ.
@@ -60,6 +60,11 @@ impl Sampler {
             seed,
             law,
         }
+    }
+
+    /// Whether it is a dimension of a Sobol sequence.
+    pub fn is_sobol(&self) -> bool {
+        matches!(self.law, Law::Sobol(..))
     }
 
     /// The key.

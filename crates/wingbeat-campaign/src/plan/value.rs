@@ -22,10 +22,13 @@ impl Value {
         }
     }
 
-    /// From a cell of a CSV file: a number where it is one, else a text.
+    /// From a cell of a CSV file: a number or true or false where it is one, else a text.
     pub fn of_cell(cell: &str) -> Option<Self> {
         if let Ok(n) = cell.parse::<i64>() {
             return Some(Self::Whole(n));
+        }
+        if let Ok(truth) = cell.parse::<bool>() {
+            return Self::of(&toml::Value::Boolean(truth));
         }
         match cell.parse::<f64>() {
             Ok(x) => x.is_finite().then_some(Self::Number(x)),

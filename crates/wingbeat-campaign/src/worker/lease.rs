@@ -151,7 +151,7 @@ impl Leases {
             {
                 // Whoever has the block lets it go, or died as it did: the leases of the dead go first.
                 Ok(_) if self.file(block, generation + 1).exists() => {
-                    fs::remove_file(&path).map_err(IoError::write(&path))?;
+                    remove_file(&path)?; // whoever has it may be faster
                 }
                 Ok(file) => return self.begin(path, file, (block, generation), flown),
                 Err(e) if e.kind() != ErrorKind::AlreadyExists => {

@@ -205,9 +205,7 @@ impl Point<'_> {
             );
             return Err(Halt::Refused(words));
         }
-        let place = self
-            .work
-            .filter(|_| campaign.has_directory(self.i, &case.setup));
+        let place = self.work.filter(|_| campaign.has_directory(self.i, case));
         let flown = match place {
             Some(path) => {
                 let folder = path.parent().unwrap_or(path);

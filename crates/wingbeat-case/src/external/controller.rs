@@ -81,6 +81,14 @@ impl ControlModel for ProcessController {
         !self.route.0.is_empty()
     }
 
+    fn every(&self) -> usize {
+        self.every
+    }
+
+    fn arrivals(&self) -> Vec<f64> {
+        self.route.arrivals()
+    }
+
     fn redrawn(&self, by: u64) -> Option<Arc<dyn ControlModel>> {
         let sensors = self.sensors?.redrawn(by)?;
         Some(Arc::new(Self {

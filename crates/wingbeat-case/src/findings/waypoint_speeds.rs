@@ -1,8 +1,6 @@
-//! Ways to waypoints that no flyer covers in their time, or that the flight is too short for; looks that it is too
-//! short for.
+//! Ways to waypoints that no flyer covers in their time.
 
 use wingbeat_analysis::Estimate;
-use wingbeat_flight::MotionMode;
 use wingbeat_math::DVec3;
 
 use crate::loaded::LoadedCase;
@@ -15,44 +13,6 @@ const FASTEST: f64 = 35.0 / 16.0;
 const SWIFT: f64 = 3.0;
 
 impl LoadedCase {
-    /// Which waypoints are to be reached only after the end of the flight, in a sentence.
-    pub fn late_waypoints(&self) -> Option<String> {
-        let control = self.raw.control.as_ref()?;
-        self.setup.feedback.as_ref()?;
-        let MotionMode::Free(start) = &self.setup.mode else {
-            return None;
-        };
-        let time = &self.setup.time;
-        let flown = time.steps.saturating_sub(start.held_steps) as f64 * time.step;
-        let is_late = |t: f64| t > flown + 0.5 * time.step;
-        let first = control.waypoint.iter().position(|w| is_late(w.time_s))?;
-        let which = match control.waypoint.len() - first {
-            1 => format!("control.waypoint[{first}] is"),
-            _ => format!("the waypoints from control.waypoint[{first}] on are"),
-        };
-        Some(format!(
-            "{which} to be reached after the end of the flight: time_s = {} and the flight ends {flown:.3} s after the release; fly longer (time), or give an earlier time_s",
-            control.waypoint[first].time_s
-        ))
-    }
-
-    /// That a controller looks but once, at the release, where what it is to hold has not been left, in a sentence.
-    pub fn single_look(&self) -> Option<String> {
-        let every = self.raw.control.as_ref()?.every_beats;
-        let feedback = self.setup.feedback.as_ref().filter(|_| every > 1)?;
-        let MotionMode::Free(start) = &self.setup.mode else {
-            return None;
-        };
-        let time = &self.setup.time;
-        let steps = time.steps.saturating_sub(start.held_steps);
-        (steps > 0 && every * feedback.interval >= steps).then(|| {
-            format!(
-                "the controller looks every {every} wingbeats (control.every_beats), and the flight ends {:.3} s after the release: it looks once, at the release; give control.every_beats less, or fly longer (time)",
-                steps as f64 * time.step
-            )
-        })
-    }
-
     /// Which ways to waypoints are too fast for a flyer of these numbers, in sentences.
     pub fn doubtful_ways(&self, estimate: &Estimate) -> Vec<String> {
         let control = self.raw.control.as_ref();

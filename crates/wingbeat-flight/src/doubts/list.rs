@@ -16,8 +16,10 @@ pub enum DoubtKind {
     StartsApart,
     /// A smooth start that is not over when the flight is.
     LongStart,
-    /// Commands of a controller that the flight is too short for.
+    /// Commands or looks of a controller that the flight is too short for.
     LateCommands,
+    /// Waypoints that the flight is too short for.
+    LateWaypoints,
     /// Blade elements whose force of feathering jumps.
     JumpingRotation,
     /// Blade elements that excite the torsion of elastic wings.
@@ -101,6 +103,8 @@ impl FlightSetup {
         add(StartsApart, one(self.starts_apart()));
         add(LongStart, self.starts_that_do_not_end());
         add(LateCommands, one(self.commands_too_late()));
+        add(LateCommands, one(self.single_look()));
+        add(LateWaypoints, one(self.late_waypoints()));
         add(LateGusts, self.gusts_that_never_arrive());
         add(ShortGusts, self.gusts_between_steps());
         add(PressedAir, self.gusts_that_press_air());

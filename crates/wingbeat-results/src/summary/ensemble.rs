@@ -156,7 +156,10 @@ fn first_parted(members: &[Vec<BeatMeans>], [left_out, count]: [usize; 2]) -> Op
     }
     let within = members.iter().map(|m| variance(&m[counted.clone()]));
     let among_beats = within.sum::<f64>() / members.len() as f64;
-    let has_parted = |k: &usize| scatter(members, *k) >= PARTED * among_beats.sqrt();
+    let has_parted = |k: &usize| {
+        let scatter = scatter(members, *k);
+        scatter >= PARTED * among_beats.sqrt() && scatter > ONE_FLIGHT * size(members, *k)
+    };
     let first = 1 + counted.into_iter().find(has_parted)?;
     (first < count && !is_deterministic(members, [left_out, count])).then_some(first)
 }
@@ -164,9 +167,12 @@ fn first_parted(members: &[Vec<BeatMeans>], [left_out, count]: [usize; 2]) -> Op
 /// Whether the scatter over members neither grows nor has become large before it could be seen to grow.
 fn is_deterministic(members: &[Vec<BeatMeans>], [left_out, count]: [usize; 2]) -> bool {
     let last = count - 1;
+    let (early, late) = (scatter(members, 0), scatter(members, last));
+    let [small, full] = [0, last].map(|k| size(members, k));
+    // Scatter counts over the force: the first beat of a smooth start has little of either.
     count >= left_out + FEWEST
-        && scatter(members, last) <= NO_GROWTH * scatter(members, 0)
-        && scatter(members, last) <= ONE_FLIGHT * size(members, last)
+        && late * small <= NO_GROWTH * early * full
+        && late <= ONE_FLIGHT * full
 }
 
 /// Mean magnitude of the force (lift, thrust) of a beat over the members \[N\].
@@ -300,6 +306,10 @@ mod tests {
             None
         );
         assert!(same.remark().contains("deterministic"));
+        // Behind a smooth start forces and their scatter grow alike, and periodic flights hardly scatter from beat to beat.
+        let begun = |m: f64| member(&[0.03, 0.6, 1.0, 1.0, 1.0, 1.0].map(|x| x * (1.0 + m * 1e-7)));
+        let same = Ensemble::of(&[begun(-1.0), begun(1.0)], false, 2).unwrap();
+        assert_eq!(same.members_are, Members::Deterministic);
     }
 
     /// Flights that part within the first beat scatter as much in each of them: their scatter does not grow, and they

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::Path;
 
 use crate::support::{QUICK, Scratch, flown, wingbeat};
-use crate::{blade, merged, numbers, write};
+use crate::{blade, column, merged, numbers, write};
 
 /// A damaged result is found, and its point flown again.
 #[test]
@@ -177,6 +177,132 @@ fn invariant_points_do_not_depend_on_the_files_that_are_kept() {
     assert_eq!(fs::read_dir(dir.join("r/files")).unwrap().count(), 4);
     let (_, said) = fly("");
     assert!(said.contains("4 points, 4 of them done"), "{said}");
+}
+
+/// Nor do verdicts depend on them, as of a controller that looks but once, nor what a thinned history holds.
+#[test]
+fn invariant_verdicts_do_not_depend_on_the_files_that_are_kept() {
+    let scratch = Scratch::new("campaign-verdicts");
+    let dir = &scratch.0;
+    let text = r#"case = "fruit-fly-blade"
+keep = ["end.euler_regularity_dimensionless", "summary.warnings"]
+files = ["history"]
+retention.every = 2
+[set]
+"time.beats" = 2
+"time.steps_per_beat" = 40
+"output.history_every" = 7
+"control.controller" = "stabiliser"
+"control.hold" = "start"
+"control.every_beats" = 4
+[parameter."body.mass_kg"]
+list = [0.93e-6, 0.9300001e-6]
+"#;
+    write(dir, text);
+    flown(dir, &["campaign", "run", "c.toml", "--out", "r", "--quiet"]);
+    merged(dir, "r");
+    assert_eq!(fs::read_dir(dir.join("r/files")).unwrap().count(), 1);
+    assert_eq!(column(dir, "r", "verdict"), ["amber"; 2]);
+    for name in ["end.euler_regularity_dimensionless", "summary.warnings"] {
+        let [kept, other] = numbers(dir, "r", name)[..] else {
+            panic!("two points")
+        };
+        assert!((kept - other).abs() < 1e-3, "{name}: {kept} {other}");
+    }
+}
+
+/// What is taken out of the case is part of every point, also where its default is another value.
+#[test]
+fn behaves_another_removal_is_another_point() {
+    let scratch = Scratch::new("campaign-removal");
+    let dir = &scratch.0;
+    let text = "case = \"case.toml\"\nkeep = [\"summary.energy_residual_relative\"]\n[parameter.\"air.model\"]\nlist = [\"blade_element\", \"none\"]\n";
+    let case = QUICK.replace("\"none\"", "\"blade_element\"");
+    let hashes = |head: &str| {
+        write(dir, &format!("{head}{text}"));
+        let integrator = "\n[dynamics]\nintegrator = \"hamming\"\n";
+        fs::write(dir.join("case.toml"), format!("{case}{integrator}")).unwrap();
+        let plan = wingbeat(dir, &["campaign", "plan", "c.toml"]).stdout;
+        String::from_utf8(plan).unwrap()
+    };
+    let [whole, without] = ["", "remove = [\"dynamics.integrator\"]\n"].map(hashes);
+    assert_eq!(whole.lines().count(), without.lines().count());
+    for (a, b) in whole
+        .lines()
+        .zip(without.lines())
+        .filter(|(a, _)| a.contains("blade_element"))
+    {
+        assert_ne!(a, b);
+    }
+}
+
+/// A file of the case that is changed while the points are flown ends the run: no point of the new one is kept under
+/// the name of the old one. One that is written again as it was changes nothing.
+#[test]
+fn refuses_a_data_file_that_is_changed_while_it_is_flown() {
+    let scratch = Scratch::new("campaign-data");
+    let dir = &scratch.0;
+    let text = "case = \"case.toml\"\nkeep = [\"end.wing_right_prescribed_phi_rad\"]\n[parameter.\"motion.frequency_hz\"]\nlist = [90, 100]\n";
+    write_named(dir, text);
+    fs::write(dir.join("a.csv"), stroke(40)).unwrap();
+    let campaign = wingbeat::campaign::Campaign::read(&dir.join("c.toml")).unwrap();
+    let store = wingbeat::campaign::Store::open(&dir.join("r"), campaign.text()).unwrap();
+    let stop = std::sync::atomic::AtomicBool::new(false);
+    let work = || {
+        let mut worker = wingbeat::campaign::Worker::new(&campaign, &store, 0..2).unwrap();
+        worker.work(&stop, &mut || ())
+    };
+    fs::write(dir.join("a.csv"), stroke(50)).unwrap();
+    let refused = work().unwrap_err().to_string();
+    for part in ["a.csv", "was changed while the campaign was flown"] {
+        assert!(refused.contains(part), "{refused}");
+    }
+    assert_eq!(store.done().unwrap().len(), 0);
+    fs::write(dir.join("a.csv"), stroke(40)).unwrap();
+    work().unwrap();
+    assert_eq!(store.done().unwrap().len(), 2);
+}
+
+/// The directory of a flight that failed stays where that is asked for, in any air.
+#[test]
+fn behaves_directories_of_failed_flights_stay() {
+    let scratch = Scratch::new("campaign-failed");
+    let dir = &scratch.0;
+    let text = r#"case = "fruit-fly-blade"
+keep = ["lift_over_weight"]
+mean_beats = 2
+retention.failed = true
+[set]
+"time.steps_per_beat" = 40
+[parameter."time.beats"]
+list = [2, 1]
+"#;
+    write(dir, text);
+    flown(dir, &["campaign", "run", "c.toml", "--out", "r", "--quiet"]);
+    merged(dir, "r");
+    assert_eq!(column(dir, "r", "reason"), ["", "short"]);
+    let kept: Vec<_> = fs::read_dir(dir.join("r/work")).unwrap().collect();
+    assert_eq!(kept.len(), 1);
+    assert!(
+        kept[0]
+            .as_ref()
+            .unwrap()
+            .path()
+            .join("history.csv")
+            .is_file()
+    );
+}
+
+/// A process that begins in a new directory while another one does is not in its way.
+#[test]
+fn behaves_jobs_may_begin_at_once() {
+    let scratch = Scratch::new("campaign-at-once");
+    let dir = &scratch.0;
+    write(dir, &blade(1));
+    fs::create_dir(dir.join("r")).unwrap();
+    fs::write(dir.join("r/campaign.toml.4711.part"), "half").unwrap();
+    flown(dir, &["campaign", "run", "c.toml", "--out", "r", "--quiet"]);
+    assert!(!dir.join("r/campaign.toml.4711.part").exists());
 }
 
 /// Points are counted in the order of the file: parameters that change places make another plan, with leases of

@@ -75,7 +75,14 @@ list = [1, 2]
         );
         String::from_utf8(out.stdout).unwrap()
     };
-    let [first, second, again] = ["pass", "pass # other", "pass"].map(hashes);
+    let programs = ["pass", "pass # other", "pass"];
+    let [first, second, again] = programs.map(hashes);
+    assert_ne!(first, second);
+    assert_eq!(first, again);
+    // Also where a value is a word of the command.
+    let word = "[parameter.\"control.external.command[1]\"]\nlist = [\"wings.py\"]\n";
+    fs::write(dir.join("c.toml"), format!("{text}{word}")).unwrap();
+    let [first, second, again] = programs.map(hashes);
     assert_ne!(first, second);
     assert_eq!(first, again);
 }

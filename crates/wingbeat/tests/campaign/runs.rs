@@ -216,8 +216,8 @@ list = [3]
     flown(dir, &["campaign", "run", "c.toml", "--out", "r", "--quiet"]);
     let failed = String::from_utf8(merged(dir, "r")["failed.csv"].clone()).unwrap();
     let trim =
-        "trim fruit-fly-blade --set time.beats=1 --forward 3 --steps 40 --write trimmed.toml";
-    let whole = format!("wingbeat {trim} && wingbeat run trimmed.toml");
+        "trim fruit-fly-blade --set time.beats=1 --forward 3 --steps 40 --write trimmed-0.toml";
+    let whole = format!("wingbeat {trim} && wingbeat run trimmed-0.toml");
     assert!(failed.contains(&whole), "{whole} not in\n{failed}");
     let words: Vec<&str> = trim.split(' ').collect();
     let out = wingbeat(dir, &words);
@@ -384,7 +384,7 @@ fn exact_points_of_a_table_are_flown() {
         dir,
         "case = \"fruit-fly-blade\"\nkeep = [\"power_watt\", \"summary.steps\"]\ntable = \"points.csv\"\n[set]\n\"time.beats\" = 1\n",
     );
-    let table = "time.steps_per_beat,dynamics.formulation,motion.frequency_hz\n40,momentum,200.5\n60,quaternion,190\n";
+    let table = "time.steps_per_beat,dynamics.formulation,motion.frequency_hz,air.buoyancy\n40,momentum,200.5,true\n60,quaternion,190,false\n";
     fs::write(dir.join("points.csv"), table).unwrap();
     flown(dir, &["campaign", "run", "c.toml", "--out", "r", "--quiet"]);
     merged(dir, "r");

@@ -64,6 +64,7 @@ fn heard(kind: DoubtKind, is_lattice: bool) -> (Place, Verdict, &'static str, &'
         DoubtKind::StartsApart => (Motion, Amber, "Tether and strokes out of step: ", ""),
         DoubtKind::LongStart => (Motion, Green, "A start that does not end: ", ""),
         DoubtKind::LateCommands => (Motion, Amber, "A controller without effect: ", ""),
+        DoubtKind::LateWaypoints => (Motion, Green, "A way that is not flown to its end: ", ""),
         DoubtKind::LateGusts => (Motion, Green, "A gust without effect: ", ""),
         DoubtKind::ShortGusts => (Motion, Amber, "Gusts that the steps do not resolve: ", ""),
         DoubtKind::PressedAir => (Motion, Amber, "Air that is pressed together: ", ""),

@@ -66,7 +66,9 @@ pub(super) fn snakemake(args: &SnakemakeArgs) -> Result<(), Failure> {
         shards: args.shards.min(campaign.plan().points()),
         jobs: args.jobs,
     };
-    output(format_args!("{}", engine.snakemake()));
+    let inputs = campaign.inputs();
+    let inputs: Vec<_> = inputs.iter().map(|p| p.display().to_string()).collect();
+    output(format_args!("{}", engine.snakemake(&inputs)));
     Ok(())
 }
 

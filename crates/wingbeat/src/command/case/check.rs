@@ -42,8 +42,6 @@ fn look(args: &CheckArgs, report: &mut Report) -> Result<(), IoError> {
     estimate.doubts.extend(case.doubtful_measurements());
     let ways = case.doubtful_ways(&estimate);
     estimate.doubts.extend(ways);
-    estimate.doubts.extend(case.late_waypoints());
-    estimate.doubts.extend(case.single_look());
     estimate.doubts.extend(case.idle_keys());
     let warn = || estimate.doubts.iter().for_each(|d| tell!("warning: {d}"));
     let cost = trial_cost(&case, args.trial);
