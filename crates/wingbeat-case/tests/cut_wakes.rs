@@ -197,3 +197,54 @@ fn behaves_wings_that_circle_are_no_rotor() {
     let kept = kept_wake(&glider(&[&circle], "air.max_wake_distance_m=2").setup).unwrap();
     assert_eq!(kept.is_short, None, "{}", kept.said);
 }
+
+/// A section in plane flow, one panel of 200 chords along its span: a wake that is kept for 20 chords is as long as that,
+/// and the lift that of thin-airfoil theory within what the rest of the wake still takes and the tips.
+#[test]
+fn agrees_the_lift_of_a_section_whose_wake_is_cut_with_the_whole_one() {
+    let section = r#"
+format = 1
+[time]
+step_s = 0.25
+steps = 120
+[flight]
+mode = "tethered"
+[air]
+stream_m_s = [-1, 0, 0]
+density_kg_m3 = 1
+shed = ["trailing"]
+plane_wakes = true
+body = false
+wake_overlap = 0
+[body]
+mass_kg = 1
+inertia_about_centre_kg_m2 = [1, 1, 1, 0, 0, 0]
+[wing.right]
+hinge_m = [0, -100, 0]
+mirror = false
+mass_kg = 0
+motion.psi.constant_deg = 2
+motion.phi.constant_deg = 0
+planform.rectangle = { span_m = 200, chord_m = 1 }
+mesh = { chordwise = 4, spanwise = 1 }
+"#;
+    let flown = |set: &str| {
+        let setup = glider(&[section], set).setup;
+        let mut flight = wingbeat_flight::Simulation::new(setup).unwrap();
+        while !flight.finished() {
+            flight.step().unwrap();
+        }
+        (flight.record().wake_rings, -flight.record().air_force().z)
+    };
+    let (all, whole) = flown("air.mirror=false");
+    let (kept, cut) = flown("air.max_wake_distance_chords=20");
+    assert_eq!(all, 120);
+    assert!((78..=80).contains(&kept), "{kept}"); // 20 chords by a quarter
+    println!("lift {whole:.4} whole, {cut:.4} cut");
+    assert!((cut / whole - 1.0).abs() < 0.02, "{cut} {whole}");
+    let thin_airfoil = std::f64::consts::PI * 2f64.to_radians() * 200.0;
+    assert!(
+        (cut / thin_airfoil - 1.0).abs() < 0.06,
+        "{cut} {thin_airfoil}"
+    );
+}

@@ -79,8 +79,8 @@ pub struct AirSettings {
     pub max_rows: Option<usize>,
     /// Rows older than this [s] are dropped, as above.
     pub max_age: Option<f64>,
-    /// Rows farther from the middle of their edge than this [m] with all nodes are dropped, as
-    /// above, with all older ones.
+    /// Rows farther from their edge than this [m] with all nodes are dropped, as above, with all
+    /// older ones.
     pub max_distance: Option<f64>,
     /// Largest displacement of a wake node in a step, relative to the undisturbed air [m]; longer
     /// ones are shortened and counted.

@@ -375,7 +375,7 @@ impl Panel {
     }
 }
 
-fn distance_to_segment(p: DVec3, a: DVec3, b: DVec3) -> f64 {
+pub(crate) fn distance_to_segment(p: DVec3, a: DVec3, b: DVec3) -> f64 {
     let ab = b - a;
     let length2 = ab.length_squared();
     let s = if length2 > 0.0 {

@@ -4,6 +4,7 @@ use crate::edges::EdgeKind;
 use crate::lattice::Lattice;
 use crate::state::{AirState, WakeEvents, WakeSheet};
 use crate::wake::account::{SheetAccount, free_rings, oldest_rings};
+use crate::wake::contact::distance_to_segment;
 use wingbeat_math::DVec3;
 
 impl Lattice {
@@ -24,10 +25,9 @@ impl Lattice {
             keep = keep.min(sheet.shed_time.iter().filter(young).count());
         }
         if let Some(far) = settings.max_distance {
-            let edge = self.edge_middle(k, (state, dt));
             let is_far = |r: usize| {
                 let mut row = (0..=sheet.columns).map(|c| sheet.node(r, c));
-                row.all(|x| x.distance(edge) > far)
+                row.all(|x| self.from_edge(k, x, (state, dt)) > far)
             };
             let farthest = (0..before).rev().find(|&r| is_far(r));
             keep = keep.min(farthest.map_or(before, |r| before - 1 - r));
@@ -45,12 +45,13 @@ impl Lattice {
         }
     }
 
-    /// Middle of the edge that sheet `k` leaves [m], N components, where it is at the end of the step by its
-    /// velocity, as the nodes of the wake are.
-    fn edge_middle(&self, k: usize, (state, dt): (&AirState, f64)) -> DVec3 {
-        let nodes = &self.sheets()[k].nodes;
-        let at = |&n: &usize| state.position[n] + dt * state.velocity[n];
-        nodes.iter().map(at).sum::<DVec3>() / nodes.len() as f64
+    /// Distance of `x` from the edge that sheet `k` leaves [m], where it is at the end of the step by its velocity, as
+    /// the nodes of the wake are.
+    fn from_edge(&self, k: usize, x: DVec3, (state, dt): (&AirState, f64)) -> f64 {
+        let at = |n: usize| state.position[n] + dt * state.velocity[n];
+        let parts = self.sheets()[k].nodes.windows(2);
+        let distances = parts.map(|ends| distance_to_segment(x, at(ends[0]), at(ends[1])));
+        distances.fold(f64::INFINITY, f64::min)
     }
 
     /// Makes particles of the rows of sheet `k` that are due, and of its oldest `dropped` rows in any
@@ -75,12 +76,11 @@ impl Lattice {
         let new_particles = sheet.convert(settings.radius, due);
         sheet.drop_converted();
         let (age, far) = (self.settings().max_age, self.settings().max_distance);
-        let edge = self.edge_middle(k, (state, dt));
         let before = sheet.particles.impulse();
         account.impulse.converted = free_rings(sheet) + before - account.free;
         let dropped_particles = sheet.particles.retain(|x, shed| {
             age.is_none_or(|age| state.time - shed <= age)
-                && far.is_none_or(|far| x.distance(edge) <= far)
+                && far.is_none_or(|far| self.from_edge(k, x, (state, dt)) <= far)
         });
         account.impulse.cut = before - sheet.particles.impulse();
         account.free = free_rings(sheet) + sheet.particles.impulse();

@@ -33,7 +33,7 @@ pub(crate) fn check_periodic(system: &System, period: f64) -> Result<(), Analysi
                     "joint `{}` is not back after a wingbeat of {period:.4e} s",
                     hinge.name
                 ),
-                "drive it at the wings' frequency (motion.frequency_hz) or a multiple of it, or fly it with `run`",
+                "drive it at the wings' frequency (motion.frequency_hz) or a multiple of it, or fly it with `run`, without a regulator or stabiliser",
             ));
         }
     }

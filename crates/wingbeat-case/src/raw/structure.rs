@@ -292,7 +292,8 @@ pub struct ShellCase {
     #[default = 1.0]
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub bending_factor: f64,
-    /// Whether the root is clamped to the wing frame.
+    /// Whether the root is clamped to the wing frame. A vein along it bends nowhere: its stiffness has no effect, its
+    /// mass has.
     ///
     /// Change it to false for foils that are held along their leading part alone, or by veins.
     #[default = true]

@@ -5,6 +5,7 @@ use std::time::Instant;
 
 use wingbeat::air::Points;
 use wingbeat::analysis::cost::{CostModel, WakeGrowth};
+use wingbeat::analysis::kept_wake;
 use wingbeat::case::OutputSettings;
 use wingbeat::flight::{FlightSetup, Record, Simulation};
 use wingbeat::results::rows::Rows;
@@ -104,7 +105,11 @@ fn kept_steps(setup: &FlightSetup) -> Option<usize> {
     let by_age = air
         .max_age
         .map(|age| (age / setup.time.step).ceil() as usize);
-    air.max_rows.into_iter().chain(by_age).min()
+    // A way is gone in a time that is known where nothing beats.
+    let still = setup.time.period.is_none();
+    let kept = still.then(|| kept_wake(setup)).flatten();
+    let by_way = kept.map(|wake| (wake.time / setup.time.step).ceil() as usize);
+    air.max_rows.into_iter().chain(by_age).chain(by_way).min()
 }
 
 /// Seconds to read a row of a history, measured on its first rows; none without rows.
