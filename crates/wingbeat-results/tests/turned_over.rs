@@ -83,7 +83,7 @@ fn behaves_stops_that_are_reached_are_named() {
         fly(&[&stop, "time.steps_per_beat=320", "time.beats=2"])
     };
     let [hard, soft, away] = [
-        stopped(50.0, "5e-4"),
+        stopped(50.0, "2e-3"),
         stopped(50.0, "2e-6"),
         stopped(179.0, "5e-4"),
     ];
