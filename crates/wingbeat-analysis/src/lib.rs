@@ -72,7 +72,7 @@ pub use trim::request::TrimRequest;
 pub use trim::residuals::Residuals;
 pub use trim::solution::TrimSolution;
 pub use trim::tail::tail_wings;
-pub use trim::unknown::{Bound, SPEED_OF_SOUND, UNKNOWNS, Unknown, UnknownKind};
+pub use trim::unknown::{Bound, SPEED_OF_SOUND, UNKNOWNS, Unknown, UnknownKind, shifts_body};
 pub use trim::{Trim, trim, trim_from};
 pub use turned::{turned_over, turned_over_with_wake};
 pub use vibration::flutter::{self, Condition, FlutterSettings};

@@ -340,7 +340,7 @@ fn check_effect(problem: &TrimProblem, k: usize, column: &[f64]) -> Result<(), A
                 "{} changes nothing in this flight: what it adjusts is not what moves the wings, or they do not move",
                 unknown.name()
             ),
-            "choose other unknowns; wings that joints drive answer to frequency and body_pitch, and to what their own motion still does",
+            "choose other unknowns; wings that joints drive answer to drive_amplitude, frequency, body_pitch and mass_centre, and to what their own motion still does",
         )),
         _ => Ok(()),
     }

@@ -262,7 +262,7 @@ fn refuses_by_name_what_a_map_of_beats_cannot_be_asked() {
 
     for (unknown, what) in [
         (Unknown::StrokeAmplitude, "stroke_amplitude changes nothing"),
-        (Unknown::MassCentre, "mass_centre"),
+        (Unknown::DriveAmplitude, "no joint has one"),
     ] {
         let unknowns = [Unknown::BodyPitch, Unknown::Frequency, unknown];
         let said = refused(trim(

@@ -1,7 +1,6 @@
 //! Joints of wings: mirror images on the left, one place of the hinge, and what is not scaled or shifted with it.
 
 use crate::common;
-use wingbeat_analysis::{TrimProblem, Unknown, trim};
 use wingbeat_case::LoadedCase;
 use wingbeat_flight::{AirModel, Record, Simulation};
 use wingbeat_math::DVec3;
@@ -124,23 +123,26 @@ fn exact_points_of_loads_and_drag_areas_are_scaled_with_the_animal_and_springs_a
     );
 }
 
+/// A body with springs and loads at places of its own has its mass centre shifted in itself: hinges, springs and loads
+/// stay where they are.
 #[test]
-fn refuses_to_shift_the_mass_centre_of_a_body_with_springs_and_loads() {
-    let unknowns = [
-        Unknown::StrokeAmplitude,
-        Unknown::Frequency,
-        Unknown::MassCentre,
-    ];
-    for (set, named) in [(SPRING, "spring `t`"), (PULL, "the point of load[0]")] {
-        let setup = load(&[set, "dynamics.integrator=\"hamming\""])
-            .unwrap()
-            .setup;
-        let problem = TrimProblem {
-            unknowns: unknowns.to_vec(),
-            ..TrimProblem::straight(DVec3::ZERO, 0.7)
-        };
-        let text = trim(&setup, &problem).map(|_| ()).unwrap_err().to_string();
-        assert!(text.contains(named), "{text}");
+fn exact_mass_centre_is_shifted_beside_springs_and_loads() {
+    let shift = "body.centre_shift_m=[2e-3, 0, -1e-3]";
+    for set in [SPRING, PULL] {
+        let [before, after] = [&[set][..], &[set, shift]].map(|set| load(set).unwrap().setup);
+        let moved = after.animal.body.centre() - before.animal.body.centre();
+        assert!(moved.distance(DVec3::new(2e-3, 0.0, -1e-3)) < 1e-17); // rounding
+        let [a, b] = [&before, &after].map(|s| s.animal.body.inertia_about_centre());
+        let gap = (a - b)
+            .to_cols_array()
+            .into_iter()
+            .fold(0.0, |m: f64, x| m.max(x.abs()));
+        assert!(gap < 1e-22, "{gap:e}"); // rounding of 1e-7
+        assert_eq!(
+            before.animal.wings[0].hinge_b,
+            after.animal.wings[0].hinge_b
+        );
+        assert_eq!(before.loads, after.loads);
     }
 }
 

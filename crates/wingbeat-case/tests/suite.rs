@@ -31,6 +31,7 @@ mod loops_on_wings;
 mod measured;
 mod meshes;
 mod mirrored_joints;
+mod motors;
 mod named;
 mod on_walls;
 mod outlines;

@@ -89,11 +89,25 @@ pub fn check_assembly(setup: &FlightSetup) -> Result<(), DynamicsError> {
 
 /// Closes the loops at time zero; joints that are told how to start do so.
 fn check_closed(system: &System, root: &BodyMotion) -> Result<(), DynamicsError> {
+    let motions = starting(system, root)?;
+    Mechanism::of(system).check_starts(&motions)
+}
+
+/// Motions of all bodies at time zero.
+fn starting(system: &System, root: &BodyMotion) -> Result<Vec<BodyMotion>, DynamicsError> {
     let form = QuaternionForm::new(system.clone(), Stabilization::None);
     let y = form.initial(0.0, root)?;
     let mut motions = vec![BodyMotion::REST; system.bodies().len()];
     form.motions(0.0, &y, &mut form.workspace(), &mut motions)?;
-    Mechanism::of(system).check_starts(&motions)
+    Ok(motions)
+}
+
+/// The same of a setup, counted as in its system.
+///
+/// # Errors
+/// What the dynamics refuses.
+pub(crate) fn motions_at_start(setup: &FlightSetup) -> Result<Vec<BodyMotion>, DynamicsError> {
+    starting(&system_of(setup)?, &setup.root_at_start())
 }
 
 fn quaternion(system: System, root: &BodyMotion) -> Result<Vec<f64>, DynamicsError> {

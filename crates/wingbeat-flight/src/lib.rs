@@ -41,6 +41,7 @@ pub use bodies::{
     JointCoordinate, WingLaw, check_assembly, doubtful_masses, joint_coordinates, loop_names,
     natural_units, system, system_of,
 };
+pub use doubts::stops::StruckStops;
 pub use doubts::turned_over::TurnedOver;
 pub use doubts::{CrossingWings, Doubt, DoubtKind};
 pub use equations::free::{FreeFlight, FreeFlightScratch};

@@ -40,7 +40,7 @@ pub use animal::{Animal, BodyPart, Segment, Wing};
 pub use build::{BodyMass, fit_body_length};
 pub use check::{ElasticReport, WingReport};
 pub use contact::bent::Bending;
-pub use contact::coincident::coincident;
+pub use contact::coincident::{coincident, in_one_place};
 pub use contact::crossing::depth::crossing_depth;
 pub use contact::crossing::flown::{FlownCounts, FlownCrossings};
 pub use contact::crossing::{Crossing, are_joined, crossings, nearest_nodes, pairs, root_gap};

@@ -150,6 +150,7 @@ impl Summary {
         let mut warnings = trust::warnings(setup, &doubts, &summary, momentum);
         bent::warnings(setup, &s.each.bent, &mut warnings);
         turned_over(setup, &s.each, &mut warnings);
+        stops(&s.each, &mut warnings);
         trust::starting_steps(setup, s.corrector_residual, &mut warnings);
         still_air::warn(setup, [&s.first, &s.last], &mut warnings);
         trust::flown_crossings(
@@ -176,6 +177,13 @@ fn joint_residual(s: &EachStep) -> f64 {
 fn turned_over(setup: &FlightSetup, each: &EachStep, list: &mut Warnings) {
     for said in each.turned.found(setup) {
         list.limit(format!("Wings that turn over: {said}."));
+    }
+}
+
+/// Stops of joints that were reached.
+fn stops(each: &EachStep, list: &mut Warnings) {
+    for said in each.stops.found() {
+        list.note(format!("Stops: {said}."));
     }
 }
 

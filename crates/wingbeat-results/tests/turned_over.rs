@@ -71,3 +71,35 @@ fn behaves_wings_that_turn_over_with_what_carries_them_are_named() {
     assert!(names_turned(&carried), "{:?}", carried.warnings);
     assert!(says(&carried, "joint `a`"), "{:?}", carried.warnings);
 }
+
+/// A stop that is reached is named, with how far it gives way, and what to do where that is more than 5 deg; one that is not
+/// reached is not named.
+#[test]
+fn behaves_stops_that_are_reached_are_named() {
+    let stopped = |end: f64, stiffness: &str| {
+        let stop = format!(
+            "joint.hinge-right.element=[{{ stiffness_newton_m_per_rad = 2.4e-6, damping_newton_m_s_per_rad = 2e-10 }}, {{ stop = {{ lower_deg = -{end}, upper_deg = {end}, stiffness_newton_m_per_rad = {stiffness}, damping_s_per_rad = 1e-3 }} }}]"
+        );
+        fly(&[&stop, "time.steps_per_beat=320", "time.beats=2"])
+    };
+    let [hard, soft, away] = [
+        stopped(50.0, "2e-3"),
+        stopped(50.0, "2e-6"),
+        stopped(179.0, "5e-4"),
+    ];
+    let of = |s: &Summary| {
+        s.warnings
+            .iter()
+            .find(|w| w.starts_with("Stops: "))
+            .cloned()
+    };
+    println!("{:?}\n{:?}", of(&hard), of(&soft));
+    let said = of(&hard).unwrap();
+    assert!(said.contains(
+        "joints `hinge-left` and `hinge-right` went beyond the stop from -50.0 to 50.0 deg"
+    ));
+    assert!(!said.contains("stiffer"));
+    let said = of(&soft).unwrap();
+    assert!(said.contains("a stiffer one"), "{said}");
+    assert_eq!(of(&away), None);
+}

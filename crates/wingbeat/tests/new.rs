@@ -155,7 +155,7 @@ fn refuses_insects_that_are_none() {
         (&["--species", "honeybe"], "did you mean `honeybee`?"),
         (
             &["--species", "honeybee", "--mass", "1mg"],
-            "cannot be used with --mass, --wing or --frequency",
+            "cannot be used with --mass, --wing, --chord or --frequency",
         ),
         (
             &["--species", "honeybee", "--mass", "1mg"],

@@ -57,7 +57,7 @@ pub(crate) fn rings(
     rings
 }
 
-/// Side edges that do not shed: rings stay inside. So do those of roots on bodies, which are no free edges
+/// Side edges that do not shed: rings stay inside, but where a root lies on another one. So do those of roots on bodies, which are no free edges
 /// (docs/wings-on-bodies.md, "Wings on a body").
 fn inset(
     topology: &Topology,
@@ -73,7 +73,8 @@ fn inset(
         let kept = match kinds.get(&pair) {
             Some(EdgeKind::Leading) => settings.shedding.trailing || reach[s].edges,
             Some(EdgeKind::Trailing) => reach[s].edges,
-            Some(EdgeKind::Tip | EdgeKind::Root) => reach[s].tips,
+            Some(EdgeKind::Root) => reach[s].tips || surfaces[s].reaches_root,
+            Some(EdgeKind::Tip) => reach[s].tips,
             _ => false,
         };
         // Plane flow has no side edges, however many columns reach from end to end.

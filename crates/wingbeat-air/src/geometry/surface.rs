@@ -44,6 +44,9 @@ pub struct Surface {
     /// where rings are inset ([`crate::AirSettings::inset`]) control points are midway in that angle then, and rings reach
     /// to the tips.
     pub cosine_columns: bool,
+    /// Whether rings reach to the root, which lies on that of another surface: filaments of both on each other leave no
+    /// gap through which air passes.
+    pub reaches_root: bool,
 }
 
 impl Surface {
@@ -97,6 +100,7 @@ impl Surface {
             carry_through: false,
             rest: None,
             cosine_columns: false,
+            reaches_root: false,
         }
     }
 
@@ -119,6 +123,7 @@ impl Surface {
             carry_through: false,
             rest: None,
             cosine_columns: false,
+            reaches_root: false,
         }
     }
 }

@@ -136,6 +136,7 @@ pub fn turned_inside_out(unknowns: &[Unknown], values: &[f64]) -> Option<Unknown
     let both = 1.0 + value(Unknown::StrokeAmplitude);
     let apart = value(Unknown::StrokeAmplitudeDifference);
     match () {
+        () if value(Unknown::DriveAmplitude) < -1.0 => Some(Unknown::DriveAmplitude),
         () if both < 0.0 => Some(Unknown::StrokeAmplitude),
         () if both < 0.5 * apart.abs() => Some(Unknown::StrokeAmplitudeDifference),
         () => None,

@@ -2,13 +2,14 @@
 
 use wingbeat_flight::{FlightSetup, MotionMode};
 use wingbeat_math::DVec3;
+use wingbeat_model::Wing;
 
 use crate::AnalysisError;
 use crate::beat::glide::glides;
 use crate::trim::problem::{TrimProblem, TrimSettings};
 use crate::trim::residuals::Residuals;
 use crate::trim::tail::tail_wings;
-use crate::trim::unknown::{Bound, Unknown};
+use crate::trim::unknown::{Bound, Unknown, has_drives};
 
 /// The unknowns of flight that turns or slips sideways, beside those of straight flight.
 const LATERAL: [Unknown; 3] = [
@@ -24,7 +25,8 @@ pub struct TrimRequest {
     pub velocity: DVec3,
     /// Turn of the heading, positive to the right [rad/s].
     pub turn_rate: f64,
-    /// What may be chosen. None: body pitch, stroke amplitude and mean stroke angle; where the flight turns or slips
+    /// What may be chosen. None: body pitch, stroke amplitude and mean stroke angle; where joints drive all wings body
+    /// pitch, drive amplitude and mass centre; where the flight turns or slips
     /// sideways body roll and the differences of stroke amplitude and stroke plane besides. Of a flyer in which nothing
     /// beats: body pitch, and speed forward and climb as far as they are not given (0); for those that are, the incidence
     /// of the tail, then the mass centre.
@@ -48,6 +50,7 @@ impl TrimRequest {
         match self.unknowns {
             Some(named) => problem.unknowns = named,
             None if glides(setup) => problem.unknowns = of_glide(setup, self.velocity),
+            None if are_driven(setup) && !lateral => problem.unknowns = OF_DRIVES.to_vec(),
             None if lateral => problem.unknowns.extend(LATERAL),
             None => {}
         }
@@ -64,6 +67,18 @@ impl TrimRequest {
         problem.settings.steps = self.steps.unwrap_or(default.steps);
         Ok(problem)
     }
+}
+
+/// The unknowns of flyers whose wings are driven through joints.
+const OF_DRIVES: [Unknown; 3] = [
+    Unknown::BodyPitch,
+    Unknown::DriveAmplitude,
+    Unknown::MassCentre,
+];
+
+/// Whether no wing beats by itself, and actuators of joints do something.
+fn are_driven(setup: &FlightSetup) -> bool {
+    setup.animal.wings.iter().all(Wing::is_still) && has_drives(setup)
 }
 
 /// The unknowns of a glide with the speeds that are `asked` [m/s]; 0 is none.

@@ -34,10 +34,12 @@ pub struct TrimSolution {
     pub adjustment: Adjustment,
     /// What right wings have more of it than left ones.
     pub difference: Adjustment,
-    /// Shift of the mass centre along b1 [m].
+    /// Shift of the mass centre of the body along b1, against its hinges [m].
     pub mass_centre: f64,
     /// Change of the feathering angle of the tail, leading edge up \[rad\].
     pub tail_incidence: f64,
+    /// Relative change of what drives joints \[1\].
+    pub drive_amplitude: f64,
     /// Pitch of the body at the start of the beat, in air with memory at its release \[rad\].
     pub body_pitch: f64,
     /// Roll of the body then, right side down \[rad\].
@@ -70,6 +72,7 @@ impl TrimSolution {
             difference: a.difference,
             mass_centre: a.mass_centre,
             tail_incidence: a.tail_incidence,
+            drive_amplitude: a.drive_amplitude,
             body_pitch: a.pitch,
             body_roll: a.roll,
             way: None,
@@ -144,6 +147,7 @@ mod tests {
             difference: Adjustment::default(),
             mass_centre: 0.0,
             tail_incidence: 0.0,
+            drive_amplitude: 0.0,
             body_pitch: 0.0,
             body_roll: 0.0,
             way: None,

@@ -2,8 +2,9 @@
 
 use std::f64::consts::{FRAC_PI_3, PI};
 
+use wingbeat_dynamics::{Element, ElementLaw, Joint};
 use wingbeat_flight::{FlightSetup, faster};
-use wingbeat_math::DVec3;
+use wingbeat_math::{DMat3, DVec3};
 use wingbeat_model::motion::Adjustment;
 
 use crate::AnalysisError;
@@ -31,10 +32,13 @@ pub enum Unknown {
     DeviationOffset,
     /// Pitch of the body \[rad\]; when it is not chosen, it is kept and one more control is needed.
     BodyPitch,
-    /// Mass centre along b1, relative to the hinges, in wing lengths.
+    /// Mass centre of the body along b1, relative to the hinges, in wing lengths.
     MassCentre,
     /// Change of the feathering angle of the tail, leading edge up \[rad\]: the elevator.
     TailIncidence,
+    /// Relative change of what drives joints, moments and forces that are given and the swing of angles that are followed:
+    /// the voltage of motors \[1\].
+    DriveAmplitude,
     /// Mean velocity along n1 [m/s].
     Forward,
     /// Mean velocity along -n3 [m/s].
@@ -69,7 +73,7 @@ pub enum UnknownKind {
 }
 
 /// All unknowns with their names in cases and reports.
-pub const UNKNOWNS: [(Unknown, &str); 18] = [
+pub const UNKNOWNS: [(Unknown, &str); 19] = [
     (Unknown::StrokeAmplitude, "stroke_amplitude"),
     (Unknown::StrokeOffset, "stroke_offset"),
     (Unknown::Frequency, "frequency"),
@@ -80,6 +84,7 @@ pub const UNKNOWNS: [(Unknown, &str); 18] = [
     (Unknown::BodyPitch, "body_pitch"),
     (Unknown::MassCentre, "mass_centre"),
     (Unknown::TailIncidence, "tail_incidence"),
+    (Unknown::DriveAmplitude, "drive_amplitude"),
     (Unknown::Forward, "forward"),
     (Unknown::Climb, "climb"),
     (Unknown::BodyRoll, "body_roll"),
@@ -114,9 +119,10 @@ impl Unknown {
     /// What its value counts.
     pub fn kind(self) -> UnknownKind {
         match self {
-            Self::StrokeAmplitude | Self::Frequency | Self::StrokeAmplitudeDifference => {
-                UnknownKind::Relative
-            }
+            Self::StrokeAmplitude
+            | Self::Frequency
+            | Self::DriveAmplitude
+            | Self::StrokeAmplitudeDifference => UnknownKind::Relative,
             Self::FeatheringLead => UnknownKind::Beats,
             Self::MassCentre => UnknownKind::WingLengths,
             Self::Forward | Self::Climb => UnknownKind::Speed,
@@ -157,7 +163,7 @@ impl Bound {
     /// What holds unless told otherwise: what wings that are still wings can do.
     pub fn default_of(unknown: Unknown) -> Self {
         let (from, to) = match unknown {
-            Unknown::StrokeAmplitude | Unknown::Frequency => (-0.7, 2.0),
+            Unknown::StrokeAmplitude | Unknown::Frequency | Unknown::DriveAmplitude => (-0.7, 2.0),
             Unknown::StrokeAmplitudeDifference => (-1.0, 1.0),
             Unknown::BodyPitch | Unknown::BodyRoll => (-PI, PI),
             Unknown::FeatheringLead => (-0.25, 0.25),
@@ -174,7 +180,9 @@ impl Bound {
     /// What is allowed.
     pub fn check(&self) -> Result<(), String> {
         let (least, most, allowed) = match self.unknown {
-            Unknown::StrokeAmplitude | Unknown::Frequency => (-1.0, f64::INFINITY, "above -1"),
+            Unknown::StrokeAmplitude | Unknown::Frequency | Unknown::DriveAmplitude => {
+                (-1.0, f64::INFINITY, "above -1")
+            }
             Unknown::StrokeAmplitudeDifference => (-2.0, 2.0, "above -2 and below 2"),
             _ => return Ok(()),
         };
@@ -223,13 +231,15 @@ pub(crate) struct Adjusted {
     pub mass_centre: f64,
     /// Change of the feathering angle of the tail \[rad\].
     pub tail_incidence: f64,
+    /// Relative change of what drives joints \[1\].
+    pub drive_amplitude: f64,
     /// Pitch of the body \[rad\].
     pub pitch: f64,
     /// Roll of the body \[rad\].
     pub roll: f64,
 }
 
-/// An error if an unknown is not what it says for what `setup` has at places of its own: joints, springs, loads.
+/// An error if an unknown is not what it says for what `setup` has: a tail, drives.
 pub(crate) fn check_unknowns(
     setup: &FlightSetup,
     unknowns: &[Unknown],
@@ -237,34 +247,49 @@ pub(crate) fn check_unknowns(
     if unknowns.contains(&Unknown::TailIncidence) {
         tail_wings(setup)?;
     }
-    if !unknowns.contains(&Unknown::MassCentre) {
-        return Ok(());
+    match unknowns.contains(&Unknown::DriveAmplitude) && !has_drives(setup) {
+        false => Ok(()),
+        true => Err(AnalysisError::not_covered(
+            "drive_amplitude changes what actuators of joints exert or follow, and no joint has one",
+            "choose other unknowns, as stroke_amplitude for strokes that are prescribed, or give a [[joint.NAME.element]] with moment_newton_m or follow",
+        )),
     }
-    let refused = |what: String, remedy| {
-        let why = format!(
-            "mass_centre shifts the hinges of wings against the body, and {what} has a place of its own"
-        );
-        Err(AnalysisError::not_covered(why, remedy))
-    };
-    if let Some(joint) = setup.joints.first() {
-        let remedy = "choose other unknowns, or shift at_m of the joints, or hinge_m of wings on joints without it, in the case";
-        return refused(format!("joint `{}`", joint.name), remedy);
-    }
-    let mut springs = setup.springs.iter();
-    if let Some(spring) = springs.find(|s| s.bodies.contains(&0)) {
-        let remedy = "choose other unknowns, or shift at_m of the springs in the case";
-        return refused(format!("spring `{}`", spring.name), remedy);
-    }
-    let mut all = setup.loads.iter().enumerate();
-    if let Some((k, load)) = all.find(|(_, l)| l.body == 0 && l.point != DVec3::ZERO) {
-        let remedy = "choose other unknowns, or load the body at its origin";
-        let of = match load.is_weight(setup.gravity) {
-            true => format!("the point of load[{k}], or the centre of buoyancy (air.buoyancy)"),
-            false => format!("the point of load[{k}]"),
+}
+
+/// Whether actuators of joints exert anything, or follow angles that swing.
+pub(crate) fn has_drives(setup: &FlightSetup) -> bool {
+    (setup.joints.iter()).any(|joint| driven(joint, 1.0) != joint.model.elements)
+}
+
+/// Whether the mass centre is shifted in the body itself, as a battery is: where joints, springs or loads have places of
+/// their own on the body. Elsewhere the hinges of the wings are shifted the other way.
+pub fn shifts_body(setup: &FlightSetup) -> bool {
+    !setup.joints.is_empty()
+        || setup.springs.iter().any(|s| s.bodies.contains(&0))
+        || setup
+            .loads
+            .iter()
+            .any(|l| l.body == 0 && l.point != DVec3::ZERO)
+}
+
+/// The elements of a joint with `by` \[1\] more of what drives it: moments and forces that are given, and how far the
+/// angles swing that actuators follow.
+fn driven(joint: &Joint, by: f64) -> Vec<Element> {
+    let mut elements = joint.model.elements.clone();
+    let factor = 1.0 + by;
+    for element in &mut elements {
+        let (ElementLaw::Effort(series) | ElementLaw::Follow { target: series, .. }) =
+            &mut element.law
+        else {
+            continue;
         };
-        return refused(of, remedy);
+        let harmonics = series.cosine.iter_mut().chain(&mut series.sine);
+        harmonics.for_each(|x| *x *= factor);
+        if let ElementLaw::Effort(series) = &mut element.law {
+            series.constant *= factor;
+        }
     }
-    Ok(())
+    elements
 }
 
 /// The setup with the values of `unknowns`; a body attitude that is not among them is `pitch` and `roll`.
@@ -276,7 +301,7 @@ pub(crate) fn adjusted(
 ) -> Adjusted {
     let mut a = Adjustment::default();
     let mut d = Adjustment::default();
-    let (mut shift, mut tail_incidence) = (0.0, 0.0);
+    let [mut shift, mut tail_incidence, mut drive_amplitude] = [0.0; 3];
     for (unknown, &x) in unknowns.iter().zip(values) {
         match unknown {
             Unknown::StrokeAmplitude => a.stroke_amplitude = x,
@@ -289,6 +314,7 @@ pub(crate) fn adjusted(
             Unknown::BodyPitch => pitch = x,
             Unknown::MassCentre => shift = x,
             Unknown::TailIncidence => tail_incidence = x,
+            Unknown::DriveAmplitude => drive_amplitude = x,
             Unknown::Forward | Unknown::Climb => {} // of the flight, not of the animal
             Unknown::BodyRoll => roll = x,
             Unknown::StrokeAmplitudeDifference => d.stroke_amplitude = x,
@@ -300,6 +326,7 @@ pub(crate) fn adjusted(
     }
     let mut setup = setup.clone();
     shift *= setup.animal.wing_length();
+    let in_body = shifts_body(&setup);
     let adjusted: Vec<bool> = (0..setup.animal.wings.len())
         .map(|w| setup.is_adjusted(w))
         .collect();
@@ -307,7 +334,13 @@ pub(crate) fn adjusted(
         let own = a.on(wing.side, &d);
         let own = if is_adjusted { own } else { own.on_wing() };
         wing.motion = wing.motion.adjusted(wing.side, &own);
-        wing.hinge_b.x -= shift;
+        if !in_body {
+            wing.hinge_b.x -= shift;
+        }
+    }
+    if in_body && shift != 0.0 {
+        let body = &mut setup.animal.body;
+        *body = body.moved(DMat3::IDENTITY, shift * DVec3::X);
     }
     if tail_incidence != 0.0
         && let Ok(tail) = tail_wings(&setup)
@@ -321,6 +354,11 @@ pub(crate) fn adjusted(
             wing.motion = wing.motion.adjusted(wing.side, &elevator);
         }
     }
+    if drive_amplitude != 0.0 {
+        for joint in &mut setup.joints {
+            joint.model.elements = driven(joint, drive_amplitude);
+        }
+    }
     if a.frequency != 0.0 {
         for joint in &mut setup.joints {
             *joint = faster(joint, 1.0 + a.frequency);
@@ -332,6 +370,7 @@ pub(crate) fn adjusted(
         difference: d,
         mass_centre: shift,
         tail_incidence,
+        drive_amplitude,
         pitch,
         roll,
     }

@@ -24,6 +24,7 @@ pub(crate) use names::check_characters as check_names;
 pub use names::column_name;
 
 use wingbeat_flight::{CorrectorSettings, FlightSetup};
+use wingbeat_math::DMat3;
 use wingbeat_model::{Animal, ModelError, Wing};
 
 use air::buoyancy;
@@ -81,6 +82,9 @@ fn animal(case: &Case, name: &str) -> Built<Animal> {
         ..body
     };
     segment::split(case, &mut animal)?;
+    if let Some(shift) = case.body.centre_shift_m {
+        animal.body = animal.body.moved(DMat3::IDENTITY, shift.into());
+    }
     let is_carried = |wing: &Wing| is_carried(case, &wing.name);
     (animal.check_with(is_carried)).map_err(|e| fault_of_animal(case, e))?;
     let scale = case.animal.scale;

@@ -3,7 +3,8 @@
 //!
 //! The chapter in order: `species`, beside this one, is what is known, `scaling` fills in what is not given,
 //! `text` writes the case. The stroke is the one with which blade elements carry the weight on average
-//! ([`wingbeat_analysis::estimate`]).
+//! ([`wingbeat_analysis::estimate`]); the hinges are so far apart that it does not take the wings through each other or
+//! into the body.
 
 mod number;
 mod scaling;
@@ -59,17 +60,44 @@ fn hovering(insect: &Insect, air: InsectAir) -> Result<String, IoError> {
         let middle = 0.5 * (low + high);
         let lift = lift(insect, middle)?;
         if (lift - 1.0).abs() < CLOSE {
-            return Ok(text::text(insect, air, middle));
+            low = middle;
+            break;
         }
         *(if lift < 1.0 { &mut low } else { &mut high }) = middle;
     }
-    Ok(text::text(insect, air, low))
+    let aside = clear(insect, low)?;
+    Ok(text::text(insect, air, (low, aside)))
+}
+
+/// Distance of the hinges from the middle over the one they have at least, with which wings of this stroke \[deg\] pass
+/// neither through each other nor through the body of a lattice \[1\].
+fn clear(insect: &Insect, stroke: f64) -> Result<f64, IoError> {
+    const FARTHEST: i32 = 20;
+    let aside = |k: i32| 1.1_f64.powi(k);
+    for k in 0..FARTHEST {
+        let text = text::text(insect, InsectAir::Lattice, (stroke, aside(k)));
+        let setup = loaded(&text)?.setup;
+        if setup.crossing_wings().is_empty() && setup.wings_inside_parts().is_empty() {
+            return Ok(aside(k));
+        }
+    }
+    Err(IoError::Insect {
+        problem: format!(
+            "wings with a stroke of {stroke:.0} degrees, which carries the weight, pass through each other or through the body"
+        ),
+        remedy: "give a higher --frequency or longer wings (--wing), which need shorter strokes"
+            .to_owned(),
+    })
+}
+
+fn loaded(text: &str) -> Result<LoadedCase, IoError> {
+    LoadedCase::from_text("new case", text, Path::new(""), &[])
 }
 
 /// Mean lift over weight by blade elements with this stroke [deg].
 fn lift(insect: &Insect, stroke: f64) -> Result<f64, IoError> {
-    let text = text::text(insect, InsectAir::BladeElement, stroke);
-    let case = LoadedCase::from_text("new case", &text, Path::new(""), &[])?;
+    let text = text::text(insect, InsectAir::BladeElement, (stroke, 1.0));
+    let case = loaded(&text)?;
     let refused = |problem: String| IoError::Insect {
         problem,
         remedy: "give other sizes".to_owned(),
@@ -98,7 +126,7 @@ fn no_stroke(insect: &Insect, stroke: f64, lift: f64) -> IoError {
             STROKES[1]
         ),
         remedy: format!(
-            "give another --frequency (some {frequency:.0} Hz would do with {USUAL} degrees), --wing or --mass"
+            "give another --frequency (some {frequency:.0} Hz would do with {USUAL} degrees), --wing, --chord or --mass"
         ),
     }
 }

@@ -22,12 +22,17 @@ pub struct Size {
     pub mass: Option<f64>,
     /// Length of a wing, hinge to tip \[m\].
     pub wing_length: Option<f64>,
+    /// Mean chord \[m\].
+    pub mean_chord: Option<f64>,
     /// Wingbeats per second \[Hz\].
     pub frequency: Option<f64>,
 }
 
 /// Wing length over that of a species scaled to the same mass, at least and at most.
 const PROPORTION: [f64; 2] = [0.4, 2.5];
+
+/// Mean chord over wing length, from the first to the second.
+const CHORDS: [f64; 2] = [0.1, 1.0];
 
 /// What five digits of a number round away at most \[1\].
 const ROUNDED: f64 = 5e-5;
@@ -117,6 +122,7 @@ impl Size {
                 mass => part("mass", mass, 1e6, "mg"),
             },
             part("wing", self.wing_length, 1e3, "mm"),
+            part("chord", self.mean_chord, 1e3, "mm"),
             part("frequency", self.frequency, 1.0, ""),
         ]
         .concat()
@@ -198,7 +204,7 @@ impl Insect {
     pub(super) fn of_size(size: &Size) -> Result<Self, IoError> {
         if size.mass.is_none() && size.wing_length.is_none() {
             return Err(IoError::Insect {
-                problem: "a frequency alone gives no size".to_owned(),
+                problem: "a frequency or a chord alone gives no size".to_owned(),
                 remedy: "give the mass or the wing length beside it, or both".to_owned(),
             });
         }
@@ -215,7 +221,22 @@ impl Insect {
             let r = r0 * (mass.value / m0).cbrt();
             Sourced::new(r, isometry("wing length as cube root of mass"))
         });
-        let chord = s.mean_chord * wing_length.value / r0;
+        let mean_chord = Sourced::given_or(size.mean_chord, || {
+            let source = format!("estimated: wing shape of the {}", s.name);
+            Sourced::new(s.mean_chord * wing_length.value / r0, source)
+        });
+        let (chord, length) = (mean_chord.value, wing_length.value);
+        if !(CHORDS[0]..=CHORDS[1]).contains(&(chord / length)) {
+            let [from, to] = CHORDS.map(|part| number(1e3 * part * length));
+            return Err(IoError::Insect {
+                problem: format!(
+                    "--chord {}mm is out of proportion to wings of {} mm",
+                    number(1e3 * chord),
+                    number(1e3 * length)
+                ),
+                remedy: format!("give a mean chord from {from} to {to} mm, or leave it out"),
+            });
+        }
         let frequency = Sourced::given_or(size.frequency, || {
             let area = 2.0 * chord * wing_length.value;
             let law = "Deakin (2010), as a later review quotes it: 317 sqrt(mass in g) / area of both wings in cm2";
@@ -232,7 +253,7 @@ impl Insect {
             made_by: size.command(),
             wing_mass: proportional(s.wing_share * mass.value),
             body_length: proportional(s.body_length * (mass.value / m0).cbrt()),
-            mean_chord: Sourced::new(chord, format!("estimated: wing shape of the {}", s.name)),
+            mean_chord,
             r2_hat: proportional(s.r2_hat),
             stroke: None,
             mass,
@@ -253,7 +274,7 @@ mod tests {
         let size = |mass, wing| Size {
             mass: Some(mass),
             wing_length: Some(wing),
-            frequency: None,
+            ..Size::default()
         };
         for k in 0..50 {
             let mass = 2e-8 * (50e-3 / 2e-8_f64).powf(f64::from(k) / 49.0); // 20 ug to 50 g

@@ -25,13 +25,13 @@ const ROOT: f64 = 0.045;
 /// Pitch of the body in hover [deg].
 const PITCH: f64 = 45.0;
 
-/// The case file with this stroke from end to end [deg].
-pub(super) fn text(insect: &Insect, air: InsectAir, stroke: f64) -> String {
+/// The case file with this stroke from end to end [deg]; hinges are so many times as far aside as they are at least \[1\].
+pub(super) fn text(insect: &Insect, air: InsectAir, (stroke, aside): (f64, f64)) -> String {
     [
         head(insect),
         flight(insect, air),
         body(insect),
-        wing(insect, stroke),
+        wing(insect, stroke, aside),
     ]
     .concat()
 }
@@ -152,10 +152,16 @@ diameter_m = {}
     )
 }
 
-fn wing(insect: &Insect, stroke: f64) -> String {
+fn wing(insect: &Insect, stroke: f64, apart: f64) -> String {
     let length = insect.wing_length.value;
     let up = HINGE_HEIGHT * length / 2.0_f64.sqrt();
-    let aside = up.max(HINGE_CLEARANCE * diameter(insect));
+    let aside = apart * up.max(HINGE_CLEARANCE * diameter(insect));
+    let why = match apart > 1.0 {
+        true => {
+            "; so far aside that the wings pass neither through each other nor through the body"
+        }
+        false => "",
+    };
     let measured = insect.stroke.as_ref().map_or(String::new(), |stroke| {
         format!(
             "; {} deg from end to end: {}",
@@ -167,7 +173,7 @@ fn wing(insect: &Insect, stroke: f64) -> String {
         "
 # The right wing; the left one is its mirror image.
 [wing.right]
-hinge_m = [{up}, {aside}, -{up}]  # {HINGE_HEIGHT} wing lengths above the mass centre in hover: estimate
+hinge_m = [{up}, {aside}, -{up}]  # {HINGE_HEIGHT} wing lengths above the mass centre in hover: estimate{why}
 mass_kg = {mass}  # a wing; {rest}
 
 [wing.right.motion.phi.fourier]

@@ -31,6 +31,12 @@ pub struct BodyCase {
     #[schemars(extend("with" = "inertia_about_centre_kg_m2"))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub centre_m: Option<[f64; 3]>,
+    /// By how much the mass centre is moved, body axes: mass, inertia about it and all places in the file stay what they
+    /// are. Left out: not at all.
+    ///
+    /// Change it for a battery that is moved, or to balance a flyer; trims with the unknown `mass_centre` write it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub centre_shift_m: Option<[f64; 3]>,
     /// Inertia matrix about the mass centre in body axes: xx, yy, zz, xy, xz, yz (elements of
     /// the matrix: a product carries its minus sign). Left out: that of the parts.
     /// Moments rounded to three digits are accepted: a largest one that exceeds the sum of the two

@@ -1,7 +1,7 @@
 //! A trimmed flight as a case file.
 
 use wingbeat_analysis::wake::WakeTrim;
-use wingbeat_analysis::{AnalysisError, Trim, TrimSolution, glides, tail_wings};
+use wingbeat_analysis::{AnalysisError, Trim, TrimSolution, glides, shifts_body, tail_wings};
 use wingbeat_dynamics::BodyMotion;
 use wingbeat_flight::{FlightSetup, closes_loop};
 use wingbeat_math::{DVec3, EulerSequence};
@@ -195,7 +195,7 @@ fn glide_case(
     with_start(case, raw, flight, &trim.solution)
 }
 
-/// The case with the adjusted wing motion and hinges.
+/// The case with the adjusted wing motion and hinges, drives of joints and mass centre of the body.
 fn adjusted(case: &LoadedCase, by: &TrimSolution) -> Case {
     let mut raw = case.raw.clone();
     let motion = &mut raw.motion;
@@ -213,8 +213,17 @@ fn adjusted(case: &LoadedCase, by: &TrimSolution) -> Case {
     }
     let given = raw.joint.values_mut().flat_map(frequencies);
     given.for_each(|f| *f *= 1.0 + by.adjustment.frequency);
+    let given = raw.joint.values_mut().flat_map(swings);
+    given.for_each(|x| *x *= 1.0 + by.drive_amplitude);
+    let shift = by.mass_centre / raw.animal.scale;
+    if shifts_body(&case.setup) {
+        let [x, y, z] = raw.body.centre_shift_m.unwrap_or_default();
+        let shifted = [x + shift, y, z];
+        raw.body.centre_shift_m = Some(shifted).filter(|x| *x != [0.0; 3]);
+        return raw;
+    }
     for hinge in raw.wing.values_mut().filter_map(|w| w.hinge_m.as_mut()) {
-        hinge[0] -= by.mass_centre / raw.animal.scale;
+        hinge[0] -= shift;
     }
     raw
 }
@@ -300,6 +309,21 @@ fn frequencies(joint: &mut JointCase) -> Vec<&mut f64> {
         all.filter_map(|s| s.frequency_hz.as_mut())
     });
     turn.chain(travel).chain(series).collect()
+}
+
+/// Moments and forces that drive a joint, and by how much the angles swing that its actuators follow.
+fn swings(joint: &mut JointCase) -> impl Iterator<Item = &mut f64> {
+    joint.element.iter_mut().flat_map(|e| {
+        let efforts = [e.moment_newton_m.as_mut(), e.force_newton.as_mut()];
+        let efforts = efforts.into_iter().flatten();
+        let efforts = efforts.flat_map(|s| {
+            let harmonics = s.cosine.iter_mut().chain(&mut s.sine);
+            std::iter::once(&mut s.mean).chain(harmonics)
+        });
+        let target = e.follow.as_mut().map(|f| &mut f.angle_deg);
+        let target = target.into_iter();
+        efforts.chain(target.flat_map(|s| s.cosine.iter_mut().chain(&mut s.sine)))
+    })
 }
 
 /// Part of its natural size below which a number is rounding, a thousandth of what a trim is found to \[1\].

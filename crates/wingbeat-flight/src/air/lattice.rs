@@ -38,7 +38,10 @@ impl LatticeAir {
         let map = SurfaceMap::new(&setup.animal, options.body_surfaces, pairs)
             .with_tips(&setup.animal, &options.joined_tips)
             .with_planes(&setup.animal, on_planes.filter(EdgeOnPlane::is_joined));
-        let (surfaces, settings) = (map.surfaces.clone(), options.lattice.clone());
+        let (mut surfaces, settings) = (map.surfaces.clone(), options.lattice.clone());
+        for wing in setup.coincident_roots(options).into_iter().flatten() {
+            surfaces[wing].reaches_root = true;
+        }
         let lattice = Lattice::joined(surfaces, &map.joined_edges(), settings)?;
         if !options.mirror {
             return Ok(Self { lattice, map });

@@ -1,10 +1,12 @@
 //! Prescribed motions that no animal has, and of which no vortex lattice says what the air does.
 
 use wingbeat_model::{
-    BodyPart, Crossing, FlownCrossings, are_joined, coincident, crossing_depth, crossings, inside,
+    BodyPart, Crossing, FlownCrossings, are_joined, coincident, crossing_depth, crossings,
+    in_one_place, inside,
 };
 
 use super::said::names;
+use crate::bodies::motions_at_start;
 use crate::setup::FlightSetup;
 
 /// Depth ([`crossing_depth`]) over the mean chord up to which wings that pass through each other graze \[1\].
@@ -53,6 +55,44 @@ impl FlightSetup {
         self.coincident_pairs().into_iter().map(say).collect()
     }
 
+    /// Says which wings of a lattice start in each other, one of them on a joint that leaves its motion free.
+    pub fn coincident_at_start(&self) -> Vec<String> {
+        let is_free = |w: usize| self.prescribed_in_body(w, 0.0).is_none();
+        if self.air.lattice().is_none() || !(0..self.animal.wings.len()).any(is_free) {
+            return vec![];
+        }
+        let Ok(motions) = motions_at_start(self) else {
+            return vec![]; // refused elsewhere
+        };
+        let poses: Vec<_> = motions.iter().skip(1).map(|m| (m.p, m.r)).collect();
+        let mut found = in_one_place(&self.animal, &poses);
+        found.retain(|pair| pair.iter().any(|&w| is_free(w)));
+        let say = |pair: [usize; 2]| {
+            let [a, b] = pair.map(|w| &self.animal.wings[w].name);
+            format!(
+                "wings `{a}` and `{b}` start in each other, less than 2 % of a mean chord apart over most of their area, where the lattice's equations are singular or nearly so: {}start them apart (start_deg of their joints), mount them at angles of their own (wing.NAME.motion), or move their hinges apart (hinge_m)",
+                self.said_of_hinges(pair)
+            )
+        };
+        found.into_iter().map(say).collect()
+    }
+
+    /// Says of two wings that their hinges are in one place, if they are; those on other bodies than the central one are
+    /// left out.
+    fn said_of_hinges(&self, pair: [usize; 2]) -> &'static str {
+        let wings = pair.map(|w| &self.animal.wings[w]);
+        let chords = wings.map(|w| w.report().mean_chord);
+        let on_body = |w: usize| {
+            let own = self.joints.iter().find(|j| j.child == w + 1);
+            own.is_none_or(|joint| joint.parent.unwrap_or(0) == 0)
+        };
+        let apart = wings[0].hinge_b.distance(wings[1].hinge_b);
+        match pair.into_iter().all(on_body) && apart < 0.02 * chords[0].min(chords[1]) {
+            true => "their hinges are in one place, so ",
+            false => "",
+        }
+    }
+
     /// Pairs of wings that lie in each other, and over which part of the beat \[1\].
     fn coincident_pairs(&self) -> Vec<([usize; 2], f64)> {
         let all = 0..self.animal.wings.len();
@@ -84,7 +124,7 @@ impl FlightSetup {
         match (is_joined, may_be_joined) {
             (true, _) => "feather less at the joined roots (twist the wing instead), change their phase, or do not join them".to_owned(),
             (false, true) => format!("join them at their roots (joined = true of the wing), {remedy}"),
-            (false, false) => remedy.to_owned(),
+            (false, false) => format!("{}{remedy}", self.said_of_hinges(found.wings)),
         }
     }
 
@@ -130,9 +170,10 @@ impl FlightSetup {
             (true, true) => format!(
                 "stop or stiffen their joints, move the hinges apart (hinge_m), or {limits}"
             ),
-            (true, false) => {
-                "stop or stiffen their joints, or move the hinges apart (hinge_m)".to_owned()
-            }
+            (true, false) => format!(
+                "{}stop or stiffen their joints, mount them at angles of their own (wing.NAME.motion), or move the hinges apart (hinge_m)",
+                self.said_of_hinges(found.wings)
+            ),
             (false, _) => format!("{limits}, or move the hinges apart (hinge_m)"),
         }
     }

@@ -96,6 +96,7 @@ impl FlightSetup {
             add(kind, vec![crossing.said]);
         }
         add(Crossing, self.coincident_wings());
+        add(Crossing, self.coincident_at_start());
         add(ScatteredAngles, self.scattered_angles());
         add(GapsInAngles, self.gaps_in_angles());
         add(EdgeAhead, self.trailing_edges_ahead());

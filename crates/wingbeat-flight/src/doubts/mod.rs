@@ -28,6 +28,7 @@
 //!
 //! `air_past`: the undisturbed air past a wing in its prescribed motion, by which the motion is judged.
 //! `on_carriers`: that motion with what carries the wing. `said`: names of wings, and those of which the same is said.
+//! `turned_over`, `stops`: what is said of a flight that was flown.
 
 mod air_past;
 mod beyond_stall;
@@ -54,6 +55,7 @@ mod scattered;
 mod shed_by_motion;
 mod short_gusts;
 mod starts_apart;
+pub(crate) mod stops;
 mod swept;
 mod thin_wake;
 pub(crate) mod turned_over;

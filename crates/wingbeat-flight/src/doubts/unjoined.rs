@@ -1,5 +1,5 @@
-//! Wings whose roots meet, or tip and root, or that stand on a plane of images, and are not joined there: the lattice has a gap there,
-//! through which air passes.
+//! Wings whose roots meet, or tip and root, or that stand on a plane of images, and are not joined there: the lattice has a
+//! gap there, through which air passes. Roots that lie on each other and that no key joins it closes by itself.
 
 use wingbeat_air::EdgeKind;
 use wingbeat_model::{Spacing, are_joined, mirror_name, pairs, roots_meet};
@@ -22,16 +22,36 @@ impl FlightSetup {
         };
         let pairs = pairs(self.prescribed_wings().into_iter());
         let goes_on = self.goes_on(air);
-        let is_joined = |w: usize| air.joined.iter().any(|pair| pair.contains(&w));
+        let carried = self.carried_pairs(air).into_iter();
+        let carried: Vec<usize> = carried.flat_map(|pair| pair.wings).collect();
+        let is_joined =
+            |w: usize| carried.contains(&w) || air.joined.iter().any(|pair| pair.contains(&w));
         let goes_on = |w: usize| is_joined(w) || goes_on(w, EdgeKind::Root);
         let ends = |pair: [usize; 2]| !pair.into_iter().all(goes_on);
         let apart = pairs.filter(|pair| !are_joined(&air.joined, *pair) && ends(*pair));
         let wings = &self.animal.wings;
-        let reach = |w: usize| wings[w].mesh.columns == Spacing::Cosine || air.lattice.inset == 0.0;
+        let closed = self.coincident_roots(air).concat();
+        let reach = |w: usize| {
+            let is_cosine = wings[w].mesh.columns == Spacing::Cosine;
+            is_cosine || air.lattice.inset == 0.0 || closed.contains(&w)
+        };
         let closes =
             |pair: [usize; 2]| pair.into_iter().all(reach) && roots_meet(&self.animal, pair, SAME);
         let found = apart.filter(|&pair| roots_meet(&self.animal, pair, NEAR) && !closes(pair));
         found.map(|pair| self.say_unjoined(pair)).collect()
+    }
+
+    /// Pairs of wings of a lattice whose roots lie on each other all along ([`roots_meet`]), do not shed, and which no key
+    /// joins, as of two wings on the same side: rings of both reach to the root there, so that no air passes. Wings with
+    /// joints of their own are left out.
+    pub(crate) fn coincident_roots(&self, air: &AirOptions) -> Vec<[usize; 2]> {
+        if air.lattice.shedding.root {
+            return vec![];
+        }
+        let lie =
+            |&pair: &[usize; 2]| !self.may_be_joined(pair) && roots_meet(&self.animal, pair, SAME);
+        let all = pairs(self.prescribed_wings().into_iter());
+        all.filter(lie).collect()
     }
 
     /// Says which wings of a lattice have a tip at which the root of another begins, and are not joined there: of a wing
@@ -125,7 +145,9 @@ impl FlightSetup {
         let [a, b] = pair.map(|w| &self.animal.wings[w].name);
         let remedy = match self.may_be_joined(pair) {
             true => "join them (joined = true of the wing), or move the hinges apart (hinge_m)",
-            false => "move the hinges apart (hinge_m)",
+            false => {
+                "let the roots lie on each other all along, where the lattice closes them by itself (the same hinge_m and chord; flapping keeps them there, feathering and deviation part them), or move the hinges apart (hinge_m)"
+            }
         };
         format!(
             "the roots of wings `{a}` and `{b}` meet and are not joined: their circulation ends there, so that lift is low, by a seventh in a stream at an aspect ratio of 6, and drag high; {remedy}"

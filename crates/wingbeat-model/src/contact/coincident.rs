@@ -31,24 +31,61 @@ pub fn coincident(
     pairs(wings.iter().copied()).filter_map(part).collect()
 }
 
+/// Pairs of wings of the animal that lie in each other over most of the area of the smaller one at time zero, where they
+/// have these places of their origins \[m\] and attitudes.
+pub fn in_one_place(animal: &Animal, poses: &[(DVec3, DMat3)]) -> Vec<[usize; 2]> {
+    let lie = |pair: &[usize; 2]| {
+        let places = SheetPair::of(pair.map(|w| &animal.wings[w]));
+        places.lie(|k| poses.get(pair[k]).copied(), 0.0)
+    };
+    pairs(0..animal.wings.len()).filter(lie).collect()
+}
+
+/// Two wings that may lie in each other.
+struct SheetPair {
+    /// The smaller one first.
+    sheets: [Sheet; 2],
+    /// Their numbers in the pair.
+    order: [usize; 2],
+    /// Distance up to which they are in one place \[m\].
+    near: f64,
+}
+
+impl SheetPair {
+    fn of(wings: [&Wing; 2]) -> Self {
+        let reports = wings.map(Wing::report);
+        let order = match reports[0].area <= reports[1].area {
+            true => [0, 1],
+            false => [1, 0],
+        };
+        Self {
+            sheets: order.map(|k| Sheet::new(wings[k])),
+            order,
+            near: THICKNESS * reports[0].mean_chord.min(reports[1].mean_chord),
+        }
+    }
+
+    /// Whether they do at time `t` \[s\], those that are `carried` being there.
+    fn lie(&self, carried: impl Fn(usize) -> Option<(DVec3, DMat3)>, t: f64) -> bool {
+        let nodes = [0, 1].map(|k| match carried(self.order[k]) {
+            Some(place) => self.sheets[k].carried(place, t),
+            None => self.sheets[k].at(t),
+        });
+        lies_in(
+            self.sheets.each_ref(),
+            nodes.each_ref().map(|n| &n[..]),
+            self.near,
+        )
+    }
+}
+
 /// Part of the time over which two wings lie in each other; 0 once it can no longer be most of it.
 fn part_of_time(wings: [&Wing; 2], carried: impl Fn(usize, f64) -> Option<(DVec3, DMat3)>) -> f64 {
-    let reports = wings.map(Wing::report);
-    let chord = reports[0].mean_chord.min(reports[1].mean_chord);
-    let [small, large] = match reports[0].area <= reports[1].area {
-        true => [0, 1],
-        false => [1, 0],
-    };
-    let (sheet, other) = (Sheet::new(wings[small]), Sheet::new(wings[large]));
-    let at = |sheet: &Sheet, k: usize, t: f64| match carried(k, t) {
-        Some(place) => sheet.carried(place, t),
-        None => sheet.at(t),
-    };
+    let both = SheetPair::of(wings);
     let count = instants(wings).count();
     let (mut met, mut missed) = (0, 0);
     for t in instants(wings) {
-        let nodes = [&at(&sheet, small, t)[..], &at(&other, large, t)];
-        match lies_in([&sheet, &other], nodes, THICKNESS * chord) {
+        match both.lie(|k| carried(k, t), t) {
             true => met += 1,
             false => missed += 1,
         }

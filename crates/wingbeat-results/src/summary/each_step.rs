@@ -3,7 +3,7 @@
 //! across narrow gaps, departures under feedback.
 
 use serde::{Deserialize, Serialize};
-use wingbeat_flight::{FlightSetup, Record, TurnedOver};
+use wingbeat_flight::{FlightSetup, Record, StruckStops, TurnedOver};
 use wingbeat_math::{DVec3, EulerSequence};
 use wingbeat_model::{FlownCounts, FlownCrossings, NarrowGaps, SeenGaps, WingMotion};
 
@@ -29,6 +29,8 @@ pub(crate) struct EachStep {
     pub(super) driven: DrivenWork,
     /// Chords of the wings.
     pub(super) turned: TurnedOver,
+    /// Stops of joints.
+    pub(super) stops: StruckStops,
     pub(super) violation_position: Extent,
     pub(super) violation_orientation: Extent,
     pub(super) euler_regularity: Extent,
@@ -99,6 +101,7 @@ impl EachStep {
         self.driven.take(r);
         if self.has_free_joints {
             self.turned.take(r, setup);
+            self.stops.take(r, setup);
         }
         self.violation_position.take(r.violation_position);
         self.violation_orientation.take(r.violation_orientation);

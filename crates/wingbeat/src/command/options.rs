@@ -79,11 +79,19 @@ pub(crate) fn mass(text: &str) -> Result<f64, String> {
     quantity(text, &units, |x| (2e-8..=5e-2).contains(&x), range)
 }
 
+/// Units of lengths \[m\].
+const LENGTHS: [(&str, f64); 4] = [("um", 1e-6), ("mm", 1e-3), ("cm", 1e-2), ("m", 1.0)];
+
 /// The wing length of an insect [m].
 pub(crate) fn wing_length(text: &str) -> Result<f64, String> {
-    let units = [("um", 1e-6), ("mm", 1e-3), ("cm", 1e-2), ("m", 1.0)];
     let range = "a length with its unit (um, mm, cm, m) from 0.3mm to 20cm, e.g. 9.7mm";
-    quantity(text, &units, |x| (3e-4..=0.2).contains(&x), range)
+    quantity(text, &LENGTHS, |x| (3e-4..=0.2).contains(&x), range)
+}
+
+/// The mean chord of its wings [m].
+pub(crate) fn chord(text: &str) -> Result<f64, String> {
+    let range = "a length with its unit (um, mm, cm, m) from 30um to 20cm, e.g. 3mm";
+    quantity(text, &LENGTHS, |x| (3e-5..=0.2).contains(&x), range)
 }
 
 /// A wingbeat frequency [Hz].

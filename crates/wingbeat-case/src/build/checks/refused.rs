@@ -26,6 +26,14 @@ pub(crate) fn refused(case: &Case, setup: &FlightSetup, error: &FlightError) -> 
     // Key and value stand before the message already.
     let problem = match error {
         FlightError::Setup { problem, .. } => problem.to_string(),
+        FlightError::Air(AirError::Singular { .. }) => {
+            let mut wings = setup.coincident_wings();
+            wings.extend(setup.coincident_at_start());
+            match wings.first() {
+                Some(said) => format!("{error}; {said}"),
+                None => error.to_string(),
+            }
+        }
         other => other.to_string(),
     };
     Fault::new(key, problem, "", remedy)

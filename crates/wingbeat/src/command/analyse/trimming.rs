@@ -37,10 +37,11 @@ const HEADING: &str = "Trim";
 pub(crate) struct Trimming {
     #[command(flatten)]
     case: CaseArgs,
-    /// What trim may choose: three things [default: body_pitch stroke_amplitude stroke_offset; where nothing beats
-    /// body_pitch forward climb, and tail_incidence or mass_centre for speeds that are given]; six, three of them
-    /// lateral, in turns, sideslip and of animals that differ right and left [default: these, body_roll,
-    /// stroke_amplitude_difference, stroke_plane_difference]; those beyond for least power.
+    /// What trim may choose: three things [default: body_pitch stroke_amplitude stroke_offset; where joints drive all
+    /// wings body_pitch drive_amplitude mass_centre; where nothing beats body_pitch forward climb, and tail_incidence or
+    /// mass_centre for speeds that are given]; six, three of them lateral, in turns, sideslip and of animals that differ
+    /// right and left [default: these, body_roll, stroke_amplitude_difference, stroke_plane_difference]; those beyond for
+    /// least power.
     #[arg(long, num_args = 3..=UNKNOWNS.len(), value_name = "NAME", value_parser = unknown, help_heading = HEADING)]
     unknowns: Option<Vec<Unknown>>,
     /// Between what an unknown must lie, e.g. stroke_amplitude=-0.2..0.2 or body_pitch=20..60 (may be repeated):

@@ -33,6 +33,10 @@ pub(crate) struct NewArgs {
     #[arg(long, value_name = "LENGTH", help_heading = INSECT,
           value_parser = options::wing_length, allow_hyphen_values = true)]
     wing: Option<f64>,
+    /// Mean chord of a wing, e.g. 3mm; beside --mass or --wing.
+    #[arg(long, value_name = "LENGTH", help_heading = INSECT,
+          value_parser = options::chord, allow_hyphen_values = true)]
+    chord: Option<f64>,
     /// Wingbeats per second, e.g. 230.
     #[arg(long, value_name = "HERTZ", help_heading = INSECT,
           value_parser = options::frequency, allow_hyphen_values = true)]
@@ -53,7 +57,7 @@ const INSECT: &str = "A flyer of your own, in the proportions of an insect";
 
 const USAGE: &str = "wingbeat new PRESET [FILE] [OPTIONS]
        wingbeat new --species NAME [FILE] [OPTIONS]
-       wingbeat new [--mass MASS] [--wing LENGTH] [--frequency HERTZ] [FILE] [OPTIONS]";
+       wingbeat new [--mass MASS] [--wing LENGTH] [--chord LENGTH] [--frequency HERTZ] [FILE] [OPTIONS]";
 
 /// The air of a new case.
 #[derive(Clone, Copy, ValueEnum)]
@@ -69,6 +73,7 @@ impl NewArgs {
         Size {
             mass: self.mass,
             wing_length: self.wing,
+            mean_chord: self.chord,
             frequency: self.frequency,
         }
     }
@@ -110,7 +115,7 @@ impl NewArgs {
             return Err(Failure::Option(problem.to_owned()));
         }
         if self.species.is_some() && self.size() != Size::default() {
-            let problem = "--species cannot be used with --mass, --wing or --frequency: its case has those of the species; write it alone, and change body.mass_kg, animal.scale or motion.frequency_hz in the file or by --set, or leave --species out, for an insect by scaling laws";
+            let problem = "--species cannot be used with --mass, --wing, --chord or --frequency: its case has those of the species; write it alone, and change body.mass_kg, animal.scale or motion.frequency_hz in the file or by --set, or leave --species out, for an insect by scaling laws";
             return Err(Failure::Option(problem.to_owned()));
         }
         let air = match self.air {
