@@ -37,9 +37,9 @@ const UNRESOLVED: f64 = 0.1;
 /// at a fifth of it.
 const SMOOTH: f64 = 5e-5;
 
-/// The same of elastic wings, which are of second order in the step. Of `hawkmoth-elastic` in blade elements the mean power
-/// is 2.5, 0.9, 0.3 and 0.05 % off at 9e-3, 5e-3, 2e-3 and 6e-4 (60, 80, 120 and 240 steps a beat), of `hawkmoth-veins` 6, 2,
-/// 0.7 and 0.1 % at 1e-2, 3e-3, 9e-4 and 2e-4.
+/// The same of elastic wings, which are of second order in the step. Of `hawkmoth-elastic` in blade elements the mean
+/// power is 2.5, 0.9, 0.3 and 0.05 % off at 9e-3, 5e-3, 2e-3 and 6e-4 (60, 80, 120 and 240 steps a beat), of
+/// `hawkmoth-veins` 6, 2, 0.7 and 0.1 % at 1e-2, 3e-3, 9e-4 and 2e-4.
 const ELASTIC: f64 = 2e-3;
 
 /// The same of the momentum of flyers whose elastic wings exchange it with the bodies step by step: of second
