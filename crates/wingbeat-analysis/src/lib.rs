@@ -45,7 +45,7 @@ mod vibration;
 pub mod wake;
 
 pub use beat::glide::{glides, period_of_glide};
-pub use beat::level::{Level, Perturbation, STATE};
+pub use beat::level::{Level, Perturbation, STATE, STATE_UNITS};
 pub use beat::{Beat, Integration, State};
 pub use error::AnalysisError;
 pub use plausibility::{
@@ -57,6 +57,7 @@ pub use stability::derivatives::{Control, ControlDerivative, control_derivatives
 pub use stability::eigen::{Eigenpair, eigen};
 pub use stability::jacobian::jacobian;
 pub use stability::modes::{Mode, ModeSet, Plane, Scales};
+pub use stability::steady::SteadyFlight;
 pub use stability::table::{rigid_animal, table_model};
 pub use stability::{
     LOADS, LinearModel, floquet, floquet_of_trim, input_matrix, linear_model, orbit_monodromy,

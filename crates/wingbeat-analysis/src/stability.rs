@@ -6,6 +6,7 @@ pub(crate) mod eigen;
 pub(crate) mod jacobian;
 pub(crate) mod modes;
 pub(crate) mod rigid_body;
+pub(crate) mod steady;
 pub(crate) mod table;
 mod welded;
 
@@ -29,6 +30,8 @@ pub const LOADS: [&str; 6] = ["X", "Y", "Z", "L", "M", "N"];
 /// properties under the mean air loads of a beat.
 #[derive(Clone, Debug)]
 pub struct LinearModel {
+    /// Mean velocity of the flight over the ground, level frame [m/s]: its angular velocity and tilt are 0.
+    pub velocity: DVec3,
     /// Rates of (u, v, w, p, q, r, phi, theta, psi), 9 x 9 by rows [SI: m, s, rad].
     pub matrix: Vec<f64>,
     /// Derivatives of (X, Y, Z, L, M, N) by (u, v, w, p, q, r), 6 x 6 by rows [SI: N, m, s, rad].
@@ -104,6 +107,7 @@ pub fn linear_model(beat: &Beat, state: &State) -> Result<LinearModel, AnalysisE
     let weight = body.mass * body.gravity;
     let (size, weights) = (weight.length(), body.weights(DMat3::IDENTITY));
     Ok(LinearModel {
+        velocity: reference.velocity,
         imbalance: [
             (load.force + weights.force + weight).length() / size,
             (load.moment + weights.moment).length() / (size * beat.wing_length()),
@@ -164,7 +168,14 @@ pub fn input_matrix(
     controls: &[ControlDerivative],
 ) -> Result<Vec<f64>, AnalysisError> {
     let (level, reference) = reference(beat, state)?;
-    let body = RigidBody::of(beat, &level, &reference)?;
+    inputs_of(&RigidBody::of(beat, &level, &reference)?, controls)
+}
+
+/// The same of the averaged model of `body`.
+pub(crate) fn inputs_of(
+    body: &RigidBody,
+    controls: &[ControlDerivative],
+) -> Result<Vec<f64>, AnalysisError> {
     let n = controls.len();
     let mut b = vec![0.0; 9 * n];
     for (k, control) in controls.iter().enumerate() {

@@ -34,7 +34,7 @@ pub use build::{OutputSettings, OwnControl, SaveSettings, column_name};
 pub use document::{Document, overridden};
 pub use error::{CaseError, IoError};
 pub use files::{TableGaps, csv_reader};
-pub use findings::fitted::FittedTable;
+pub use findings::fitted::{FittedTable, Outlier};
 pub use findings::mixed_angles::MixedAngles;
 pub use keys::{SCHEMA_FILE, schema, with_schema};
 pub use loaded::LoadedCase;

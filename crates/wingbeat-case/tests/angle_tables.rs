@@ -374,7 +374,7 @@ fn behaves_tables_of_angles_can_be_fitted() {
     let doubt = fit.doubt().expect("a doubt");
     assert!(
         doubt
-            .contains("3 harmonics leave 25.0 deg (rms) and 347.4 deg of the sample at phase 0.15"),
+            .contains("at phase 0.15, is 360.0 deg off the 3 harmonics of the others, which leave 0.0 deg (rms) of these: take out"),
         "{doubt}"
     );
     // Scatter of a degree is what measured angles have.

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use crate::common;
 use wingbeat_analysis::{LinearModel, Plane, floquet, linear_model, table_model, trim};
-use wingbeat_analysis::{Trim, TrimProblem};
+use wingbeat_analysis::{SteadyFlight, Trim, TrimProblem};
 use wingbeat_case::{LoadedCase, derivative_case, trimmed_case};
 use wingbeat_flight::{DoubtKind, Record, Simulation};
 use wingbeat_math::DVec3;
@@ -173,7 +173,7 @@ fn agrees_averaged_modes_of_a_flyer_on_a_balloon_with_those_of_its_wingbeat() {
     let case = moth(&[]);
     let (found, averaged) = hover(&case);
     let exact = floquet(&found.beat, &found.state).unwrap();
-    let table = derivative_case(&case, &found, &averaged).unwrap();
+    let table = derivative_case(&case, &SteadyFlight::of(&found).unwrap(), &averaged);
     let table = LoadedCase::from_text("table", &table, Path::new(""), &[]).unwrap();
     let table = table_model(&table.setup).unwrap();
     let find = |set: &wingbeat_analysis::ModeSet| {

@@ -66,6 +66,45 @@ fn exact_the_frequency_of_a_table_is_found_where_it_is_misread() {
     assert!(!said.contains("is likely to be wrong"), "{said}");
 }
 
+/// One or two samples of 193 that are 60 deg off are named with number, angle and deviation, and not the times, which
+/// are right. Numbers are said without their roundings.
+#[test]
+fn exact_a_sample_that_is_off_is_named_before_the_times() {
+    let steady = filmed(|_| 0.2);
+    let spiked = |at: &[usize]| -> String {
+        let row = |(k, line): (usize, &str)| match (line.split_once(','), at.contains(&k)) {
+            (Some((t, q)), true) => format!("{t},{}\n", q.parse::<f64>().unwrap() + 60.0),
+            _ => format!("{line}\n"),
+        };
+        steady.lines().enumerate().map(row).collect()
+    };
+    let read = |at: &[usize], beats: f64| {
+        let more = format!("beats_per_unit = {beats}, harmonics = 4");
+        let table = law("spiked.csv", "time_ms,phi_deg", &spiked(at), &more);
+        let fit = fitted(&[table]);
+        (fit.doubt().expect("a doubt"), fit.outliers)
+    };
+    let (said, outliers) = read(&[100], 0.2);
+    let [one] = &outliers[..] else {
+        panic!("{outliers:?}")
+    };
+    // All samples but this one are those of a series of three harmonics.
+    assert!((one.off_deg - 60.0).abs() < 1e-9, "{one:?}");
+    assert!((one.phase - 2.6).abs() < 1e-12 && one.sample == 101);
+    assert!(
+        said.contains("sample 101 of 193, 6.7037 deg at phase 2.6, is 60.0 deg off"),
+        "{said}"
+    );
+    assert!(!said.contains("beats_per_unit"), "{said}");
+    let (said, outliers) = read(&[20, 100], 0.2);
+    assert!(
+        outliers.len() == 2 && said.contains("one more is off"),
+        "{said}"
+    );
+    let (said, _) = read(&[], 0.19);
+    assert!(said.contains("with 0.2000 "), "{said}");
+}
+
 /// Strokes filmed at 200 Hz that are flown at another frequency: this is said where that is near, as where it was
 /// forgotten, in whatever unit the times are; not of strokes that are flown far slower.
 #[test]

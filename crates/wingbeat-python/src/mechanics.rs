@@ -5,7 +5,7 @@ use pyo3::gc::PyVisit;
 use pyo3::prelude::*;
 use wingbeat::analysis::{
     AnalysisError, Bound as Limits, Control, ControlDerivative, LinearModel, Mode, ModeSet, Power,
-    STATE, TrimProblem, TrimRequest, UNKNOWNS, Unknown, floquet_of_trim, input_matrix,
+    STATE, STATE_UNITS, TrimProblem, TrimRequest, UNKNOWNS, Unknown, floquet_of_trim, input_matrix,
     linear_model, power_of_trim, trimmed_controls,
 };
 use wingbeat::case::{LoadedCase, trimmed_case};
@@ -265,10 +265,12 @@ impl Trim {
         Course::of(py, self.trim.clone(), settings, self.parts.copy(py))
     }
 
-    /// Names of the state of the averaged model, and of the controls.
+    /// Names and units of the state of the averaged model, and of the controls.
     #[staticmethod]
-    fn names() -> (Vec<&'static str>, Vec<&'static str>) {
-        (STATE.to_vec(), Control::ALL.map(Control::name).to_vec())
+    fn names() -> [Vec<(&'static str, &'static str)>; 2] {
+        let states = STATE.into_iter().zip(STATE_UNITS);
+        let controls = Control::ALL.map(|c| (c.name(), c.unit()));
+        [states.collect(), controls.to_vec()]
     }
 }
 

@@ -96,3 +96,67 @@ fn agrees_the_commands_of_a_glider_with_wakes_with_those_without() {
     let error = refused(dir, 2, &sweep);
     assert!(error.contains("--sweep has no effect here"), "{error}");
 }
+
+/// A has the modes: sums of powers of its eigenvalues are traces of its powers. B has Newton's law: the masses of flyer
+/// and air times the rates that a control makes are the force that it makes.
+#[test]
+fn exact_the_linear_model_in_json_has_modes_and_forces() {
+    let scratch = Scratch::new("linear-model");
+    let dir = &scratch.0;
+    let stability = object(dir, &["stability", "fruit-fly-blade", "--json"]);
+    let found = object(dir, &["derivatives", "fruit-fly-blade", "--json"]);
+    let rows = |value: &Value| -> Vec<Vec<f64>> { serde_json::from_value(value.clone()).unwrap() };
+    let (model, other) = (&stability["linear_model"], &found["linear_model"]);
+    assert_eq!(model["a"], other["a"]);
+    assert_eq!(model["states"][7], "theta");
+    assert_eq!(model["state_units"][0], "m s-1");
+    assert_eq!(other["inputs"][0], "stroke_amplitude left");
+    assert_eq!(other["input_units"][0], "1");
+    let a = rows(&model["a"]);
+    let product = |x: &[Vec<f64>], y: &[Vec<f64>]| -> Vec<Vec<f64>> {
+        let entry = |i: usize, j: usize| (0..9).map(|k| x[i][k] * y[k][j]).sum();
+        (0..9)
+            .map(|i| (0..9).map(|j| entry(i, j)).collect())
+            .collect()
+    };
+    let mut power = a.clone();
+    let modes = stability["averaged_modes"].as_array().unwrap();
+    for n in 1..=4 {
+        let trace: f64 = (0..9).map(|i| power[i][i]).sum();
+        let of = |m: &Value| {
+            let [growth, frequency] =
+                ["growth_per_s", "frequency_rad_per_s"].map(|k| m[k].as_f64().unwrap());
+            let pair = if frequency == 0.0 { 1.0 } else { 2.0 };
+            let (size, angle) = (growth.hypot(frequency), frequency.atan2(growth));
+            let value = size.powi(n);
+            [pair * value * (f64::from(n) * angle).cos(), pair * value]
+        };
+        let sums = modes
+            .iter()
+            .map(of)
+            .fold([0.0; 2], |s, x| [s[0] + x[0], s[1] + x[1]]);
+        assert!(
+            (trace - sums[0]).abs() < 1e-9 * sums[1],
+            "{n}: {trace} {sums:?}"
+        );
+        power = product(&power, &a);
+    }
+    let b = rows(&other["b"]);
+    let added = rows(&stability["added_mass_si_by_rates_of_u_v_w_p_q_r"]);
+    let mass = object(dir, &["check", "fruit-fly-blade", "--json"])["mass_kg"]
+        .as_f64()
+        .unwrap();
+    let controls = found["control_derivatives"].as_array().unwrap();
+    assert_eq!(b[0].len(), controls.len());
+    for (k, control) in controls.iter().enumerate() {
+        for (i, row) in added[..3].iter().enumerate() {
+            let carried: f64 = (0..6).map(|j| row[j] * b[j][k]).sum();
+            let force = control["force_newton_per_unit"][i].as_f64().unwrap();
+            let made = mass * b[i][k] + carried;
+            assert!(
+                (made - force).abs() < 1e-9 * (mass * 9.81),
+                "{k} {i}: {made} {force}"
+            );
+        }
+    }
+}

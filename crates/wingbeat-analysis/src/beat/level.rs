@@ -81,6 +81,11 @@ fn forward(r: DMat3, down: DVec3) -> DVec3 {
 /// Names of the nine state components.
 pub const STATE: [&str; 9] = ["u", "v", "w", "p", "q", "r", "phi", "theta", "psi"];
 
+/// Their units.
+pub const STATE_UNITS: [&str; 9] = [
+    "m s-1", "m s-1", "m s-1", "rad s-1", "rad s-1", "rad s-1", "rad", "rad", "rad",
+];
+
 /// A state of flight seen from a level frame that turns with the body: nine numbers, position
 /// left out (the air is the same everywhere).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

@@ -8,7 +8,7 @@ use crate::AnalysisError;
 use crate::beat::Beat;
 use crate::beat::level::Level;
 use crate::progress;
-use crate::trim::unknown::{Unknown, adjusted};
+use crate::trim::unknown::{Unknown, UnknownKind, adjusted};
 
 /// A means of steering.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -42,8 +42,20 @@ impl Control {
         }
     }
 
+    /// Unit in which its values count.
+    pub fn unit(self) -> &'static str {
+        match self {
+            Self::StrokeSplit => "1",
+            Self::Trimmed(unknown) => match unknown.kind() {
+                UnknownKind::Relative => "1",
+                UnknownKind::Beats => "wingbeat",
+                _ => "rad",
+            },
+        }
+    }
+
     /// The flyer with `x` of this control of all wings, or of the wing `chosen`.
-    fn steered(self, setup: &FlightSetup, chosen: Option<usize>, x: f64) -> FlightSetup {
+    pub(crate) fn steered(self, setup: &FlightSetup, chosen: Option<usize>, x: f64) -> FlightSetup {
         let mut all = match self {
             Self::Trimmed(unknown) => adjusted(setup, &[unknown], [0.0; 2], &[x]).setup,
             Self::StrokeSplit => {
@@ -63,6 +75,14 @@ impl Control {
         all
     }
 
+    /// Those that act on wings which stand still.
+    pub(crate) const OF_STILL_WINGS: [Self; 4] = [
+        Self::Trimmed(Unknown::StrokeOffset),
+        Self::Trimmed(Unknown::StrokePlane),
+        Self::Trimmed(Unknown::FeatheringOffset),
+        Self::Trimmed(Unknown::DeviationOffset),
+    ];
+
     /// Whether any of the wings answers to it.
     fn is_had(self, wings: &[Wing]) -> bool {
         let split = |w: &Wing| matches!(w.motion.angles.phi, AngleLaw::SplitCycle(_));
@@ -75,6 +95,8 @@ impl Control {
 pub struct ControlDerivative {
     /// Name of the control.
     pub control: &'static str,
+    /// Unit of the control.
+    pub unit: &'static str,
     /// The wing's name, or "all".
     pub wing: String,
     /// Derivatives of force \[N\] and moment [N m] about the mean mass centre, level frame, per unit
@@ -94,9 +116,28 @@ pub fn control_derivatives(
     steps: usize,
 ) -> Result<Vec<ControlDerivative>, AnalysisError> {
     const STEP: f64 = 1e-4;
+    let level = Level::new(rotation, setup.gravity);
+    let load = |steered: &FlightSetup, _| {
+        Beat::new(steered, steps)?.mean_load(&level, velocity, DVec3::ZERO)
+    };
+    differences(setup, &Control::ALL, STEP, load)
+}
+
+/// Central differences, over this `step` of each of the `controls` that the flyer has, of the `load` of the steered
+/// flyer about the mass centre, level components; with it goes the number of the wing that is steered, none where all
+/// are.
+///
+/// # Errors
+/// Those of the loads.
+pub(crate) fn differences(
+    setup: &FlightSetup,
+    controls: &[Control],
+    step: f64,
+    load: impl Fn(&FlightSetup, Option<usize>) -> Result<Wrench, AnalysisError>,
+) -> Result<Vec<ControlDerivative>, AnalysisError> {
     let wings = setup.animal.wings.len();
     let mut list = vec![];
-    let had = Control::ALL.into_iter();
+    let had = controls.iter().copied();
     let had: Vec<_> = had.filter(|c| c.is_had(&setup.animal.wings)).collect();
     for (k, &control) in had.iter().enumerate() {
         let name = control.name();
@@ -105,18 +146,15 @@ pub fn control_derivatives(
             .map(Some)
             .filter(|_| control != Control::FREQUENCY);
         for chosen in single.chain([None]) {
-            let at = |x: f64| -> Result<Wrench, AnalysisError> {
-                let level = Level::new(rotation, setup.gravity);
-                let beat = Beat::new(&control.steered(setup, chosen, x), steps)?;
-                beat.mean_load(&level, velocity, DVec3::ZERO)
-            };
-            let (plus, minus) = (at(STEP)?, at(-STEP)?);
+            let at = |x: f64| load(&control.steered(setup, chosen, x), chosen);
+            let (plus, minus) = (at(step)?, at(-step)?);
             list.push(ControlDerivative {
                 control: name,
+                unit: control.unit(),
                 wing: chosen.map_or("all".into(), |k| setup.animal.wings[k].name.clone()),
                 derivative: Wrench {
-                    force: (plus.force - minus.force) / (2.0 * STEP),
-                    moment: (plus.moment - minus.moment) / (2.0 * STEP),
+                    force: (plus.force - minus.force) / (2.0 * step),
+                    moment: (plus.moment - minus.moment) / (2.0 * step),
                 },
             });
         }

@@ -7,13 +7,13 @@ use wingbeat_math::{BodyMotion, DMat3, DVec3, Wrench, six_by_six, tilde};
 
 use crate::AnalysisError;
 use crate::beat::check_weights;
+use crate::stability::LinearModel;
 use crate::stability::eigen::eigen;
 use crate::stability::jacobian::jacobian;
 use crate::stability::modes::{ModeSet, Scales};
 use crate::stability::rigid_body::RigidBody;
+use crate::stability::steady::SteadyFlight;
 use crate::stability::welded::Welded;
-use crate::stability::{LinearModel, reference};
-use crate::trim::Trim;
 
 /// The linear model of a rigid animal, its welded segments with it, under its table of derivatives about the table's
 /// reference flight, level. Times in wingbeats refer to the setup's period, else to a second.
@@ -58,6 +58,7 @@ pub fn table_model(setup: &FlightSetup) -> Result<LinearModel, AnalysisError> {
     let matrix = jacobian(rates, &reference, &steps)?;
     let modes = ModeSet::of_exponents(eigen(&matrix, 9)?, &scales);
     Ok(LinearModel {
+        velocity: table.velocity,
         matrix,
         derivatives: table.derivatives,
         added_mass: body.added_mass,
@@ -113,19 +114,15 @@ fn load(table: &DerivativeTable, velocity: DVec3, rate: DVec3) -> Wrench {
 /// The rigid animal with the mean mass properties of a trimmed flight, and its derivatives: mass [kg], inertia
 /// about the mass centre in body axes [kg m2], table. The table is that of still air, velocities being those
 /// through the air of the trim.
-///
-/// # Errors
-/// What the air reports.
 pub fn rigid_animal(
-    trim: &Trim,
+    flight: &SteadyFlight<'_>,
     model: &LinearModel,
-) -> Result<(f64, DMat3, DerivativeTable), AnalysisError> {
-    let (level, steady) = reference(&trim.beat, &trim.state)?;
-    let stream = level.to_n.transpose() * trim.beat.stream();
+) -> (f64, DMat3, DerivativeTable) {
+    let (beat, level) = (flight.beat(), &flight.level);
     // The trimmed flight is in balance.
-    let mut f = -trim.beat.mass() * (level.to_n.transpose() * trim.beat.gravity());
+    let mut f = -beat.mass() * (level.to_n.transpose() * beat.gravity());
     let mut m = DVec3::ZERO;
-    for [point, force] in trim.beat.mean_weights() {
+    for [point, force] in beat.mean_weights() {
         let force = level.to_n.transpose() * force;
         f -= force;
         m -= (level.to_root.transpose() * point).cross(force);
@@ -139,11 +136,11 @@ pub fn rigid_animal(
     let table = DerivativeTable {
         to_body: level.to_root,
         point: DVec3::ZERO,
-        velocity: steady.velocity - stream,
+        velocity: flight.through,
         reference: [f.x, f.y, f.z, m.x, m.y, m.z],
         derivatives,
         added_mass: model.added_mass,
         stream: DVec3::ZERO,
     };
-    Ok((trim.beat.mass(), trim.beat.mean_inertia(), table))
+    (beat.mass(), beat.mean_inertia(), table)
 }

@@ -1,6 +1,6 @@
 //! Trim of flyers in which nothing beats, by tows.
 
-use wingbeat_flight::{FlightSetup, PrescribedMotion, StartState};
+use wingbeat_flight::{FlightSetup, PrescribedMotion, Simulation, StartState};
 use wingbeat_math::DVec3;
 
 use super::tow::{COARSE, LONG, MAX_PERIODS, Tow, tow_to_rest, tow_with_wake};
@@ -12,6 +12,7 @@ use crate::trim::solution::TrimSolution;
 impl Flights<'_> {
     /// Quasi-Newton steps to a glide, by tows that are doubled until the start of the wake is hardly felt, then the last digits.
     pub(super) fn run_glide(&mut self) -> Result<WakeTrim, AnalysisError> {
+        self.check_free()?;
         let (mut x, mut iterations, mut slopes) = (self.start(), 0, None);
         let last = self.settings.tolerance;
         let mut tolerance = if self.has_orbit {
@@ -45,6 +46,15 @@ impl Flights<'_> {
                 return Ok(found);
             }
         }
+    }
+
+    /// What a flight of the flyer would refuse that is free, which a tow is not.
+    ///
+    /// # Errors
+    /// As [`Simulation::new`].
+    fn check_free(&self) -> Result<(), AnalysisError> {
+        let free = self.timed(self.setup.clone(), self.scales().1, StartState::default());
+        Ok(Simulation::new(free).map(drop)?)
     }
 
     /// The glide at the point `x`, of which `solution` lacks the residuals: what a tow of `setup` has to carry.

@@ -6,9 +6,12 @@
 //! speed). What a wake does not know yet while the motion changes (the lag of the downwash at a tail), and the mass of
 //! air that is carried along, are left out: [`wake_floquet`](super::wake_floquet) flies them.
 
+use std::borrow::Cow;
 use std::f64::consts::TAU;
 
-use wingbeat_flight::{AirModel, FlightSetup, MotionMode, PrescribedMotion, Record, Simulation};
+use wingbeat_flight::{
+    AirModel, FlightSetup, MotionMode, PrescribedMotion, Record, Simulation, StartState,
+};
 use wingbeat_math::six_by_six::from_entries;
 use wingbeat_math::{DMat3, DVec3, SixBySix, Wrench, six};
 
@@ -18,11 +21,13 @@ use crate::AnalysisError;
 use crate::beat::Beat;
 use crate::beat::level::{Level, Perturbation};
 use crate::progress;
+use crate::stability::derivatives::{Control, ControlDerivative, differences};
 use crate::stability::eigen::eigen;
 use crate::stability::jacobian::jacobian;
 use crate::stability::modes::ModeSet;
 use crate::stability::rigid_body::RigidBody;
-use crate::stability::{LinearModel, over_ground};
+use crate::stability::steady::SteadyFlight;
+use crate::stability::{LinearModel, inputs_of, over_ground};
 
 /// Disturbances over natural sizes \[1\].
 const PART: f64 = 1e-2;
@@ -35,31 +40,15 @@ const STEPS: usize = 4;
 /// # Errors
 /// A flight that beats, bends, or has no wakes in space; what the tows report.
 pub fn steady_model(trim: &WakeTrim) -> Result<LinearModel, AnalysisError> {
-    let setup = &trim.setup;
-    if trim.tow.is_none() || setup.animal.is_elastic() {
-        return Err(AnalysisError::not_covered(
-            "derivatives by steady tows are those of gliders with rigid wings in air that keeps wakes",
-            "see the modes of the flight (`wingbeat stability`), or trim rigid wings in blade elements",
-        ));
-    }
-    let vacuum = FlightSetup {
-        air: AirModel::None,
-        ..setup.clone()
-    };
-    let (level, sizes) = (level(setup), scales(setup));
-    let stream = setup.air.stream().unwrap_or(DVec3::ZERO);
-    let over = Perturbation {
-        velocity: level.to_n.transpose() * trim.velocity,
+    let flight = steady_flight(trim)?;
+    let (level, sizes) = (flight.level, scales(&trim.setup));
+    let stream = level.to_n.transpose() * stream(&trim.setup);
+    let through = Perturbation {
+        velocity: flight.through,
         ..Perturbation::default()
     };
-    let through = over.relative_to(&level, stream);
-    let body = RigidBody::of(&Beat::new(&vacuum, STEPS)?, &level, &over)?;
-    let tow = SteadyTow {
-        setup,
-        level,
-        stream,
-        pitched: pitched(setup),
-    };
+    let body = body_of(&flight)?;
+    let tow = SteadyTow::of(trim, level);
     let reference = tow.load(through.velocity, None)?;
     let derivatives = tow.derivatives(through.velocity, sizes.velocity, sizes.rate)?;
     let load = |state: &Perturbation| {
@@ -80,6 +69,7 @@ pub fn steady_model(trim: &WakeTrim) -> Result<LinearModel, AnalysisError> {
     let weight = body.mass * body.gravity;
     let (size, weights) = (weight.length(), body.weights(DMat3::IDENTITY));
     Ok(LinearModel {
+        velocity: flight.through + stream,
         imbalance: [
             (reference.force + weights.force + weight).length() / size,
             (reference.moment + weights.moment).length() / (size * body.length),
@@ -87,35 +77,127 @@ pub fn steady_model(trim: &WakeTrim) -> Result<LinearModel, AnalysisError> {
         derivatives,
         added_mass: body.added_mass,
         momentum: body.momentum,
-        matrix: over_ground(matrix, level.to_n.transpose() * stream),
+        matrix: over_ground(matrix, stream),
         modes,
     })
 }
 
-/// Axes of the attitude of the hold before its roll, N components: turns about each are those of one Euler angle.
-fn pitched(setup: &FlightSetup) -> DMat3 {
-    let start = super::free_beat::start(setup);
-    DMat3::from_rotation_y(start.angles.x)
+/// Control derivatives of a glider that was trimmed in air with wakes: loads at the end of tows along the glide with
+/// each of its wings steered, and all, by what acts on wings that stand still.
+///
+/// # Errors
+/// As [`steady_model`]; wings that cannot be steered alone.
+pub fn steady_controls(trim: &WakeTrim) -> Result<Vec<ControlDerivative>, AnalysisError> {
+    let flight = steady_flight(trim)?;
+    let tow = SteadyTow::of(trim, flight.level);
+    differences(
+        &trim.setup,
+        &Control::OF_STILL_WINGS,
+        PART,
+        |setup, wing| {
+            let is_uneven = wing.is_some();
+            let steered = SteadyTow {
+                setup,
+                is_uneven,
+                ..tow
+            };
+            steered.load(flight.through, None)
+        },
+    )
+}
+
+/// How [`steady_model`] answers `controls`, as [`input_matrix`](crate::input_matrix) has it.
+///
+/// # Errors
+/// As [`steady_flight`].
+pub fn steady_inputs(
+    trim: &WakeTrim,
+    controls: &[ControlDerivative],
+) -> Result<Vec<f64>, AnalysisError> {
+    inputs_of(&body_of(&steady_flight(trim)?)?, controls)
+}
+
+/// The glide of a flyer that was trimmed in air with wakes.
+///
+/// # Errors
+/// A flight that beats, bends, or has no wakes in space.
+pub fn steady_flight(trim: &WakeTrim) -> Result<SteadyFlight<'static>, AnalysisError> {
+    let setup = &trim.setup;
+    if trim.tow.is_none() || setup.animal.is_elastic() {
+        return Err(AnalysisError::not_covered(
+            "derivatives by steady tows are those of gliders with rigid wings in air that keeps wakes",
+            "see the modes of the flight (`wingbeat stability`), or trim rigid wings in blade elements",
+        ));
+    }
+    let level = level(setup);
+    let over = Perturbation {
+        velocity: level.to_n.transpose() * trim.velocity,
+        ..Perturbation::default()
+    };
+    let stream = stream(setup);
+    Ok(SteadyFlight {
+        beat: Cow::Owned(in_vacuum(setup)?),
+        attitude: super::free_beat::start(setup).rotation(),
+        through: over.relative_to(&level, stream).velocity,
+        level,
+    })
+}
+
+/// The rigid body of a steady flight, its air without mass.
+fn body_of(flight: &SteadyFlight<'_>) -> Result<RigidBody, AnalysisError> {
+    RigidBody::of(flight.beat(), &flight.level, &Perturbation::default())
+}
+
+/// The flyer without air.
+fn in_vacuum(setup: &FlightSetup) -> Result<Beat, AnalysisError> {
+    let vacuum = FlightSetup {
+        air: AirModel::None,
+        ..setup.clone()
+    };
+    Beat::new(&vacuum, STEPS)
+}
+
+/// Velocity of the air, N components [m/s].
+fn stream(setup: &FlightSetup) -> DVec3 {
+    setup.air.stream().unwrap_or(DVec3::ZERO)
 }
 
 /// Tows of a glider with constant velocity through the air and angular velocity in axes fixed in it.
+#[derive(Clone, Copy)]
 struct SteadyTow<'a> {
     setup: &'a FlightSetup,
+    /// The hold of the trimmed flight.
+    start: &'a StartState,
     level: Level,
     /// Velocity of the air, N components [m/s].
     stream: DVec3,
-    /// Axes of rotation, N components.
+    /// Axes of the attitude of the hold before its roll, N components: turns about each are those of one Euler angle.
     pitched: DMat3,
+    /// Whether one side of the flyer is steered alone.
+    is_uneven: bool,
 }
 
-impl SteadyTow<'_> {
+impl<'a> SteadyTow<'a> {
+    /// That of the flyer as it was trimmed.
+    fn of(trim: &'a WakeTrim, level: Level) -> Self {
+        let start = super::free_beat::start(&trim.setup);
+        Self {
+            setup: &trim.setup,
+            start,
+            level,
+            stream: stream(&trim.setup),
+            pitched: DMat3::from_rotation_y(start.angles.x),
+            is_uneven: false,
+        }
+    }
+
     /// The load of the air, about the mass centre, at the end of the tow with `velocity` through the air and a turn about
     /// one of the axes by a rate [rad/s]: level components.
     fn load(&self, velocity: DVec3, turn: Option<(usize, f64)>) -> Result<Wrench, AnalysisError> {
-        let start = super::free_beat::start(self.setup);
-        let steps = start.held_steps;
+        let (start, steps) = (self.start, self.start.held_steps);
         let mut setup = self.setup.clone();
-        let is_lateral = velocity.y != 0.0 || turn.is_some_and(|(axis, _)| axis != 1);
+        let is_lateral =
+            self.is_uneven || velocity.y != 0.0 || turn.is_some_and(|(axis, _)| axis != 1);
         if let (AirModel::VortexLattice(air), true) = (&mut setup.air, is_lateral) {
             air.mirror = false; // right and left part
         }
@@ -156,8 +238,7 @@ impl SteadyTow<'_> {
         let along = through.dot(axis) * axis;
         let across = through - along;
         // The mass centre goes round, and the root about it, from the origin on.
-        let start = super::free_beat::start(self.setup).rotation();
-        let centre = start * self.mass_centre()?;
+        let centre = self.start.rotation() * in_vacuum(self.setup)?.mean_centre();
         let arm = centre - centre.dot(axis) * axis;
         let sine = across / omega - axis.cross(arm);
         let cosine = -axis.cross(across) / omega - arm;
@@ -170,15 +251,6 @@ impl SteadyTow<'_> {
             x.sine = vec![sine[k]];
         }
         Ok(())
-    }
-
-    /// Mass centre, root components [m].
-    fn mass_centre(&self) -> Result<DVec3, AnalysisError> {
-        let vacuum = FlightSetup {
-            air: AirModel::None,
-            ..self.setup.clone()
-        };
-        Ok(Beat::new(&vacuum, STEPS)?.mean_centre())
     }
 
     /// Derivatives of (X, Y, Z, L, M, N) by (u, v, w, p, q, r) about a flight with `velocity` through the air, level axes,

@@ -1,6 +1,6 @@
 //! What is left between measured angles and the series fitted to them.
 
-use wingbeat_math::root_mean_square;
+use wingbeat_math::{root_mean_square, to_digits};
 use wingbeat_model::motion::{Fourier, Scatter};
 
 use crate::build::radians;
@@ -29,8 +29,25 @@ pub struct FittedTable {
     pub residual_deg: f64,
     /// Most that is left of a sample \[deg\], and its phase \[wingbeats\].
     pub farthest: [f64; 2],
+    /// The samples that are none of the others' kind, the farthest first.
+    pub outliers: Vec<Outlier>,
+    /// As [`Self::residual_deg`], of a series fitted to the others \[deg\].
+    pub residual_of_others_deg: f64,
     /// The noise that its highest harmonics follow; none where they are motion, or too few to know.
     pub noise: Option<Scatter>,
+}
+
+/// A sample that is none of the others' kind.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Outlier {
+    /// Its number in the table, from 1 on; rows without an angle do not count \[1\].
+    pub sample: usize,
+    /// Its phase \[wingbeats\].
+    pub phase: f64,
+    /// Its angle \[deg\].
+    pub angle_deg: f64,
+    /// How far that is above the series of the others \[deg\].
+    pub off_deg: f64,
 }
 
 /// More than this is no noise of measured angles [deg]: video has 1 to 2.
@@ -39,6 +56,12 @@ const NOISE_DEG: f64 = 3.0;
 /// A sample farther off than so many times the root mean square is none of the others' kind; of two hundred
 /// with normal noise the farthest is at 3.
 const OUTLIER: f64 = 5.0;
+
+/// Samples for each that may be an outlier \[1\].
+const SAMPLES_PER_OUTLIER: usize = 20;
+
+/// Significant digits of phases and angles in what is said of them.
+pub(super) const DIGITS: usize = 6;
 
 /// Frequencies that differ by less are the same, rounded \[1\].
 const SAME_FREQUENCY: f64 = 5e-3;
@@ -66,11 +89,37 @@ impl FittedTable {
         let times = self.times();
         let coarse = (rms > NOISE_DEG || is_outlier).then(|| {
             format!(
-                "{}: {} harmonics leave {rms:.1} deg (rms) and {most:.1} deg of the sample at phase {phase}: {times}take out samples that are no measurements (lost frames), or fit more harmonics",
-                self.key, self.harmonics
+                "{}: {} harmonics leave {rms:.1} deg (rms) and {most:.1} deg of the sample at phase {}: {times}take out samples that are no measurements (lost frames), or fit more harmonics",
+                self.key, self.harmonics, to_digits(phase, DIGITS)
             )
         });
-        coarse.or(noise)
+        self.stray().or(coarse).or(noise)
+    }
+
+    /// That samples are none of the others' kind.
+    fn stray(&self) -> Option<String> {
+        let farthest = self.outliers.first()?;
+        let shown = |x: f64| to_digits(x, DIGITS);
+        let more = match self.outliers.len() - 1 {
+            0 => String::new(),
+            1 => ", and one more is off".to_owned(),
+            n => format!(", and {n} more are off"),
+        };
+        let rest = self.residual_of_others_deg;
+        let coarse = match rest > NOISE_DEG {
+            true => format!("; of the others, {}fit more harmonics", self.times()),
+            false => String::new(),
+        };
+        Some(format!(
+            "{}: sample {} of {}, {} deg at phase {}, is {:.1} deg off the {} harmonics of the others, which leave {rest:.1} deg (rms) of these{more}: take out samples that are no measurements (lost frames){coarse}",
+            self.key,
+            farthest.sample,
+            self.samples,
+            shown(farthest.angle_deg),
+            shown(farthest.phase),
+            farthest.off_deg.abs(),
+            self.harmonics,
+        ))
     }
 
     /// That the wings beat at a frequency near that of the samples, but not at it: where the wingbeats in a unit are
@@ -125,8 +174,7 @@ fn better(rows: &[(f64, f64)], harmonics: usize, rms: f64) -> Option<f64> {
     }
     let left = |part: f64| {
         let scaled: Vec<_> = rows.iter().map(|(x, q)| (part * x, *q)).collect();
-        let (_, left) = Fourier::fitted("", &scaled, harmonics).ok()?;
-        Some(root_mean_square(left.iter().copied()))
+        rms_of(&scaled, harmonics)
     };
     let last = trials as i32;
     let parts = (-last..=last).map(|k| 1.0 + WITHIN * f64::from(k) / trials);
@@ -180,8 +228,10 @@ fn left_of(
     let rms = root_mean_square(left.iter().copied());
     let sizes = left.iter().map(|x| x.abs().to_degrees());
     let farthest = sizes.enumerate().max_by(|a, b| a.1.total_cmp(&b.1))?;
-    let doubtful = beats_per_unit.filter(|_| rms.to_degrees() > NOISE_DEG);
-    let better = doubtful.and_then(|beats| Some(beats * better(rows, harmonics, rms)?));
+    let (others, outliers) = parted(&rows[..left.len()], harmonics);
+    let rest = rms_of(&others, harmonics).unwrap_or(rms);
+    let doubtful = beats_per_unit.filter(|_| rest.to_degrees() > NOISE_DEG);
+    let better = doubtful.and_then(|beats| Some(beats * better(&others, harmonics, rest)?));
     Some(FittedTable {
         key,
         harmonics,
@@ -192,6 +242,52 @@ fn left_of(
         better_beats_per_unit: better,
         residual_deg: rms.to_degrees(),
         farthest: [farthest.1, rows[farthest.0].0],
+        outliers,
+        residual_of_others_deg: rest.to_degrees(),
         noise: series.scatter(left.len()),
     })
+}
+
+/// Root mean square of what a series leaves of the rows \[rad\]; none where they do not determine it.
+fn rms_of(rows: &[(f64, f64)], harmonics: usize) -> Option<f64> {
+    let (_, left) = Fourier::fitted("", rows, harmonics).ok()?;
+    Some(root_mean_square(left.iter().copied()))
+}
+
+/// The rows \[wingbeats, rad\] without the outliers among them, and these: the farthest is taken out and the others are
+/// fitted again, until none is far off, or phases are too far apart without it.
+fn parted(rows: &[(f64, f64)], harmonics: usize) -> (Vec<(f64, f64)>, Vec<Outlier>) {
+    let (mut kept, mut found): (Vec<usize>, Vec<usize>) = ((0..rows.len()).collect(), vec![]);
+    let at = |kept: &[usize]| kept.iter().map(|k| rows[*k]).collect::<Vec<_>>();
+    let far_off = |kept: &[usize]| {
+        let (_, left) = Fourier::fitted("", &at(kept), harmonics).ok()?;
+        let rms = root_mean_square(left.iter().copied());
+        let sizes = left.iter().map(|x| x.abs()).enumerate();
+        let (k, most) = sizes.max_by(|a, b| a.1.total_cmp(&b.1))?;
+        (most > OUTLIER * rms && most.to_degrees() > NOISE_DEG).then_some(k)
+    };
+    while found.len() < rows.len() / SAMPLES_PER_OUTLIER
+        && let Some(k) = far_off(&kept)
+    {
+        let mut others = kept.clone();
+        let outlier = others.remove(k);
+        if rms_of(&at(&others), harmonics).is_none() {
+            break;
+        }
+        (kept, found) = (others, [found, vec![outlier]].concat());
+    }
+    let others = at(&kept);
+    let Ok((series, _)) = Fourier::fitted("", &others, harmonics) else {
+        return (others, vec![]);
+    };
+    let outlier = |k: usize| {
+        let (phase, angle) = rows[k];
+        Outlier {
+            sample: k + 1,
+            phase,
+            angle_deg: angle.to_degrees(),
+            off_deg: (angle - series.at(phase)[0]).to_degrees(),
+        }
+    };
+    (others, found.into_iter().map(outlier).collect())
 }

@@ -1,10 +1,10 @@
 //! Measurements in a case that look like slips: of units, turns, lost frames, the order of points.
 
-use wingbeat_math::{DVec3, median};
+use wingbeat_math::{DVec3, median, to_digits};
 use wingbeat_model::motion::Fourier;
 use wingbeat_model::{Planform, Wing};
 
-use crate::findings::fitted::FittedTable;
+use crate::findings::fitted::{DIGITS, FittedTable};
 use crate::loaded::LoadedCase;
 use crate::raw::{AngleCase, BodyCase, OutlineCase, PlanformCase, SurfaceCase, WingMotionCase};
 
@@ -119,6 +119,11 @@ fn swing(rows: &[[f64; 2]]) -> f64 {
     0.5 * (range[1] - range[0])
 }
 
+/// A phase or an angle as it is said: digits beyond are roundings of a convention that was applied.
+fn shown(x: f64) -> f64 {
+    to_digits(x, DIGITS)
+}
+
 /// Neighbours that differ by most of a turn.
 fn turn(key: &str, rows: &[[f64; 2]]) -> Option<String> {
     let [a, b] = rows.windows(2).find_map(|w| match w {
@@ -127,7 +132,10 @@ fn turn(key: &str, rows: &[[f64; 2]]) -> Option<String> {
     })?;
     Some(format!(
         "{key}: {} and {} deg at phases {} and {} are neighbours: angles were wrapped there; let them go on beyond 180 deg",
-        a[1], b[1], a[0], b[0]
+        shown(a[1]),
+        shown(b[1]),
+        shown(a[0]),
+        shown(b[0])
     ))
 }
 
@@ -144,8 +152,12 @@ fn lost(key: &str, rows: &[[f64; 2]], zero: f64) -> Option<String> {
         {
             let [first, last] = [rows[from][0], rows[from + length - 1][0]];
             return Some(format!(
-                "{key}: exactly {zero} from phase {first} to {last}, between {before} and {} deg: lost frames? Leave such rows out",
-                after[1]
+                "{key}: exactly {} from phase {} to {}, between {} and {} deg: lost frames? Leave such rows out",
+                shown(zero),
+                shown(first),
+                shown(last),
+                shown(before),
+                shown(after[1])
             ));
         }
         from += length.max(1);
@@ -334,7 +346,7 @@ fn stray_phase(key: &str, surface: &SurfaceCase) -> Option<String> {
             "{key}: {} harmonics leave {:.3e} m (rms) of the points at phase {}, and {:.3e} m of those at the others: take out phases that are no measurements, or fit more harmonics",
             surface.harmonics,
             most.sqrt(),
-            surface.phases[worst],
+            shown(surface.phases[worst]),
             others.sqrt()
         )
     })

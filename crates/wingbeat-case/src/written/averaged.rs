@@ -1,6 +1,6 @@
 //! The averaged model of a trimmed flight as a case file.
 
-use wingbeat_analysis::{AnalysisError, LinearModel, Trim, rigid_animal};
+use wingbeat_analysis::{LinearModel, SteadyFlight, rigid_animal};
 use wingbeat_blade::DerivativeTable;
 use wingbeat_flight::LoadFrame;
 use wingbeat_math::{DVec3, EulerSequence};
@@ -15,25 +15,22 @@ use crate::raw::{AirCase, AirModel, BodyCase, DerivativesCase, FlightCase, LoadC
 const ROUNDING: f64 = 1e-9;
 
 /// The rigid animal of a trimmed flight under the derivatives of its averaged model, as TOML.
-///
-/// # Errors
-/// What the air reports.
 pub fn derivative_case(
     case: &LoadedCase,
-    trim: &Trim,
+    flight: &SteadyFlight<'_>,
     model: &LinearModel,
-) -> Result<String, AnalysisError> {
-    let (mass, inertia, table) = rigid_animal(trim, model)?;
+) -> String {
+    let (mass, inertia, table) = rigid_animal(flight, model);
+    let beat = flight.beat();
     let j = |i: usize, k: usize| inertia.col(k)[i];
     // The table's axes are level: the body is pitched and rolled against them.
     let [ahead, down] = [table.to_body.x_axis, table.to_body.z_axis];
     let [roll, pitch] = [down.y.atan2(down.z), (-down.x).atan2(ahead.x)].map(clear_angle);
     // The flight begins in inertial axes, whose n3 gravity need not follow.
-    let attitude = trim.beat.mean_attitude(&trim.state)?;
-    let angles = EulerSequence::BODY_231.angles(attitude).to_array();
+    let angles = EulerSequence::BODY_231.angles(flight.attitude).to_array();
     let [pitch_deg, yaw_deg, roll_deg] = angles.map(clear_angle);
-    let velocity = attitude * (table.to_body * table.velocity);
-    let slow = ROUNDING * trim.beat.wing_length() / trim.beat.period();
+    let velocity = flight.attitude * (table.to_body * table.velocity);
+    let slow = ROUNDING * beat.wing_length() / beat.period();
     let velocity = velocity.to_array().map(|v| clear(v, slow));
     let mut raw = case.raw.clone();
     raw.name = Some(format!("{}-averaged", case.name));
@@ -44,7 +41,7 @@ pub fn derivative_case(
     raw.joint.clear();
     raw.spring.clear();
     // Buoyancy among them; the origin is at the mean mass centre.
-    raw.load = trim.beat.mean_weights().into_iter().map(weight).collect();
+    raw.load = beat.mean_weights().into_iter().map(weight).collect();
     raw.animal.scale = 1.0;
     raw.body = BodyCase {
         mass_kg: Some(mass),
@@ -53,7 +50,7 @@ pub fn derivative_case(
         ..BodyCase::default()
     };
     raw.motion = MotionCase {
-        frequency_hz: (1.0 / trim.beat.period()).into(),
+        frequency_hz: (1.0 / beat.period()).into(),
         ..MotionCase::default()
     };
     raw.air = AirCase {
@@ -71,10 +68,10 @@ pub fn derivative_case(
         ..FlightCase::default()
     };
     let body = written(&raw);
-    Ok(format!(
+    format!(
         "# `{}`, averaged over the wingbeat: a rigid body under stability derivatives.\n{body}",
         case.name
-    ))
+    )
 }
 
 /// The table as a case file has it; the angles are those of the body against its axes.

@@ -19,10 +19,11 @@ if TYPE_CHECKING:
 
     from wingbeat._flight import Flight
 
-STATES = tuple(_core.Trim.names()[0])
+_STATES, _CONTROLS = _core.Trim.names()
+STATES = tuple(name for name, _ in _STATES)
 """Velocity of the mass centre u, v, w, angular velocity p, q, r, rotation vector phi (roll), theta, psi."""
-STATE_UNITS = ("m s-1",) * 3 + ("rad s-1",) * 3 + ("rad",) * 3
-_INPUT_UNITS = {"stroke_amplitude": "1", "frequency": "1", "feathering_lead": "wingbeat"}
+STATE_UNITS = tuple(unit for _, unit in _STATES)
+_INPUT_UNITS = dict(_CONTROLS)
 
 
 @dataclass(frozen=True, slots=True)
@@ -295,7 +296,7 @@ class Trim(_Trimmed[_core.Trim]):
         """Control derivatives, wing by wing and of all wings together."""
         names, loads, _ = self._controls
         controls = tuple(control for control, _ in names)
-        return Derivatives(controls, tuple(wing for _, wing in names), tuple(map(_input_unit, controls)), loads)
+        return Derivatives(controls, tuple(wing for _, wing in names), tuple(_INPUT_UNITS[control] for control in controls), loads)
 
     def floquet_modes(self) -> tuple[Mode, ...]:
         """Floquet's modes of the periodic orbit, also of turns and of animals with free joints."""
@@ -319,7 +320,7 @@ class Trim(_Trimmed[_core.Trim]):
             states=STATES,
             state_units=STATE_UNITS,
             inputs=tuple(f"{control} {wing}" for control, wing in names),
-            input_units=tuple(_input_unit(control) for control, _ in names),
+            input_units=tuple(_INPUT_UNITS[control] for control, _ in names),
             derivatives=derivatives,
             added_mass=added_mass,
             averaged_modes=_modes(averaged),
@@ -366,7 +367,3 @@ def _flight(case_text: str | None) -> Flight:
             remedy="read adjustment and body_pitch_rad, and set them by hand",
         )
     return Flight.from_case(case_text)
-
-
-def _input_unit(control: str) -> str:
-    return _INPUT_UNITS.get(control, "rad")

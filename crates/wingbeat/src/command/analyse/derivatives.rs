@@ -1,9 +1,11 @@
 //! `wingbeat derivatives`.
 
 use serde_json::{Value, json};
-use wingbeat::analysis::trimmed_controls;
+use wingbeat::analysis::wake::{steady_controls, steady_inputs, steady_model};
+use wingbeat::analysis::{ControlDerivative, input_matrix, linear_model, trimmed_controls};
 
-use super::trimming::{Trimming, trimmed};
+use super::linear;
+use super::trimming::{Trimming, is_towed, trimmed, trimmed_with_wake};
 use crate::command::output::failure::Failure;
 use crate::command::output::report::{Report, line};
 use crate::command::progress::watch::watched;
@@ -14,10 +16,29 @@ pub(crate) fn run(args: &Trimming) -> Result<(), Failure> {
 }
 
 fn find(args: &Trimming, report: &mut Report) -> Result<(), Failure> {
-    args.check_averaged()?;
+    let case = args.load()?;
     args.without_turn("a steadily moving body, about which loads are averaged,")?;
+    if is_towed(&case.setup) {
+        let (_, trim) = trimmed_with_wake(args, report)?;
+        let list = watched("control derivatives", || steady_controls(&trim))?;
+        let model = watched("derivatives", || steady_model(&trim))?;
+        let b = steady_inputs(&trim, &list)?;
+        tell(report, &list);
+        report.value("linear_model", linear::value(&model, Some((&list, &b))));
+        return Ok(());
+    }
+    args.check_averaged()?;
     let (_, trim) = trimmed(args, report)?;
-    let list = watched("derivatives", || trimmed_controls(&trim));
+    let list = watched("derivatives", || trimmed_controls(&trim))?;
+    let model = linear_model(&trim.beat, &trim.state)?;
+    let b = input_matrix(&trim.beat, &trim.state, &list)?;
+    tell(report, &list);
+    report.value("linear_model", linear::value(&model, Some((&list, &b))));
+    Ok(())
+}
+
+/// The derivatives as a table.
+fn tell(report: &mut Report, list: &[ControlDerivative]) {
     line!(
         report,
         "\nControl derivatives of the mean loads, N and N m per unit (1, rad, wingbeat):"
@@ -35,7 +56,7 @@ fn find(args: &Trimming, report: &mut Report) -> Result<(), Failure> {
         "N"
     );
     let mut values: Vec<Value> = vec![];
-    for d in list? {
+    for d in list {
         let (f, m) = (d.derivative.force, d.derivative.moment);
         let cells = [f.x, f.y, f.z, m.x, m.y, m.z].map(|x| format!("{x:>12.3e}"));
         line!(report, "  {:<20}{:<8}{}", d.control, d.wing, cells.concat());
@@ -55,5 +76,4 @@ fn find(args: &Trimming, report: &mut Report) -> Result<(), Failure> {
         "stroke_amplitude and frequency are in parts of those trimmed: 0.1 is a tenth more, whatever motion.adjust has."
     );
     report.value("control_derivatives", values);
-    Ok(())
 }

@@ -3,6 +3,7 @@
 pub(crate) mod derivatives;
 pub(crate) mod flutter;
 mod found;
+mod linear;
 pub(crate) mod modes;
 pub(crate) mod power;
 pub(crate) mod stabilise;

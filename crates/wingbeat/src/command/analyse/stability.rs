@@ -5,19 +5,20 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 use serde_json::{Value, json};
 use wingbeat::analysis::wake::{
-    WakeMemory, WakeTrim, change_by_last_mode, elastic_modes, elastic_monodromy, steady_model,
-    wake_floquet,
+    WakeMemory, WakeTrim, change_by_last_mode, elastic_modes, elastic_monodromy, steady_flight,
+    steady_model, wake_floquet,
 };
 use wingbeat::analysis::{
-    AnalysisError, LOADS, LinearModel, ModeSet, Plane, floquet_of_trim, glides, linear_model,
-    table_model,
+    AnalysisError, LOADS, LinearModel, ModeSet, Plane, SteadyFlight, floquet_of_trim, glides,
+    linear_model, table_model,
 };
 use wingbeat::case::LoadedCase;
 use wingbeat::case::derivative_case;
 use wingbeat::flight::AirModel;
 use wingbeat::results::fixed::{fixed, signed};
 
-use super::trimming::{Trimming, trimmed, trimmed_with_wake, unused};
+use super::linear;
+use super::trimming::{Trimming, is_towed, trimmed, trimmed_with_wake, unused};
 use crate::command::options;
 use crate::command::output::failure::Failure;
 use crate::command::output::report::{Report, line};
@@ -60,9 +61,9 @@ pub(crate) fn run(args: &StabilityArgs) -> Result<(), Failure> {
         let case = args.trimming.load()?;
         let table = matches!(case.setup.air, AirModel::Derivatives(_));
         let (wakes, memory) = (case.setup.air.keeps_wake(), case.setup.has_memory());
-        if args.write.is_some() && (table || memory) {
-            let why =
-                "only a trim of rigid wings in air without memory gives an averaged model to write";
+        let is_averaged = !memory || is_towed(&case.setup);
+        if args.write.is_some() && (table || !is_averaged) {
+            let why = "only a trim of rigid wings in air without memory, or of a glider with rigid wings in the lattice, gives an averaged model to write";
             return Err(unused("write", why));
         }
         if args.wake.is_some() && !wakes {
@@ -81,7 +82,7 @@ pub(crate) fn run(args: &StabilityArgs) -> Result<(), Failure> {
         }
         match (table, memory) {
             (true, _) => of_table(&args.trimming, &case, report),
-            (_, true) if wakes => with_wake(args, report),
+            (_, true) if wakes => with_wake(args, report, file),
             (_, true) => with_wings(args, report),
             _ => of_trim(&args.trimming, report, file),
         }
@@ -148,7 +149,11 @@ fn of_trim(args: &Trimming, report: &mut Report, file: Option<Target>) -> Result
     );
     report.value("wingbeat_s", trim.beat.period());
     if let (Some(file), Some(averaged)) = (file, averaged) {
-        file.write(&derivative_case(&case, &trim, &averaged)?)?;
+        file.write(&derivative_case(
+            &case,
+            &SteadyFlight::of(&trim)?,
+            &averaged,
+        ))?;
         report.wrote(&file);
     }
     Ok(())
@@ -177,9 +182,13 @@ fn imbalance(report: &mut Report, model: &LinearModel) {
 }
 
 /// Floquet's modes of the free wingbeat after a hold.
-fn with_wake(args: &StabilityArgs, report: &mut Report) -> Result<(), Failure> {
-    let (_, trim) = trimmed_with_wake(&args.trimming, report)?;
-    if trim.tow.is_some() && !trim.setup.animal.is_elastic() {
+fn with_wake(
+    args: &StabilityArgs,
+    report: &mut Report,
+    file: Option<Target>,
+) -> Result<(), Failure> {
+    let (case, trim) = trimmed_with_wake(&args.trimming, report)?;
+    if is_towed(&trim.setup) {
         let steady = watched("derivatives", || steady_model(&trim))?;
         derivatives(report, &steady);
         neutral_point(report, &steady);
@@ -188,6 +197,10 @@ fn with_wake(args: &StabilityArgs, report: &mut Report) -> Result<(), Failure> {
             "\nModes of the rigid body under the loads of steady tows (no lag of the downwash, no mass of air):"
         );
         modes(report, "averaged_modes", &steady.modes);
+        if let Some(file) = file {
+            file.write(&derivative_case(&case, &steady_flight(&trim)?, &steady))?;
+            report.wrote(&file);
+        }
     }
     let of = |report: &mut Report, wake: Wake, key: &str| -> Result<ModeSet, Failure> {
         let (memory, held) = match wake {
@@ -327,6 +340,7 @@ fn derivatives(report: &mut Report, model: &LinearModel) {
     report.value("derivatives_si_by_u_v_w_p_q_r", json!(model.derivatives));
     let key = "added_mass_si_by_rates_of_u_v_w_p_q_r";
     report.value(key, json!(model.added_mass));
+    report.value("linear_model", linear::value(model, None));
 }
 
 /// The neutral point of a glider.

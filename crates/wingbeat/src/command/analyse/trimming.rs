@@ -7,6 +7,7 @@ use wingbeat::analysis::{
     Unknown, glides, period_of_glide, trim_within, turned_over, turned_over_with_wake,
 };
 use wingbeat::case::{IoError, LoadedCase};
+use wingbeat::flight::FlightSetup;
 use wingbeat::math::DVec3;
 
 use super::found;
@@ -96,6 +97,11 @@ pub(super) fn unused(option: &str, why: &str) -> Failure {
     Failure::Option(format!(
         "--{option} has no effect here: {why}; leave it out"
     ))
+}
+
+/// Whether the flyer is a glider of rigid wings in air that keeps wakes, whose steady flight is found by tows.
+pub(super) fn is_towed(setup: &FlightSetup) -> bool {
+    glides(setup) && setup.air.keeps_wake() && !setup.animal.is_elastic()
 }
 
 impl Trimming {
