@@ -5,6 +5,7 @@ use crate::lattice::Lattice;
 use crate::loads::Segments;
 use crate::solve::BoundaryCondition;
 use crate::wake::{Filaments, Sums, WakeMotion};
+use wingbeat_vortex::Tally;
 
 /// Scratch memory of the air, good for any lattice: no result depends on what it held before, but for the velocity of
 /// the free wakes at places that have moved by less than 1e-5 of a panel since it was last summed there, which is
@@ -24,6 +25,11 @@ pub struct AirWorkspace {
 }
 
 impl AirWorkspace {
+    /// Sums that were checked so far in all calls.
+    pub fn tally(&self) -> Tally {
+        self.sums.tally()
+    }
+
     /// The filaments of the last call.
     pub fn filaments(&self) -> &Filaments {
         &self.filaments

@@ -30,6 +30,7 @@ use crate::direct::block::{BLOCK, Block, Targets};
 use crate::direct::moments;
 use crate::direct::packed::Packed;
 use crate::direct::single::Single;
+use crate::fast::Work;
 use crate::quadrature::gauss_legendre;
 use crate::sources::{Network, Points};
 use boxes::{Boxes, Item, Shape};
@@ -76,15 +77,6 @@ impl Fineness {
             per_softening: self.ratio * self.ratio / self.softening_ratio,
         }
     }
-}
-
-/// Work of a sum.
-#[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Work {
-    /// Grids on grids.
-    pub far: u64,
-    /// Pairs of filament and target.
-    pub near: u64,
 }
 
 /// Sources and targets in cells.

@@ -35,6 +35,7 @@ use crate::direct::moments;
 use crate::direct::packed::Packed;
 use crate::direct::single::{CLUSTER, Single};
 use crate::direct::sum::sum_both;
+use crate::fast::Work;
 use crate::quadrature::gauss_legendre;
 use crate::sources::{Network, Points};
 use fearless_simd::{Level, dispatch};
@@ -60,15 +61,6 @@ struct Domain {
     high: [f64; 3],
     /// Number of Gaussians.
     count: usize,
-}
-
-/// Work of a sum.
-#[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Work {
-    /// Meshes read at targets.
-    pub far: u64,
-    /// Pairs of narrow filament and narrow target.
-    pub near: u64,
 }
 
 /// Sources on meshes, and what targets hear of them.
