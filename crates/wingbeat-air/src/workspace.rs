@@ -3,6 +3,7 @@
 use crate::geometry::{NodeMotion, Wash};
 use crate::lattice::Lattice;
 use crate::loads::Segments;
+use crate::response::ResponseRoom;
 use crate::solve::BoundaryCondition;
 use crate::wake::{Filaments, Sums, WakeMotion};
 use wingbeat_vortex::Tally;
@@ -22,6 +23,7 @@ pub struct AirWorkspace {
     pub(crate) boundary: BoundaryCondition,
     pub(crate) segments: Segments,
     pub(crate) wakes: WakeMotion,
+    pub(crate) response: ResponseRoom,
 }
 
 impl AirWorkspace {
