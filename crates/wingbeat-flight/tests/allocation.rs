@@ -92,18 +92,17 @@ fn exact_no_allocation_in_steps_of_wings_on_passive_hinges() {
         FormulationChoice::Momentum,
         FormulationChoice::Quaternion(StabilizationChoice::Projection),
     ] {
-        let what = format!("{formulation:?}");
         // Room of multistep methods grows with the most passes that a step has needed, which rises all along here.
         let setup = FlightSetup {
             integrator: IntegratorChoice::RungeKutta,
             ..on_hinges(blade(), formulation)
         };
-        let in_strips = allocates_nothing(setup, [5, 40], &what);
-        let in_wakes = finds_rest(on_hinges(lattice(false), formulation), &what);
-        for last in [in_strips, in_wakes] {
-            assert!(last.joints.iter().all(|[q, _]| q.abs() > 1e-3));
-        }
+        let last = allocates_nothing(setup, [5, 40], &format!("{formulation:?}"));
+        assert!(last.joints.iter().all(|[q, _]| q.abs() > 1e-3));
     }
+    let in_wakes = on_hinges(lattice(false), FormulationChoice::Momentum);
+    let last = finds_rest(in_wakes, "hinges in the lattice");
+    assert!(last.joints.iter().all(|[q, _]| q.abs() > 1e-3));
 }
 
 /// A controller answers with a new list at every look, and its wings get new motions; between looks nothing is
