@@ -11,17 +11,8 @@ use crate::lattice::Lattice;
 use crate::loads::{AirLoads, couple_of_rate, rate_weights};
 use crate::settings::CirculationRate;
 use crate::state::AirState;
-use crate::workspace::AirWorkspace;
-use wingbeat_math::{DVec3, DenseLu};
-
-/// Memory of the answers.
-#[derive(Default)]
-pub(crate) struct ResponseRoom {
-    /// Influence of the surface on itself, and its inverse, by columns \[m\].
-    matrix: Vec<f64>,
-    inverse: Vec<f64>,
-    lu: DenseLu,
-}
+use crate::workspace::{AirWorkspace, ResponseRoom};
+use wingbeat_math::DVec3;
 
 impl Lattice {
     /// Derivative of the normal forces of the panels of the open surface `s` by the normal velocities of their

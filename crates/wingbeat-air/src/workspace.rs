@@ -3,9 +3,9 @@
 use crate::geometry::{NodeMotion, Wash};
 use crate::lattice::Lattice;
 use crate::loads::Segments;
-use crate::response::ResponseRoom;
 use crate::solve::BoundaryCondition;
 use crate::wake::{Filaments, Sums, WakeMotion};
+use wingbeat_math::DenseLu;
 use wingbeat_vortex::Tally;
 
 /// Scratch memory of the air, good for any lattice: no result depends on what it held before, but for the velocity of
@@ -24,6 +24,15 @@ pub struct AirWorkspace {
     pub(crate) segments: Segments,
     pub(crate) wakes: WakeMotion,
     pub(crate) response: ResponseRoom,
+}
+
+/// Memory of how a surface answers to normal velocities.
+#[derive(Default)]
+pub(crate) struct ResponseRoom {
+    /// Influence of the surface on itself, row by row, and its inverse, by columns \[m\].
+    pub matrix: Vec<f64>,
+    pub inverse: Vec<f64>,
+    pub lu: DenseLu,
 }
 
 impl AirWorkspace {

@@ -4,7 +4,6 @@ mod check;
 mod settings;
 mod soft;
 
-pub(crate) use settings::Work;
 pub use settings::{FastSettings, Method, Report, Tally};
 pub use soft::MESH_TOLERANCE;
 

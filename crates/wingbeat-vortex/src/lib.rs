@@ -41,6 +41,7 @@ mod preorder;
 mod quadrature;
 mod sources;
 mod tree;
+mod work;
 
 pub use cores::{CoreModel, LAMB_ALPHA};
 pub use direct::reference;

@@ -2,10 +2,11 @@
 
 use crate::cores::CoreModel;
 use crate::fast::check::{Check, SAMPLES};
-use crate::fast::settings::{FastSettings, Method, Report, Work};
+use crate::fast::settings::{FastSettings, Method, Report};
 use crate::interpolation::{Fineness, Interpolation};
 use crate::multilevel::Multilevel;
 use crate::sources::{Network, Points};
+use crate::work::Work;
 use fearless_simd::Level;
 use glam::DVec3;
 

@@ -2,9 +2,9 @@
 
 use crate::direct::block::{Block, Targets, load, store};
 use crate::direct::lanes::{add_clusters, add_patches};
-use crate::fast::Work;
 use crate::sources::Points;
 use crate::tree::cells::{Cells, Item, half_fade, split};
+use crate::work::Work;
 use fearless_simd::{Simd, dispatch, prelude::*};
 use glam::DVec3;
 use rayon::prelude::*;
