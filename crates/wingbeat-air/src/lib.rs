@@ -72,5 +72,5 @@ pub use settings::{
 };
 pub use state::{AirState, ImpulseAccount, InnerFlow, Particles, WakeEvents, WakeSheet};
 pub use wake::Filaments;
-pub use wingbeat_vortex::{CoreModel, Method, Points, Stretching};
+pub use wingbeat_vortex::{CoreModel, Method, Points, Stretching, Tally};
 pub use workspace::AirWorkspace;

@@ -11,12 +11,12 @@ use crate::lattice::Lattice;
 use crate::loads::{AirLoads, couple_of_rate, rate_weights};
 use crate::settings::CirculationRate;
 use crate::state::AirState;
-use crate::workspace::AirWorkspace;
-use wingbeat_math::{DVec3, DenseLu};
+use crate::workspace::{AirWorkspace, ResponseRoom};
+use wingbeat_math::DVec3;
 
 impl Lattice {
     /// Derivative of the normal forces of the panels of the open surface `s` by the normal velocities of their
-    /// control points \[N s/m\], row by row, at the instant that `ws` and `out` were last asked for
+    /// control points \[N s/m\], row by row into `response`, at the instant that `ws` and `loads` were last asked for
     /// ([`Self::loads`]): of one half where only that is computed the other's answers are its mirror image.
     ///
     /// # Errors
@@ -25,13 +25,15 @@ impl Lattice {
         &self,
         s: usize,
         state: &AirState,
-        ws: &AirWorkspace,
-        loads: &AirLoads,
-    ) -> Result<Vec<f64>, AirError> {
+        (ws, loads): (&mut AirWorkspace, &AirLoads),
+        response: &mut Vec<f64>,
+    ) -> Result<(), AirError> {
         let panels = self.panels_of(s);
         let n = panels.len();
-        let inverse = self.circulation_by_wash(s, state, ws)?;
-        let mut response = vec![0.0; n * n];
+        self.take_circulation_by_wash(s, state, ws)?;
+        let inverse = &ws.response.inverse;
+        response.clear();
+        response.resize(n * n, 0.0);
         for (i, p) in panels.clone().enumerate() {
             for (j, weight) in self.force_by_circulation(p, state, ws, loads) {
                 let Some(j) = j.checked_sub(panels.start).filter(|j| *j < n) else {
@@ -42,12 +44,12 @@ impl Lattice {
                 }
             }
         }
-        Ok(response)
+        Ok(())
     }
 
     /// Derivative of the normal forces of the panels of the open surface `s` by the normal accelerations of
-    /// their control points \[kg\], row by row, at the instant that `ws` and `out` were last asked for: the
-    /// added mass, its sign turned.
+    /// their control points \[kg\], row by row into `response`, at the instant that `ws` and `loads` were last asked
+    /// for: the added mass, its sign turned.
     ///
     /// # Errors
     /// A singular influence matrix.
@@ -55,16 +57,19 @@ impl Lattice {
         &self,
         s: usize,
         state: &AirState,
-        ws: &AirWorkspace,
-        loads: &AirLoads,
-    ) -> Result<Vec<f64>, AirError> {
+        (ws, loads): (&mut AirWorkspace, &AirLoads),
+        response: &mut Vec<f64>,
+    ) -> Result<(), AirError> {
         let n = self.panels_of(s).len();
-        let inverse = self.circulation_by_wash(s, state, ws)?;
+        self.take_circulation_by_wash(s, state, ws)?;
+        let inverse = &ws.response.inverse;
         let areas = &loads.panels.area[self.panels_of(s)];
         let rho = self.settings().density;
         let entry = |(area, q): (f64, usize)| rho * area * inverse[q];
         let rows = (0..n).flat_map(|i| (0..n).map(move |k| (areas[i], k * n + i)));
-        Ok(rows.map(entry).collect())
+        response.clear();
+        response.extend(rows.map(entry));
+        Ok(())
     }
 
     /// Force \[N\] and couple about its control point \[N m\] of panel `p` of an open surface where its circulation
@@ -89,21 +94,27 @@ impl Lattice {
         (!is_omitted).then(|| rate_weights(self, state, dt))
     }
 
-    /// Circulations of the panels of the surface `s` by normal velocities, by columns \[m\].
-    fn circulation_by_wash(
+    /// Takes the circulations of the panels of the surface `s` by normal velocities.
+    fn take_circulation_by_wash(
         &self,
         s: usize,
         state: &AirState,
-        ws: &AirWorkspace,
-    ) -> Result<Vec<f64>, AirError> {
+        ws: &mut AirWorkspace,
+    ) -> Result<(), AirError> {
         let panels = self.panels_of(s);
-        let mut lu = DenseLu::new(panels.len());
-        let matrix = ws.boundary.influence.block(self, panels);
-        lu.factor(&matrix).map_err(|source| AirError::Singular {
+        let ResponseRoom {
+            matrix,
+            inverse,
+            lu,
+        } = &mut ws.response;
+        lu.resize(panels.len());
+        ws.boundary.influence.block(self, panels, matrix);
+        lu.factor(matrix).map_err(|source| AirError::Singular {
             step: state.step,
             source,
         })?;
-        Ok(lu.inverse())
+        lu.inverse(inverse);
+        Ok(())
     }
 
     /// How the normal velocity of panel `p`, that of the surface less that of the air, changes with the nodes

@@ -5,6 +5,8 @@ use crate::lattice::Lattice;
 use crate::loads::Segments;
 use crate::solve::BoundaryCondition;
 use crate::wake::{Filaments, Sums, WakeMotion};
+use wingbeat_math::DenseLu;
+use wingbeat_vortex::Tally;
 
 /// Scratch memory of the air, good for any lattice: no result depends on what it held before, but for the velocity of
 /// the free wakes at places that have moved by less than 1e-5 of a panel since it was last summed there, which is
@@ -21,9 +23,24 @@ pub struct AirWorkspace {
     pub(crate) boundary: BoundaryCondition,
     pub(crate) segments: Segments,
     pub(crate) wakes: WakeMotion,
+    pub(crate) response: ResponseRoom,
+}
+
+/// Memory of how a surface answers to normal velocities.
+#[derive(Default)]
+pub(crate) struct ResponseRoom {
+    /// Influence of the surface on itself, row by row, and its inverse, by columns \[m\].
+    pub matrix: Vec<f64>,
+    pub inverse: Vec<f64>,
+    pub lu: DenseLu,
 }
 
 impl AirWorkspace {
+    /// Sums that were checked so far in all calls.
+    pub fn tally(&self) -> Tally {
+        self.sums.tally()
+    }
+
     /// The filaments of the last call.
     pub fn filaments(&self) -> &Filaments {
         &self.filaments

@@ -143,7 +143,7 @@ impl CarriedAir {
         at: &Instant<'_>,
         (air, memory): (&dyn Air, Option<&AirMemory>),
         states: &[CarriedState],
-        (scratch, s): (&AirScratch, &mut CarriedScratch),
+        (scratch, s): (&mut AirScratch, &mut CarriedScratch),
         loads: &mut [Wrench],
     ) -> Result<(), FlightError> {
         if s.at != Some(at.time) {

@@ -11,7 +11,7 @@ use std::fmt;
 use wingbeat_air::{AirLoads, AirWorkspace, NodeMotion, Points};
 use wingbeat_blade::{SectionAnswer, SectionMotion, SectionState, StripTrial};
 use wingbeat_dynamics::{AddedMass, BodyAcceleration, BodyMotion, Wrench};
-use wingbeat_math::DVec3;
+use wingbeat_math::{DVec3, Six};
 
 use crate::error::FlightError;
 use crate::interface::memory::AirMemory;
@@ -102,6 +102,14 @@ pub struct AirScratch {
     pub(crate) nodal: Vec<DVec3>,
     pub(crate) bent: BentScratch,
     pub(crate) strips: StripScratch,
+    pub(crate) answer: AnswerScratch,
+}
+
+/// How panels of a rigid wing answer to accelerations \[kg\], row by row, and what they do in its six motions.
+#[derive(Debug, Default)]
+pub(crate) struct AnswerScratch {
+    pub response: Vec<f64>,
+    pub moved: Vec<Six>,
 }
 
 /// Room for blade elements on a wing that loads bend: its nodes, wing components, its sections, and the forces
@@ -148,7 +156,7 @@ pub trait Air: fmt::Debug + Send + Sync {
 
     /// Masses that the bodies carry along at time `t` [s], into `out`, which is empty: a function of time alone, asked
     /// once for all states at that time.
-    fn added_mass(&self, _t: f64, _out: &mut Vec<AddedMass>) {}
+    fn added_mass(&self, _t: f64, _scratch: &mut AirScratch, _out: &mut Vec<AddedMass>) {}
 
     /// Whether loads depend on the past.
     fn has_memory(&self) -> bool {
@@ -257,7 +265,7 @@ pub trait Air: fmt::Debug + Send + Sync {
         _wing: usize,
         _at: &Instant<'_>,
         _memory: Option<&AirMemory>,
-        _scratch: &AirScratch,
+        _scratch: &mut AirScratch,
     ) -> Result<Option<WingInertia>, FlightError> {
         Ok(None)
     }

@@ -18,6 +18,7 @@ mod wings;
 
 pub use state::{FlightState, Past};
 
+use wingbeat_air::Tally;
 use wingbeat_dynamics::BodyMotion;
 use wingbeat_math::ode::{
     BACKWARD_START, Multistep, StepError, StepReport, block_start, order_two_start,
@@ -207,6 +208,11 @@ impl Simulation {
     /// The record of the newest step.
     pub fn record(&self) -> &Record {
         &self.record
+    }
+
+    /// Sums over the wakes of a lattice that were checked since the flight began or went on.
+    pub fn tally(&self) -> Tally {
+        self.scratch.air_scratch.workspace.tally()
     }
 
     /// Sets the root into the motion `root` when its hold ends; the air stays as it is. For

@@ -76,10 +76,10 @@ fn loads(setup: &FlightSetup, t: f64, motions: &[BodyMotion], acc: DVec3) -> Vec
     let air = BladeAir::new(&setup.animal, options).expect("strips");
     let at = Instant::rigid(t, 1e-4, motions);
     let mut out = vec![Wrench::default(); motions.len()];
-    air.loads(&at, None, &mut air.scratch(), &mut out)
-        .expect("loads");
+    let mut scratch = air.scratch();
+    air.loads(&at, None, &mut scratch, &mut out).expect("loads");
     let mut masses = vec![];
-    air.added_mass(t, &mut masses);
+    air.added_mass(t, &mut scratch, &mut masses);
     for mass in masses {
         let by = BodyAcceleration {
             linear: acc,

@@ -1,5 +1,5 @@
-//! Steps allocate nothing once a flight is under way: in blade elements, with and without feedback, of rigid
-//! wings and of those that bend.
+//! Steps allocate nothing once a flight is under way: in blade elements, with and without feedback, and in the
+//! lattice, of rigid wings, of those that change their shape and of those that bend.
 
 mod common;
 
@@ -11,9 +11,12 @@ use wingbeat_blade::{BladeSettings, Unsteady};
 use wingbeat_dynamics::{ElementLaw, Joint, JointModel, JointType};
 use wingbeat_flight::*;
 use wingbeat_math::DVec3;
-use wingbeat_model::deformation::SpanLaw;
+use wingbeat_model::deformation::{SpanLaw, Term};
+use wingbeat_model::motion::Fourier;
 use wingbeat_model::structure::Damping;
-use wingbeat_model::{AngleLaw, Coupling, Members, WingBeam, WingShell, WingStructure};
+use wingbeat_model::{
+    AngleLaw, Coupling, Deformation, Members, WingBeam, WingShell, WingStructure,
+};
 
 fn blade() -> FlightSetup {
     let mut setup = Fly::default().setup(40, 4.0);
@@ -59,38 +62,47 @@ fn exact_no_allocation_in_steps_in_blade_elements() {
     }
 }
 
-/// Wings that feather passively at their hinges carry air along. By Runge-Kutta, for room of multistep methods
-/// grows with the most passes that a step has needed, which rises all along here.
-#[test]
-fn exact_no_allocation_in_steps_of_wings_on_passive_hinges() {
+/// The same flight with wings that feather passively at their hinges, and carry air along.
+fn on_hinges(setup: FlightSetup, formulation: FormulationChoice) -> FlightSetup {
     let spring = ElementLaw::Spring {
         stiffness: 7e-9,
         rest: 0.0,
     };
     let damper = ElementLaw::Damper { coefficient: 2e-12 };
     let axis = JointType::Revolute { axis: DVec3::Y };
+    let mut setup = FlightSetup {
+        formulation,
+        ..setup
+    };
+    for (k, wing) in setup.animal.wings.iter_mut().enumerate() {
+        wing.motion.angles.psi = AngleLaw::Constant(-1.2);
+        setup.joints.push(Joint {
+            model: JointModel::new(axis)
+                .with(0, spring.clone())
+                .with(0, damper.clone()),
+            ..Joint::new(&wing.name, Some(0), k + 1, JointType::Weld).at(wing.hinge_b, DVec3::ZERO)
+        });
+    }
+    setup
+}
+
+#[test]
+fn exact_no_allocation_in_steps_of_wings_on_passive_hinges() {
     for formulation in [
         FormulationChoice::Momentum,
         FormulationChoice::Quaternion(StabilizationChoice::Projection),
     ] {
-        let mut setup = FlightSetup {
-            formulation,
+        // Room of multistep methods grows with the most passes that a step has needed, which rises all along here.
+        let setup = FlightSetup {
             integrator: IntegratorChoice::RungeKutta,
-            ..blade()
+            ..on_hinges(blade(), formulation)
         };
-        for (k, wing) in setup.animal.wings.iter_mut().enumerate() {
-            wing.motion.angles.psi = AngleLaw::Constant(-1.2);
-            setup.joints.push(Joint {
-                model: JointModel::new(axis)
-                    .with(0, spring.clone())
-                    .with(0, damper.clone()),
-                ..Joint::new(&wing.name, Some(0), k + 1, JointType::Weld)
-                    .at(wing.hinge_b, DVec3::ZERO)
-            });
-        }
         let last = allocates_nothing(setup, [5, 40], &format!("{formulation:?}"));
         assert!(last.joints.iter().all(|[q, _]| q.abs() > 1e-3));
     }
+    let in_wakes = on_hinges(lattice(false), FormulationChoice::Momentum);
+    let last = finds_rest(in_wakes, "hinges in the lattice");
+    assert!(last.joints.iter().all(|[q, _]| q.abs() > 1e-3));
 }
 
 /// A controller answers with a new list at every look, and its wings get new motions; between looks nothing is
@@ -146,6 +158,21 @@ fn members() -> [Members; 2] {
     [Members::Beam(beam), Members::Shell(sheet)]
 }
 
+/// The same flight with wings of these members.
+fn bending(mut setup: FlightSetup, members: &Members) -> FlightSetup {
+    for wing in &mut setup.animal.wings {
+        wing.structure = Some(WingStructure {
+            members: members.clone(),
+            damping: Damping {
+                strain_rate: 1e-5,
+                mass: 1.0,
+            },
+            spectral_radius: 0.9,
+        });
+    }
+    setup
+}
+
 #[test]
 fn exact_no_allocation_in_steps_of_wings_that_bend() {
     let wakes = Some(Unsteady::Peters { states: 8 });
@@ -153,22 +180,85 @@ fn exact_no_allocation_in_steps_of_wings_that_bend() {
         .into_iter()
         .flat_map(|m| [(m.clone(), None), (m, wakes)])
     {
-        let mut setup = blade();
-        for wing in &mut setup.animal.wings {
-            wing.structure = Some(WingStructure {
-                members: members.clone(),
-                damping: Damping {
-                    strain_rate: 1e-5,
-                    mass: 1.0,
-                },
-                spectral_radius: 0.9,
-            });
-        }
+        let mut setup = bending(blade(), &members);
         if let AirModel::BladeElement(air) = &mut setup.air {
             air.blade.unsteady = unsteady;
         }
         // Room grows with the most passes that a step has needed: a beat with its start.
         let last = allocates_nothing(setup, [50, 20], &format!("{members:?} {unsteady:?}"));
+        let mut tips = last.elastic.iter().map(|e| e.tip.length());
+        assert!(tips.all(|tip| tip > 1e-3 * common::SPAN));
+    }
+}
+
+/// Twist, camber and bending over the beat.
+fn waving(mut setup: FlightSetup) -> FlightSetup {
+    let term = |tip: f64| Term {
+        span: SpanLaw::Linear { root: 0.0, tip },
+        time: Fourier {
+            mean: 0.5,
+            cos: vec![0.2],
+            sin: vec![1.0],
+        },
+    };
+    let deformation = Deformation {
+        twist: vec![term(0.3)],
+        camber: vec![term(0.06)],
+        bending: vec![term(2e-4)],
+        ..Deformation::default()
+    };
+    for wing in &mut setup.animal.wings {
+        *wing = wing.clone().deformed_by(deformation.clone()).unwrap();
+    }
+    setup
+}
+
+#[test]
+fn exact_no_allocation_in_steps_of_wings_that_change_their_shape_in_blade_elements() {
+    let last = allocates_nothing(waving(blade()), [5, 40], "waving");
+    assert!(last.deformation_power.iter().any(|p| *p != 0.0));
+}
+
+/// In the lattice, with wakes of a size that stays.
+fn lattice(mirror: bool) -> FlightSetup {
+    let mut setup = Fly::default().setup(40, 4.0);
+    if let AirModel::VortexLattice(air) = &mut setup.air {
+        air.lattice.max_rows = Some(12);
+        air.mirror = mirror;
+    }
+    setup
+}
+
+/// Room grows with the most passes that a step has needed: there are 20 steps in a row in which nothing is allocated in
+/// the flight `what`; its last record. What rayon keeps to hand work to other threads is not counted.
+fn finds_rest(setup: FlightSetup, what: &str) -> Record {
+    let fly = || {
+        let mut flight = Simulation::new(setup).expect("the little fly");
+        let mut copy = Record::default();
+        let mut step = || copy.clone_from(flight.step().expect("a step"));
+        (0..30).for_each(|_| step());
+        let mut counts = (0..6).map(|_| measure(|| (0..20).for_each(|_| step())).count_total);
+        assert!(counts.any(|count| count == 0), "{what}");
+        copy
+    };
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build();
+    pool.unwrap().install(fly)
+}
+
+#[test]
+fn exact_no_allocation_in_steps_in_the_lattice() {
+    for mirror in [false, true] {
+        finds_rest(lattice(mirror), &format!("mirror {mirror}"));
+        let last = finds_rest(waving(lattice(mirror)), &format!("waving, mirror {mirror}"));
+        assert!(last.deformation_power.iter().any(|p| *p != 0.0));
+    }
+}
+
+#[test]
+fn exact_no_allocation_in_steps_of_wings_that_bend_in_the_lattice() {
+    for (members, mirror) in members().iter().flat_map(|m| [(m, false), (m, true)]) {
+        let what = format!("{members:?}, mirror {mirror}");
+        let last = finds_rest(bending(lattice(mirror), members), &what);
         let mut tips = last.elastic.iter().map(|e| e.tip.length());
         assert!(tips.all(|tip| tip > 1e-3 * common::SPAN));
     }

@@ -43,8 +43,8 @@ impl Air for Remembering {
         self.0.loads(at, memory, scratch, out)
     }
 
-    fn added_mass(&self, t: f64, out: &mut Vec<AddedMass>) {
-        self.0.added_mass(t, out);
+    fn added_mass(&self, t: f64, scratch: &mut AirScratch, out: &mut Vec<AddedMass>) {
+        self.0.added_mass(t, scratch, out);
     }
 
     fn has_memory(&self) -> bool {

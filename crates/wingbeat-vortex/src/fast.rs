@@ -4,7 +4,7 @@ mod check;
 mod settings;
 mod soft;
 
-pub use settings::{FastSettings, Method, Report};
+pub use settings::{FastSettings, Method, Report, Tally};
 pub use soft::MESH_TOLERANCE;
 
 use crate::cores::CoreModel;
@@ -90,6 +90,7 @@ pub struct FastSum {
     groups: Groups,
     /// What serves wide algebraic cores.
     soft: Soft,
+    tally: Tally,
 }
 
 impl FastSum {
@@ -113,12 +114,18 @@ impl FastSum {
             is_grown: false,
             groups: Groups::default(),
             soft: Soft::new(&settings, level),
+            tally: Tally::default(),
         }
     }
 
     /// The settings.
     pub fn settings(&self) -> &FastSettings {
         &self.settings
+    }
+
+    /// Sums that were checked since it was made.
+    pub fn tally(&self) -> Tally {
+        self.tally
     }
 
     /// Whether it holds these sources, but for core radii of nodes that differ by no more than `near` \[m\].
@@ -179,6 +186,7 @@ impl FastSum {
             return self.add_direct(targets, out, 0);
         }
         let check = Check::new(self.sources(), targets);
+        self.tally.checked += 1;
         let mut attempts = 0;
         if has_soft {
             match self.add_soft(&check, targets, (out, None)) {
@@ -197,6 +205,7 @@ impl FastSum {
                     if let Some(report) = self.add_tree(&check, allowed, made, error, out) {
                         return report;
                     }
+                    self.tally.discarded += 1;
                     attempts = made;
                 }
                 Err(made) => attempts = made,
@@ -226,6 +235,7 @@ impl FastSum {
         let has_soft = self.soft.is_loaded() && !self.is_few(targets) && !targets.is_empty();
         let has_single = self.has_single && targets.len() >= SINGLE_TARGETS;
         let needs_check = has_soft || has_single;
+        self.tally.checked += u64::from(needs_check);
         let check = needs_check.then(|| Check::with_vorticity(self.sources(), targets));
         if let Some(check) = check.as_ref().filter(|_| has_soft) {
             let sum = self.add_soft(check, targets, (&mut *velocity, Some(&mut *vorticity)));
@@ -248,6 +258,7 @@ impl FastSum {
                 add_to(vorticity, &self.vorticity);
                 return;
             }
+            self.tally.discarded += 1;
         }
         let all = || std::iter::once(0..packed.patches.len());
         sum_both(edges, targets, [velocity, vorticity], |targets, sums| {
@@ -268,7 +279,12 @@ impl FastSum {
         out: (&mut Points, Option<&mut Points>),
     ) -> Result<Report, usize> {
         let sources = (&self.network, self.packed.edges.len());
-        (self.soft).add(check, targets, (&self.settings, sources), out)
+        let made = (self.soft).add(check, targets, (&self.settings, sources), out);
+        let in_vain = made
+            .as_ref()
+            .map_or_else(|made| *made, |report| report.attempts - 1);
+        self.tally.discarded += in_vain as u64;
+        made
     }
 
     /// Error in single precision at the sampled targets, root mean square and largest, of the velocities and, where the
@@ -335,6 +351,7 @@ impl FastSum {
             },
         );
         let Some([error_rms, error_max]) = self.error_of_single(check) else {
+            self.tally.discarded += 1;
             return self.add_direct(targets, out, attempts + 1);
         };
         add_to(out, &self.velocity);
@@ -362,7 +379,7 @@ impl FastSum {
             let allowed = share * tolerance * check.scale;
             let (samples, velocity) = (&check.index[..check.count], &mut velocity[..check.count]);
             let work = (self.groups).sample(&self.cells, allowed, samples, velocity);
-            let pairs = self.packed.edges.len() as u64 * work.targets;
+            let pairs = (self.packed.edges.len() * check.count) as u64;
             if self.settings.method == Method::Auto
                 && NEAR * work.near + gain * FAR * work.far > 10 * pairs
             {

@@ -7,6 +7,7 @@
 use crate::direct::block::{BLOCK, Block, Targets, par_blocks};
 use crate::direct::gaussian::WidthLevel;
 use crate::direct::sum::sum_all;
+use crate::fast::Tally;
 use crate::instruction_set::InstructionSet;
 use crate::particle_mesh::mesh::{Mesh, SPACINGS};
 use crate::sources::{Blob, Points};
@@ -57,6 +58,7 @@ pub struct GaussianSum {
     /// Corners of the box that the mesh fills \[m\].
     bounds: [DVec3; 2],
     velocity: Points,
+    tally: Tally,
 }
 
 /// What a sum over blobs did and how well.
@@ -80,11 +82,17 @@ impl Default for GaussianSum {
             expected: 0,
             bounds: [DVec3::ZERO; 2],
             velocity: Points::default(),
+            tally: Tally::default(),
         }
     }
 }
 
 impl GaussianSum {
+    /// Sums that were checked since it was made.
+    pub fn tally(&self) -> Tally {
+        self.tally
+    }
+
     /// Replaces the blobs, none of which has a smaller core than `min_core` \[m2\]; says whether anything differs from
     /// before. `bounds` are the corners of a box \[m\] that holds the blobs and most of the targets to come, some
     /// `expected` of them: so a mesh pays or does not.
@@ -154,6 +162,7 @@ impl GaussianSum {
         if tolerance < FINEST || !self.gains_by_mesh() {
             return self.add_each(targets, out);
         }
+        self.tally.checked += 1;
         let mut velocity = std::mem::take(&mut self.velocity);
         let mut report = None;
         for k in 0..SPACINGS.len() {
@@ -169,6 +178,7 @@ impl GaussianSum {
                 report = Some(GaussianReport { is_mesh, error_rms });
                 break;
             }
+            self.tally.discarded += 1;
         }
         if report.is_some() {
             for (i, v) in velocity.iter().enumerate() {

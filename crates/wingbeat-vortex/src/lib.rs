@@ -41,11 +41,12 @@ mod preorder;
 mod quadrature;
 mod sources;
 mod tree;
+mod work;
 
 pub use cores::{CoreModel, LAMB_ALPHA};
 pub use direct::reference;
 pub use direct::{AlgebraicSum, BLOCK, Stretching, UnitEdges, WINDOW, add_velocity};
-pub use fast::{FastSettings, FastSum, MESH_TOLERANCE, Method, Report};
+pub use fast::{FastSettings, FastSum, MESH_TOLERANCE, Method, Report, Tally};
 pub use gaussian_sum::{GaussianReport, GaussianSum};
 pub use glam::DVec3;
 pub use instruction_set::InstructionSet;

@@ -6,7 +6,9 @@ mod soft;
 mod wakes;
 
 use wingbeat_vortex::DVec3;
-use wingbeat_vortex::{CoreModel, FastSettings, FastSum, InstructionSet, Method, Network, Points};
+use wingbeat_vortex::{
+    CoreModel, FastSettings, FastSum, InstructionSet, Method, Network, Points, Tally,
+};
 
 use common::{bits, direct, error};
 
@@ -234,6 +236,11 @@ fn exact_double_precision_takes_over_where_the_range_of_single_ends() {
         let report = fast.add_velocity(&at, &mut v);
         assert_eq!(report.method, Method::Direct, "{model:?} {report:?}");
         assert_eq!(bits(&v), bits(&exact));
+        let [checked, discarded] = [1, 1];
+        assert_eq!(fast.tally(), Tally { checked, discarded });
+        fast.add_velocity(&net.nodes, &mut v);
+        let checked = 2;
+        assert_eq!(fast.tally(), Tally { checked, discarded });
     }
 }
 

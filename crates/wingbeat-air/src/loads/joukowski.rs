@@ -63,7 +63,7 @@ pub(crate) struct Flow<'a> {
 }
 
 impl Segments {
-    /// Replaces (or completes) the pressure forces of open surfaces as [`LoadMethod`] says, and takes the
+    /// Gives (or completes) the forces of open surfaces as [`LoadMethod`] says, and takes the
     /// inviscid force of all surfaces.
     pub(crate) fn add_forces(
         &mut self,

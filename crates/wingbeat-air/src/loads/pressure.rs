@@ -5,6 +5,7 @@ use crate::loads::lag::add_lag;
 use crate::loads::leading_strip::add_front;
 use crate::loads::rate::{couple_of_rate, rate_weights};
 use crate::loads::values::AirLoads;
+use crate::settings::LoadMethod;
 use crate::state::AirState;
 use crate::wake::Filaments;
 use wingbeat_math::DVec3;
@@ -71,7 +72,8 @@ pub(crate) fn pressure_jump(lattice: &Lattice, out: &mut AirLoads) {
 
 /// Pressure jump times area along the normal [N]. On an open surface the part of `dGamma/dt` acts in the middle of the
 /// ring; the part of the vorticity where that lies: half a panel ahead of the control point where it is that of the
-/// leading edge, which on eight panels is two fifths of the lift.
+/// leading edge, which on eight panels is two fifths of the lift. Open surfaces whose loads are those of segments get
+/// none here.
 pub(crate) fn forces(
     lattice: &Lattice,
     state: &AirState,
@@ -80,26 +82,32 @@ pub(crate) fn forces(
     out: &mut AirLoads,
 ) {
     let rho = lattice.settings().density;
-    out.force.clear();
-    out.couple.clear();
+    let by_segments = lattice.settings().loads == LoadMethod::Joukowski;
+    for list in [&mut out.force, &mut out.couple] {
+        list.clear();
+        list.resize(lattice.panel_count(), DVec3::ZERO);
+    }
     for p in 0..lattice.panel_count() {
+        let is_closed = lattice.surfaces()[lattice.topology().panel_surface[p]].closed;
+        if by_segments && !is_closed {
+            continue;
+        }
         let (x, normal) = (out.panels.point[p], out.panels.normal[p]);
-        let force = out.pressure_jump[p] * out.panels.area[p] * normal;
-        let mut couple = DVec3::ZERO;
-        if !lattice.surfaces()[lattice.topology().panel_surface[p]].closed {
+        out.force[p] = out.pressure_jump[p] * out.panels.area[p] * normal;
+        if !is_closed {
             let relative = out.velocity[p] - out.panels.velocity[p];
             for [share, middle] in shares(lattice, state, filaments, p) {
                 let part = rho * relative.dot(share.cross(normal)) * normal;
-                couple += (middle - x).cross(part);
+                out.couple[p] += (middle - x).cross(part);
             }
             let unsteady = rho * out.gamma_rate[p] * out.panels.area[p] * normal;
             if let Some(aside) = couple_of_rate(lattice, filaments, p, unsteady) {
-                couple += aside;
+                out.couple[p] += aside;
             }
         }
-        out.force.push(force);
-        out.couple.push(couple);
     }
-    add_front(lattice, state, filaments, position, out);
-    add_lag(lattice, state, filaments, position, out);
+    if !by_segments {
+        add_front(lattice, state, filaments, position, out);
+        add_lag(lattice, state, filaments, position, out);
+    }
 }

@@ -94,9 +94,7 @@ impl Circulation {
     fn eliminate(&mut self, matrix: &RowBlocks, state: &AirState) -> Result<(), AirError> {
         let n = matrix.order();
         matrix.to_rows(&mut self.rows);
-        if self.lu.order() != n {
-            self.lu = DenseLu::new(n);
-        }
+        self.lu.resize(n);
         let singular = |source| AirError::Singular {
             step: state.step,
             source,

@@ -103,14 +103,15 @@ impl Influence {
         self.matrix.order()
     }
 
-    /// Normal velocities at the control points of these panels by their own circulations, row by row. Where one half of
-    /// the flow is computed, those of the other half are its mirror image.
-    pub(crate) fn block(&self, lattice: &Lattice, panels: Range<usize>) -> Vec<f64> {
+    /// Normal velocities at the control points of these panels by their own circulations, row by row into `out`. Where
+    /// one half of the flow is computed, those of the other half are its mirror image.
+    pub(crate) fn block(&self, lattice: &Lattice, panels: Range<usize>, out: &mut Vec<f64>) {
         let of = |p: usize| unknown(lattice, p);
         let rows = panels
             .clone()
             .flat_map(|i| panels.clone().map(move |j| (of(i), of(j))));
-        rows.map(|(i, j)| self.matrix.at(i, j)).collect()
+        out.clear();
+        out.extend(rows.map(|(i, j)| self.matrix.at(i, j)));
     }
 
     fn augment(&mut self, lattice: &Lattice) {

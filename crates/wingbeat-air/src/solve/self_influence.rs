@@ -167,10 +167,11 @@ impl SelfInfluence {
         if lattice.surfaces()[self.surface].closed {
             augment(lattice, self.surface, self.unknowns.start, &mut block);
         }
-        let (mut lu, mut rows) = (DenseLu::new(n), Vec::new());
+        let (mut lu, mut rows, mut columns) = (DenseLu::new(n), Vec::new(), Vec::new());
         block.to_rows(&mut rows);
         lu.factor(&rows).ok()?;
-        self.inverse = RowBlocks::from_columns(n, &lu.inverse());
+        lu.inverse(&mut columns);
+        self.inverse = RowBlocks::from_columns(n, &columns);
         Some(())
     }
 

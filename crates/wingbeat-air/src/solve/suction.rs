@@ -207,9 +207,7 @@ impl Release {
     /// What leaves the strips that shed, so that each has what it may have.
     fn solve(&mut self) -> Result<(), wingbeat_math::LuError> {
         let n = self.net.len();
-        if self.lu.order() != n {
-            self.lu = DenseLu::new(n);
-        }
+        self.lu.resize(n);
         self.rows.clone_from(&self.by_leaving);
         for j in 0..n {
             match self.sign[j] == 0.0 {

@@ -318,13 +318,10 @@ impl Filaments {
         }
     }
 
-    /// Corners of the box around all nodes [m], N components.
+    /// Corners of the box around the nodes of the free wakes [m], N components: it stays within a step.
     pub(crate) fn bounds(&self) -> [DVec3; 2] {
-        let nets = [&self.bound, &self.near_wake, &self.wake];
-        let nodes = nets.into_iter().flat_map(|net| net.nodes.iter());
-        nodes.fold([DVec3::INFINITY, DVec3::NEG_INFINITY], |[low, high], x| {
-            [low.min(x), high.max(x)]
-        })
+        let ends = [DVec3::INFINITY, DVec3::NEG_INFINITY];
+        (self.wake.nodes.iter()).fold(ends, |[low, high], x| [low.min(x), high.max(x)])
     }
 
     /// Half the sum of circulation x moment of every filament about `origin`, which is the vector

@@ -6,7 +6,7 @@ use crate::settings::AirSettings;
 use crate::wake::filaments::Filaments;
 use wingbeat_math::DVec3;
 use wingbeat_vortex::{
-    AlgebraicSum, CoreModel, FastSettings, FastSum, GaussianSum, Method, Network, Points,
+    AlgebraicSum, CoreModel, FastSettings, FastSum, GaussianSum, Method, Network, Points, Tally,
 };
 
 /// A Biot-Savart sum over one network, its memory kept from call to call.
@@ -32,6 +32,10 @@ impl Summation {
             sum.load_network(sources);
         }
         !is_known
+    }
+
+    fn tally(&self) -> Tally {
+        self.sum.as_ref().map_or(Tally::default(), FastSum::tally)
     }
 
     fn add(&mut self, targets: &Points, out: &mut Points) {
@@ -198,6 +202,15 @@ impl Sums {
         };
         let is_new = self.particles.load(&filaments.particles) || is_new;
         self.generation += u64::from(is_new);
+    }
+
+    /// Sums that were checked so far.
+    pub(crate) fn tally(&self) -> Tally {
+        let mut all = self.blobs.tally();
+        for sum in [&self.bound, &self.near_wake, &self.attached, &self.wake] {
+            all += sum.tally();
+        }
+        all
     }
 
     /// The particles.

@@ -35,7 +35,8 @@ fn exact_normal_inertia_is_what_a_plate_at_rest_feels_when_it_moves() {
             *v = 1e-8 * (DVec3::new(0.1, 0.2, 1.0) + DVec3::new(0.3, -2.0, 0.5).cross(*x));
         }
         (lattice.loads(&state, DT, DT, &moved, &mut ws, &mut out)).expect("loads in motion");
-        let matrix = (lattice.normal_inertia(0, &state, &ws, &out)).expect("a matrix");
+        let mut matrix = vec![];
+        (lattice.normal_inertia(0, &state, (&mut ws, &out), &mut matrix)).expect("a matrix");
         let [now, ..] = lattice.circulation_rate_weights(&state, DT).expect("rates");
         let normal = |of: &[DVec3]| -> Vec<f64> {
             let both = of.iter().zip(&out.panels.normal);

@@ -70,7 +70,9 @@ impl BladeAir {
         };
         let rigid = |i: &usize| !air.is_deformed(*i) && air.bent[*i].is_none();
         let rigid = (0..air.wings.len()).filter(rigid);
-        air.added = rigid.filter_map(|i| air.added_to(i, 0.0)).collect();
+        let mut none = vec![];
+        let added = rigid.filter_map(|i| air.added_to(i, 0.0, &mut none));
+        air.added = added.collect();
         Ok(air)
     }
 
@@ -167,9 +169,8 @@ impl BladeAir {
     }
 
     /// The added mass of wing `i`, read off its loads under unit accelerations; none if it has none.
-    fn added_to(&self, i: usize, t: f64) -> Option<AddedMass> {
-        let mut sections = vec![];
-        self.put_sections(i, t, &mut sections);
+    fn added_to(&self, i: usize, t: f64, sections: &mut Vec<SectionMotion>) -> Option<AddedMass> {
+        self.put_sections(i, t, sections);
         let load = |[linear, angular]: [DVec3; 2]| {
             let acc = BodyAcceleration { linear, angular };
             let wing = (i, &sections[..]);
@@ -225,10 +226,11 @@ impl Air for BladeAir {
         Ok(())
     }
 
-    fn added_mass(&self, t: f64, out: &mut Vec<AddedMass>) {
+    fn added_mass(&self, t: f64, scratch: &mut AirScratch, out: &mut Vec<AddedMass>) {
         out.extend_from_slice(&self.added);
         let deforming = (0..self.wings.len()).filter(|&i| self.is_deformed(i));
-        out.extend(deforming.filter_map(|i| self.added_to(i, t)));
+        let sections = &mut scratch.strips.sections;
+        out.extend(deforming.filter_map(|i| self.added_to(i, t, sections)));
     }
 
     fn has_memory(&self) -> bool {
@@ -321,7 +323,7 @@ impl Air for BladeAir {
         out: &mut [f64],
     ) {
         out.fill(0.0);
-        let mut sections = vec![];
+        let mut sections = std::mem::take(&mut scratch.strips.sections);
         for i in (0..self.wings.len()).filter(|&i| self.is_deformed(i)) {
             let (m, a) = (&at.motions[i + 1], &accelerations[i + 1]);
             let known = scratch.strips.trials.get(i).map(|t| Lag::Known(t));
@@ -333,6 +335,7 @@ impl Air for BladeAir {
             ];
             out[i + 1] = by_velocity + by_mass;
         }
+        scratch.strips.sections = sections;
     }
 }
 

@@ -12,7 +12,9 @@ use super::surfaces::SurfaceMap;
 use crate::error::FlightError;
 use crate::interface::memory::{AirMemory, wakes_of};
 use crate::interface::record::{ParticleSnapshot, Snapshot, SurfaceSnapshot, WakeSnapshot};
-use crate::interface::{Air, AirScratch, Instant, WingInertia, WingResponse, misfit};
+use crate::interface::{
+    Air, AirScratch, AnswerScratch, Instant, WingInertia, WingResponse, misfit,
+};
 use crate::setup::{AirOptions, FlightSetup, MotionMode};
 
 /// Gravity across the plane of symmetry that is still the rounding of an attitude, over gravity.
@@ -103,10 +105,9 @@ impl LatticeAir {
         let memory = air.initial(&s);
         air.loads(at, memory.as_ref(), &mut s, &mut wrenches)?;
         let state = wakes_of(memory.as_ref()).ok_or_else(|| misfit("a lattice has a memory"))?;
-        let mut answer = WingResponse {
-            matrix: (air.lattice).normal_inertia(wing, state, &s.workspace, &s.loads)?,
-            ..WingResponse::default()
-        };
+        let mut answer = WingResponse::default();
+        let now = (&mut s.workspace, &s.loads);
+        (air.lattice).normal_inertia(wing, state, now, &mut answer.matrix)?;
         air.set_panels(wing, &s, &mut answer);
         Ok(answer)
     }
@@ -283,7 +284,8 @@ impl Air for LatticeAir {
     ) -> Result<bool, FlightError> {
         let state = wakes_of(memory).ok_or_else(|| misfit("a lattice needs its wakes"))?;
         out.inertia.clear();
-        out.matrix = (self.lattice).normal_response(wing, state, &s.workspace, &s.loads)?;
+        let now = (&mut s.workspace, &s.loads);
+        (self.lattice).normal_response(wing, state, now, &mut out.matrix)?;
         self.set_panels(wing, s, out);
         Ok(true)
     }
@@ -293,15 +295,16 @@ impl Air for LatticeAir {
         wing: usize,
         at: &Instant<'_>,
         memory: Option<&AirMemory>,
-        s: &AirScratch,
+        s: &mut AirScratch,
     ) -> Result<Option<WingInertia>, FlightError> {
         let state = wakes_of(memory).ok_or_else(|| misfit("a lattice needs its wakes"))?;
         let Some(rate_weights) = self.lattice.circulation_rate_weights(state, at.step) else {
             return Ok(None);
         };
-        let answer = (self.lattice).normal_inertia(wing, state, &s.workspace, &s.loads)?;
+        let now = (&mut s.workspace, &s.loads);
+        (self.lattice).normal_inertia(wing, state, now, &mut s.answer.response)?;
         let panels = self.lattice.panels_of(wing);
-        let mass = rigid_added_mass(&answer, &s.loads, panels, &at.motions[wing + 1]);
+        let mass = rigid_added_mass(&mut s.answer, &s.loads, panels, &at.motions[wing + 1]);
         Ok(Some(WingInertia { mass, rate_weights }))
     }
 
@@ -398,24 +401,25 @@ impl Air for LatticeAir {
 /// Entries of an added mass smaller than this over the geometric mean of their diagonal ones are rounding \[1\].
 const NOTHING: f64 = 1e-12;
 
-/// The added mass of a wing that moves as a rigid body like `m`, from the `answer` of the normal forces of its
-/// panels to normal accelerations \[kg\], row by row; symmetric as energy asks.
+/// The added mass of a wing that moves as a rigid body like `m`, from the `response` of the normal forces of its
+/// panels to normal accelerations; symmetric as energy asks.
 fn rigid_added_mass(
-    answer: &[f64],
+    AnswerScratch { response, moved }: &mut AnswerScratch,
     loads: &AirLoads,
     panels: Range<usize>,
     m: &BodyMotion,
 ) -> SixBySix {
     let back = m.r.transpose();
-    let moved = |p: usize| {
+    let of_panel = |p: usize| {
         let normal = back * loads.panels.normal[p];
         let turn = (back * (loads.panels.point[p] - m.p)).cross(normal);
         six(normal, turn)
     };
-    let moved: Vec<Six> = panels.map(moved).collect();
+    moved.clear();
+    moved.extend(panels.map(of_panel));
     let mut mass = [[0.0; 6]; 6];
-    for (row, by) in answer.chunks_exact(moved.len()).zip(&moved) {
-        for (factor, of) in row.iter().zip(&moved) {
+    for (row, by) in response.chunks_exact(moved.len()).zip(&*moved) {
+        for (factor, of) in row.iter().zip(&*moved) {
             for (i, j) in (0..36).map(|k| (k / 6, k % 6)) {
                 let part = -0.5 * factor * by[i] * of[j];
                 mass[i][j] += part;

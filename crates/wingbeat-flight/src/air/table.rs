@@ -50,7 +50,7 @@ impl Air for TableAir {
         Ok(())
     }
 
-    fn added_mass(&self, _t: f64, out: &mut Vec<AddedMass>) {
+    fn added_mass(&self, _t: f64, _scratch: &mut AirScratch, out: &mut Vec<AddedMass>) {
         out.extend(self.added);
     }
 }

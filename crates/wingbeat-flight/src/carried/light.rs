@@ -82,7 +82,7 @@ fn is_light_at(
         add_moved(&mass, LIMIT, [m, &motions[0]], &mut left);
     }
     for w in 0..setup.animal.wings.len() {
-        if let Some(answer) = air.wing_inertia(w, &at, memory.as_ref(), &s)? {
+        if let Some(answer) = air.wing_inertia(w, &at, memory.as_ref(), &mut s)? {
             add_moved(
                 &answer.mass,
                 -1.0,

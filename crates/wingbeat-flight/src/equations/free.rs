@@ -198,7 +198,7 @@ impl FreeFlight {
         let (mut loads, mut added) = (vec![Wrench::default(); motions.len()], vec![]);
         self.air().place(&at, s)?;
         self.air().loads(&at, None, s, &mut loads)?;
-        self.air().added_mass(t, &mut added);
+        self.air().added_mass(t, s, &mut added);
         let carried = |a: &AddedMass| a.wrench(&motions[a.body()], &accelerations[a.body()]);
         added.iter().for_each(|a| loads[a.body()] += carried(a));
         Ok(loads)

@@ -46,7 +46,7 @@ impl Equations {
             let at = Instant::rigid(t, self.step, &s.motions);
             (self.air).loads(&at, memory.air, &mut s.air_scratch, &mut s.air)?;
             let air = (self.air.as_ref(), memory.air);
-            let scratch = (&s.air_scratch, &mut s.carried_air);
+            let scratch = (&mut s.air_scratch, &mut s.carried_air);
             (self.carried).take_out(&at, air, memory.carried, scratch, &mut s.air)?;
             for (load, coupling) in s.air.iter_mut().zip(&s.coupling) {
                 *load += *coupling;
@@ -56,7 +56,7 @@ impl Equations {
         }
         if s.added_at != Some(t) {
             s.added.clear();
-            self.air.added_mass(t, &mut s.added);
+            self.air.added_mass(t, &mut s.air_scratch, &mut s.added);
             s.added.extend(s.carried_air.masses());
             s.added_at = Some(t);
         }

@@ -1,6 +1,6 @@
 //! Dense LU factorisation with partial pivoting, buffers kept between factorisations.
 
-use faer::dyn_stack::{MemBuffer, MemStack};
+use faer::dyn_stack::{MemBuffer, MemStack, StackReq};
 use faer::linalg::lu::partial_pivoting::{factor, solve};
 use faer::perm::PermRef;
 use faer::{MatMut, Par};
@@ -24,6 +24,8 @@ pub struct DenseLu {
     perm: Vec<usize>,
     perm_inverse: Vec<usize>,
     scratch: MemBuffer,
+    /// How much scratch there is.
+    room: StackReq,
 }
 
 /// Why a matrix could not be factorised.
@@ -63,14 +65,37 @@ impl Default for DenseLu {
 impl DenseLu {
     /// Room for matrices of order `n`.
     pub fn new(n: usize) -> Self {
+        let mut lu = Self {
+            n: 0,
+            factors: vec![],
+            perm: vec![],
+            perm_inverse: vec![],
+            scratch: MemBuffer::new(StackReq::EMPTY),
+            room: StackReq::EMPTY,
+        };
+        lu.resize(n);
+        lu
+    }
+
+    /// Room for matrices of order `n`, what was factorised forgotten where that is another one: nothing is allocated
+    /// for an order that it had room for before.
+    pub fn resize(&mut self, n: usize) {
+        if self.n == n {
+            return;
+        }
+        self.n = n;
+        self.factors.resize(n * n, 0.0);
+        self.perm.resize(n, 0);
+        self.perm_inverse.resize(n, 0);
         let factor = factor::lu_in_place_scratch::<usize, f64>(n, n, Par::Seq, Default::default());
-        let solve = solve::solve_in_place_scratch::<usize, f64>(n, 1, Par::Seq);
-        Self {
-            n,
-            factors: vec![0.0; n * n],
-            perm: vec![0; n],
-            perm_inverse: vec![0; n],
-            scratch: MemBuffer::new(factor.or(solve)),
+        self.make_room(factor.or(solve::solve_in_place_scratch::<usize, f64>(n, 1, Par::Seq)));
+    }
+
+    fn make_room(&mut self, wanted: StackReq) {
+        let room = self.room.or(wanted);
+        if room != self.room {
+            self.room = room;
+            self.scratch = MemBuffer::new(room);
         }
     }
 
@@ -145,22 +170,22 @@ impl DenseLu {
         );
     }
 
-    /// The inverse of the factorised matrix, by columns.
-    pub fn inverse(&self) -> Vec<f64> {
+    /// The inverse of the factorised matrix, by columns, into `columns`.
+    pub fn inverse(&mut self, columns: &mut Vec<f64>) {
         let n = self.n;
-        let mut columns = vec![0.0; n * n];
+        columns.clear();
+        columns.resize(n * n, 0.0);
         columns.iter_mut().step_by(n + 1).for_each(|d| *d = 1.0);
+        self.make_room(solve::solve_in_place_scratch::<usize, f64>(n, n, Par::Seq));
         let lu = faer::MatRef::from_row_major_slice(&self.factors, n, n);
-        let room = solve::solve_in_place_scratch::<usize, f64>(n, n, Par::Seq);
         solve::solve_in_place(
             lu,
             lu,
             PermRef::new_checked(&self.perm, &self.perm_inverse, n),
-            MatMut::from_column_major_slice_mut(&mut columns, n, n),
+            MatMut::from_column_major_slice_mut(columns, n, n),
             Par::Seq,
-            MemStack::new(&mut MemBuffer::new(room)),
+            MemStack::new(&mut self.scratch),
         );
-        columns
     }
 }
 
@@ -177,8 +202,9 @@ mod tests {
 
     #[test]
     fn exact_solution_is_recovered_and_buffers_can_be_reused() {
-        for n in [1, 7, 64] {
-            let mut lu = DenseLu::new(n);
+        let mut lu = DenseLu::default();
+        for n in [1, 64, 7] {
+            lu.resize(n);
             let a = scattered(n);
             for shift in [0.0, 1.0] {
                 let truth: Vec<f64> = (0..n).map(|i| (i as f64 + shift).cos()).collect();
@@ -201,7 +227,8 @@ mod tests {
         let n = 30;
         let (mut lu, a) = (DenseLu::new(n), scattered(n));
         lu.factor(&a).unwrap();
-        let columns = lu.inverse();
+        let mut columns = vec![];
+        lu.inverse(&mut columns);
         for (i, j) in (0..n * n).map(|k| (k / n, k % n)) {
             let product: f64 = (0..n).map(|k| a[i * n + k] * columns[j * n + k]).sum();
             // As above.

@@ -73,6 +73,13 @@ pub struct Manifest {
     pub wall_time_s: f64,
     /// Wall time of the writing alone \[s\].
     pub writing_time_s: f64,
+    /// Sums over the wakes of a lattice that were checked, where the flight ended in order.
+    #[serde(default)]
+    pub checked_sums: u64,
+    /// Sums made for them in vain, their error being above `air.summation_tolerance`: they cost time, and no result is
+    /// of them.
+    #[serde(default)]
+    pub discarded_sums: u64,
     /// What a reader of the results should know.
     pub warnings: Vec<String>,
     /// Axes of the frames.

@@ -94,10 +94,11 @@ impl RecordedFlight {
     /// # Errors
     /// As [`RunWriter::finish`].
     pub fn finish(
-        self,
+        mut self,
         outcome: Outcome,
         draw: impl FnOnce(&ResultDir, &LoadedCase, &Summary) -> Result<(), IoError>,
     ) -> Result<Summary, IoError> {
+        self.writer.count(self.flight.tally());
         self.writer.finish(outcome, draw)
     }
 

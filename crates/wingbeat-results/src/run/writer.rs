@@ -2,6 +2,7 @@
 
 use std::time::{Duration, Instant};
 
+use wingbeat_air::Tally;
 use wingbeat_flight::{AirModel, FlightState, Record, Snapshot};
 
 use crate::common::checkpoint::Header;
@@ -64,6 +65,8 @@ impl RunWriter {
             wake_rings: 0,
             wall_time_s: 0.0,
             writing_time_s: 0.0,
+            checked_sums: 0,
+            discarded_sums: 0,
             warnings: vec![],
             frame_axes: "n1, -n2, -n3 (x forward, y left, z up)".to_owned(),
         };
@@ -277,6 +280,12 @@ impl RunWriter {
             "flight.pvd",
             pvd(&self.frames, parts(&self.case)).as_bytes(),
         )
+    }
+
+    /// Takes note of sums over the wakes that were checked.
+    pub(super) fn count(&mut self, sums: Tally) {
+        self.manifest.checked_sums += sums.checked;
+        self.manifest.discarded_sums += sums.discarded;
     }
 
     /// Ends a result that cannot be written any more: only the reason is noted, if that still goes.

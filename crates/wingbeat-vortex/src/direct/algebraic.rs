@@ -103,7 +103,7 @@ impl AlgebraicSum {
             .zip(par_blocks(rate))
             .zip(targets.par_chunks(BLOCK));
         all.for_each(|(((_, v), (_, s)), blobs)| {
-            let blobs = Targets::new(blobs);
+            let blobs = ActedUpon::new(blobs);
             let mut sums = [Block::ZERO, Block::ZERO];
             dispatch!(self.level, simd => match scheme {
                 Stretching::Omitted => self.pairs::<_, false, false>(simd, &blobs, &mut sums),
@@ -121,7 +121,7 @@ impl AlgebraicSum {
     fn pairs<S: Simd, const STRETCHES: bool, const CLASSICAL: bool>(
         &self,
         simd: S,
-        targets: &Targets,
+        targets: &ActedUpon,
         sums: &mut [Block; 2],
     ) {
         for lane in (0..targets.count).step_by(S::f64s::LEN) {
@@ -187,14 +187,14 @@ impl Smoothing for Algebraic {
 }
 
 /// Up to [`BLOCK`] blobs that are acted upon.
-struct Targets {
+struct ActedUpon {
     position: Block,
     strength: Block,
     core: [f64; BLOCK],
     count: usize,
 }
 
-impl Targets {
+impl ActedUpon {
     fn new(blobs: &[Blob]) -> Self {
         let mut out = Self {
             position: Block::ZERO,

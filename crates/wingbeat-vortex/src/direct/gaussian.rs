@@ -7,7 +7,7 @@
 
 use crate::cores::INV_4PI;
 use crate::cores::vector::{Double, Precision};
-use crate::direct::block::{BLOCK, Block, Targets};
+use crate::direct::block::{Block, Targets};
 use crate::direct::smoothing::{Smoothing, add_velocities};
 use crate::sources::Blob;
 use fearless_simd::{Level, dispatch, prelude::*};
@@ -81,14 +81,11 @@ fn polynomial<S: Simd>(simd: S, c: &[f64; 12], x: S::f64s) -> S::f64s {
 
 /// The same as [`swirl`], one at a time.
 pub(crate) fn swirl_of(z: f64) -> f64 {
-    let mut out = [0.0; BLOCK];
-    let level = Level::fallback();
-    dispatch!(level, simd => one(simd, z, &mut out));
-    return out[0];
+    return dispatch!(Level::fallback(), simd => one(simd, z));
 
     #[inline(always)]
-    fn one<S: Simd>(simd: S, z: f64, out: &mut [f64; BLOCK]) {
-        swirl(simd, S::f64s::splat(simd, z)).store_slice(&mut out[..S::f64s::LEN]);
+    fn one<S: Simd>(simd: S, z: f64) -> f64 {
+        swirl(simd, S::f64s::splat(simd, z)).as_slice()[0]
     }
 }
 

@@ -50,6 +50,22 @@ impl FastSettings {
     }
 }
 
+/// Sums that were checked so far, and what was made in vain for them: a slow sum, not a wrong one.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Tally {
+    /// Sums for which a faster way than one by one in double precision was tried \[1\].
+    pub checked: u64,
+    /// Sums at all targets that were thrown away, their error being above the tolerance \[1\].
+    pub discarded: u64,
+}
+
+impl std::ops::AddAssign for Tally {
+    fn add_assign(&mut self, other: Self) {
+        self.checked += other.checked;
+        self.discarded += other.discarded;
+    }
+}
+
 /// What a sum did and how well.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Report {

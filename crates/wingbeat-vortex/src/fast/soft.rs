@@ -6,6 +6,7 @@ use crate::fast::settings::{FastSettings, Method, Report};
 use crate::interpolation::{Fineness, Interpolation};
 use crate::multilevel::Multilevel;
 use crate::sources::{Network, Points};
+use crate::work::Work;
 use fearless_simd::Level;
 use glam::DVec3;
 
@@ -90,7 +91,7 @@ impl Soft {
     }
 
     /// Adds velocities, and vorticities if they are wanted, of the network that was loaded last, of so many packed
-    /// `edges`; or adds nothing and says how many attempts were made.
+    /// `edges`; or adds nothing and says how many attempts were made in vain.
     pub fn add(
         &mut self,
         check: &Check,
@@ -114,9 +115,10 @@ impl Soft {
         }
         let has_meshes = found.is_none() && self.mesh_cost.is_some();
         if let Some(meshes) = self.meshes.as_mut().filter(|_| has_meshes) {
-            attempts += 1;
-            let sum = mesh_sum(meshes, check, targets, tolerance);
-            found = sum.map(|sum| (Method::Mesh, sum));
+            match mesh_sum(meshes, check, targets, tolerance) {
+                Ok(sum) => found = Some((Method::Mesh, sum)),
+                Err(made) => attempts += made,
+            }
         }
         let (method, sum) = found.ok_or(attempts)?;
         add_part(sum.values, 0, velocity);
@@ -128,9 +130,9 @@ impl Soft {
             error_rms: sum.error[0],
             error_max: sum.error[1],
             samples: check.count,
-            attempts: attempts.max(sum.attempts),
-            far: sum.work[0],
-            near: sum.work[1],
+            attempts: attempts + sum.attempts,
+            far: sum.work.far,
+            near: sum.work.near,
         })
     }
 }
@@ -142,8 +144,7 @@ struct Sum<'a> {
     /// Root mean square and largest error at the sampled targets.
     error: [f64; 2],
     attempts: usize,
-    /// Cells on cells or targets on meshes, and pairs.
-    work: [u64; 2],
+    work: Work,
 }
 
 /// Sums by cells; or the attempts made before another sum was the cheaper one, which takes `dearest` pairs a target
@@ -157,7 +158,7 @@ fn sum<'a>(
     soft.aim(targets);
     for (made, part) in PARTS.into_iter().enumerate() {
         let work = soft.pair(part);
-        let cost = cost([work.far, work.near], soft.points(), targets.len());
+        let cost = cost(work, soft.points(), targets.len());
         if dearest.is_some_and(|pairs| cost >= pairs as u64 * targets.len() as u64) {
             return Err(made); // a stricter one costs more still
         }
@@ -169,29 +170,31 @@ fn sum<'a>(
                 values: soft.sums(),
                 error,
                 attempts: made + 1,
-                work: [work.far, work.near],
+                work,
             });
         }
     }
     Err(PARTS.len())
 }
 
-/// Sums by meshes; None where they do not serve these targets, or with an error above the tolerance.
+/// Sums by meshes; or the attempts made: none where they do not serve these targets, one with an error above the
+/// tolerance.
 fn mesh_sum<'a>(
     meshes: &'a mut Multilevel,
     check: &Check,
     targets: &Points,
     tolerance: f64,
-) -> Option<Sum<'a>> {
-    let (values, work) = meshes.sum(targets)?;
+) -> Result<Sum<'a>, usize> {
+    let (values, work) = meshes.sum(targets).ok_or(0_usize)?;
     let error = error(check, values);
     let is_finite = values.iter().flatten().all(|v| v.is_finite());
-    (is_finite && error[0] <= tolerance).then_some(Sum {
+    let sum = Sum {
         values,
         error,
         attempts: 1,
-        work: [work.far, work.near],
-    })
+        work,
+    };
+    (is_finite && error[0] <= tolerance).then_some(sum).ok_or(1)
 }
 
 /// Root mean square and largest error of velocities and vorticities.
@@ -206,7 +209,7 @@ fn error(check: &Check, sums: &[[f64; 6]]) -> [f64; 2] {
 }
 
 /// What cells cost, in pairs of the sum in single precision.
-fn cost([far, near]: [u64; 2], points: usize, targets: usize) -> u64 {
+fn cost(Work { far, near }: Work, points: usize, targets: usize) -> u64 {
     NEAR * near / 10 + points as u64 * (FAR * far + READ * targets as u64)
 }
 

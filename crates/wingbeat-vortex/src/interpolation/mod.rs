@@ -32,6 +32,7 @@ use crate::direct::packed::Packed;
 use crate::direct::single::Single;
 use crate::quadrature::gauss_legendre;
 use crate::sources::{Network, Points};
+use crate::work::Work;
 use boxes::{Boxes, Item, Shape};
 use fearless_simd::Level;
 use glam::DVec3;
@@ -76,15 +77,6 @@ impl Fineness {
             per_softening: self.ratio * self.ratio / self.softening_ratio,
         }
     }
-}
-
-/// Work of a sum.
-#[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Work {
-    /// Grids on grids.
-    pub far: u64,
-    /// Pairs of filament and target.
-    pub near: u64,
 }
 
 /// Sources and targets in cells.

@@ -37,6 +37,7 @@ use crate::direct::single::{CLUSTER, Single};
 use crate::direct::sum::sum_both;
 use crate::quadrature::gauss_legendre;
 use crate::sources::{Network, Points};
+use crate::work::Work;
 use fearless_simd::{Level, dispatch};
 use glam::DVec3;
 use mesh::{Mesh, Source, Spreading};
@@ -60,15 +61,6 @@ struct Domain {
     high: [f64; 3],
     /// Number of Gaussians.
     count: usize,
-}
-
-/// Work of a sum.
-#[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Work {
-    /// Meshes read at targets.
-    pub far: u64,
-    /// Pairs of narrow filament and narrow target.
-    pub near: u64,
 }
 
 /// Sources on meshes, and what targets hear of them.

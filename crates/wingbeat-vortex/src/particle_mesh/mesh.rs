@@ -43,7 +43,7 @@ type Node = [f32; 4];
 pub(crate) struct Mesh {
     /// Corner of the box \[m\].
     origin: DVec3,
-    levels: Vec<Level>,
+    layers: Vec<Layer>,
 }
 
 impl Mesh {
@@ -59,29 +59,29 @@ impl Mesh {
     pub fn load(&mut self, widths: &[WidthLevel], [low, high]: [DVec3; 2], spacing: f64) {
         self.origin = low;
         let mut cells = cells(spacing * widths[0].width, [low, high]);
-        self.levels.truncate(widths.len());
-        self.levels.resize_with(widths.len(), Level::default);
-        for (level, WidthLevel { width, blobs }) in self.levels.iter_mut().zip(widths) {
-            level.fit(spacing, *width, cells);
-            level.spread(blobs, low);
-            level.convolve(!blobs.is_empty());
+        self.layers.truncate(widths.len());
+        self.layers.resize_with(widths.len(), Layer::default);
+        for (layer, WidthLevel { width, blobs }) in self.layers.iter_mut().zip(widths) {
+            layer.fit(spacing, *width, cells);
+            layer.spread(blobs, low);
+            layer.convolve(!blobs.is_empty());
             cells = cells.map(|c| c.div_ceil(2));
         }
-        for k in (1..self.levels.len()).rev() {
-            let (fine, coarse) = self.levels.split_at_mut(k);
+        for k in (1..self.layers.len()).rev() {
+            let (fine, coarse) = self.layers.split_at_mut(k);
             fine[k - 1].add_coarse(&coarse[0]);
         }
     }
 
     /// Velocity \[m/s\] at a place inside the box \[m\].
     pub fn velocity(&self, x: DVec3) -> DVec3 {
-        let level = &self.levels[0];
-        let (base, w) = level.place(x - self.origin);
+        let layer = &self.layers[0];
+        let (base, w) = layer.place(x - self.origin);
         let mut sum = [0.0; 4];
         for (k, wz) in w[2].iter().enumerate() {
             for (j, wy) in w[1].iter().enumerate() {
-                let row = level.index([base[0], base[1] + j, base[2] + k]);
-                let row = &level.nodes[row..row + ORDER];
+                let row = layer.index([base[0], base[1] + j, base[2] + k]);
+                let row = &layer.nodes[row..row + ORDER];
                 let across = wz * wy;
                 for (node, wx) in row.iter().zip(w[0]) {
                     let w = across * wx;
@@ -104,7 +104,7 @@ fn cells(spacing: f64, [low, high]: [DVec3; 2]) -> [usize; 3] {
 
 /// One mesh.
 #[derive(Clone, Debug, Default)]
-struct Level {
+struct Layer {
     /// Distance of the nodes \[m\].
     spacing: f64,
     /// Nodes along each axis.
@@ -121,7 +121,7 @@ struct Level {
     carried: Vec<Node>,
 }
 
-impl Level {
+impl Layer {
     fn fit(&mut self, spacing: f64, width: f64, cells: [usize; 3]) {
         self.spacing = spacing * width;
         self.size = cells.map(|c| c + 1 + 2 * MARGIN);
@@ -383,7 +383,6 @@ impl Kernel {
 
     fn tabulate(&mut self) {
         let half = self.padded.map(|m| m / 2 + 1);
-        let index = |[i, j, k]: [usize; 3]| k + half[2] * (j + half[1] * i);
         let count: usize = half.iter().product();
         let width = self.width;
         let mut table = vec![[0.0; 3]; count];
@@ -410,26 +409,24 @@ impl Kernel {
                 ]
             };
             let waves: Vec<[f64; 2]> = (0..n * n).map(|k| waves(k / n, k % n)).collect();
+            let inner: usize = half[axis + 1..].iter().product();
             let mut next = vec![[0.0; 3]; count];
-            let from = &table;
-            next.par_chunks_mut(half[1] * half[2])
-                .enumerate()
-                .for_each(|(i, plane)| {
-                    for (at, value) in plane.iter_mut().enumerate() {
-                        let mut place = [i, at / half[2], at % half[2]];
-                        let q = place[axis];
-                        let inverse = 1.0 / transfer(std::f64::consts::TAU * q as f64 / m as f64);
-                        let mut sum = [0.0; 3];
-                        for (r, [sine, cosine]) in waves[q * n..(q + 1) * n].iter().enumerate() {
-                            place[axis] = r;
-                            let x = &from[index(place)];
-                            for c in 0..3 {
-                                sum[c] += x[c] * if c == axis { sine } else { cosine };
-                            }
+            let lines = next.par_chunks_mut(inner).enumerate();
+            lines.for_each(|(line, sums)| {
+                let (outer, q) = (line / n, line % n);
+                let inverse = 1.0 / transfer(std::f64::consts::TAU * q as f64 / m as f64);
+                let from = table[outer * n * inner..].chunks_exact(inner);
+                for (from, [sine, cosine]) in from.zip(&waves[q * n..(q + 1) * n]) {
+                    let wave: [_; 3] = from_fn(|c| if c == axis { sine } else { cosine });
+                    for (sum, x) in sums.iter_mut().zip(from) {
+                        for c in 0..3 {
+                            sum[c] += x[c] * wave[c];
                         }
-                        *value = sum.map(|s| s * inverse);
                     }
-                });
+                }
+                sums.iter_mut()
+                    .for_each(|sum| *sum = sum.map(|s| s * inverse));
+            });
             table = next;
         }
         self.octant.clear();

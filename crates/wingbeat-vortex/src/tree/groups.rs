@@ -4,6 +4,7 @@ use crate::direct::block::{Block, Targets, load, store};
 use crate::direct::lanes::{add_clusters, add_patches};
 use crate::sources::Points;
 use crate::tree::cells::{Cells, Item, half_fade, split};
+use crate::work::Work;
 use fearless_simd::{Simd, dispatch, prelude::*};
 use glam::DVec3;
 use rayon::prelude::*;
@@ -30,28 +31,6 @@ pub(crate) struct Groups {
     place: Vec<u32>,
     /// Half the squared core radius of each target \[m2\]; empty: all are points.
     softening: Vec<f64>,
-}
-
-/// Work done for a group.
-#[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Work {
-    /// Cells evaluated by expansion, times targets.
-    pub far: u64,
-    /// Edges summed, times targets.
-    pub near: u64,
-    /// Targets.
-    pub targets: u64,
-}
-
-impl std::ops::Add for Work {
-    type Output = Self;
-    fn add(self, other: Self) -> Self {
-        Self {
-            far: self.far + other.far,
-            near: self.near + other.near,
-            targets: self.targets + other.targets,
-        }
-    }
 }
 
 impl Groups {
@@ -218,7 +197,6 @@ impl<'a> Walk<'a> {
         self.visit(0);
         self.sum_far();
         self.sum_near();
-        self.work.targets = self.count as u64;
         (self.sum, self.work)
     }
 

@@ -3,7 +3,7 @@
 use crate::{bits, error};
 use wingbeat_vortex::{
     CoreModel, DVec3, FastSettings, FastSum, InstructionSet, MESH_TOLERANCE, Method, Network,
-    Points, Report,
+    Points, Report, Tally,
 };
 
 const MODEL: CoreModel = CoreModel::Algebraic {
@@ -202,6 +202,8 @@ fn exact_single_precision_where_meshes_do_not_keep_the_tolerance() {
     assert_eq!(velocity(&mut mesh, &at).1.method, Method::Mesh);
     let [by_mesh, by_single, exact] = [&mut mesh, &mut single, &mut direct].map(|s| both(s, &at));
     assert!(by_mesh == by_single, "the same bits");
+    let [checked, discarded] = [2, 1];
+    assert_eq!(mesh.tally(), Tally { checked, discarded });
     let rms = error(&by_single[1], &exact[1]).0;
     println!("{rms:e}");
     assert!(0.0 < rms && rms < MESH_TOLERANCE, "{rms:e}");

@@ -60,6 +60,14 @@ pub(crate) fn show(args: &ShowArgs) -> Result<(), Failure> {
             manifest.writing_time_s,
             manifest.frames
         );
+        if manifest.discarded_sums > 0 {
+            line!(
+                report,
+                "of {} sums over wakes {} were made in vain: above air.summation_tolerance, so that slower ones took over",
+                manifest.checked_sums + manifest.discarded_sums,
+                manifest.discarded_sums
+            );
+        }
         report.value("summary", json!(summary));
         report.value("manifest", json!(manifest));
         Ok(())
