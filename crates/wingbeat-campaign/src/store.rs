@@ -73,9 +73,9 @@ impl Store {
         let root = root.to_owned();
         // Others that begin here at the same time are about to put it there.
         let is_half = |name: &str| name.starts_with(file) && name.ends_with(".part");
-        let is_ours = |e: &fs::DirEntry| e.file_name().to_str().is_some_and(is_half);
+        let is_own_half = |e: &fs::DirEntry| e.file_name().to_str().is_some_and(is_half);
         let is_empty =
-            fs::read_dir(&root).map_or(true, |d| d.flatten().all(|entry| is_ours(&entry)));
+            fs::read_dir(&root).map_or(true, |d| d.flatten().all(|entry| is_own_half(&entry)));
         match is_empty || root.join(file).is_file() {
             true => Ok(Self { root, file }),
             false => Err(IoError::Exists { path: root, remedy }),
