@@ -27,7 +27,7 @@ impl Lattice {
         if let Some(far) = settings.max_distance {
             let is_far = |r: usize| {
                 let mut row = (0..=sheet.columns).map(|c| sheet.node(r, c));
-                row.all(|x| self.from_edge(k, x, (state, dt)) > far)
+                row.all(|x| self.way_from_edge(k, x, (state, dt)) > far)
             };
             let farthest = (0..before).rev().find(|&r| is_far(r));
             keep = keep.min(farthest.map_or(before, |r| before - 1 - r));
@@ -47,7 +47,7 @@ impl Lattice {
 
     /// Distance of `x` from the edge that sheet `k` leaves [m], where it is at the end of the step by its velocity, as
     /// the nodes of the wake are.
-    fn from_edge(&self, k: usize, x: DVec3, (state, dt): (&AirState, f64)) -> f64 {
+    fn way_from_edge(&self, k: usize, x: DVec3, (state, dt): (&AirState, f64)) -> f64 {
         let at = |n: usize| state.position[n] + dt * state.velocity[n];
         let parts = self.sheets()[k].nodes.windows(2);
         let distances = parts.map(|ends| distance_to_segment(x, at(ends[0]), at(ends[1])));
@@ -80,7 +80,7 @@ impl Lattice {
         account.impulse.converted = free_rings(sheet) + before - account.free;
         let dropped_particles = sheet.particles.retain(|x, shed| {
             age.is_none_or(|age| state.time - shed <= age)
-                && far.is_none_or(|far| self.from_edge(k, x, (state, dt)) <= far)
+                && far.is_none_or(|far| self.way_from_edge(k, x, (state, dt)) <= far)
         });
         account.impulse.cut = before - sheet.particles.impulse();
         account.free = free_rings(sheet) + sheet.particles.impulse();

@@ -35,6 +35,7 @@ pub fn derivative_case(
     let mut raw = case.raw.clone();
     raw.name = Some(format!("{}-averaged", case.name));
     raw.control = None; // nothing steers a table of derivatives
+    raw.output.frames_every = 0; // nor has it wakes
     // Bodies, joints and what acts between them have become one rigid body.
     raw.wing.clear();
     raw.segment.clear();
