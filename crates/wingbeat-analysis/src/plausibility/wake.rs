@@ -53,7 +53,10 @@ pub fn kept_wake(setup: &FlightSetup) -> Option<KeptWake> {
     let cut = wings.filter_map(|(w, wing)| {
         let revolution = Revolution::of(setup, w);
         let speed = revolution.map_or(0.0, |r| r.tip_speed()).max(wing.speed);
-        let (time, key) = cuts.time_behind(speed)?;
+        // Wakes of wings that beat in place stay: what is cut a wing length away is as if it were cut after a wingbeat.
+        let beats = (setup.time.period).filter(|_| revolution.is_none() && wing.tip_speed > 0.0);
+        let slow = beats.map_or(speed, |p| wing.report.length / p);
+        let (time, key) = cuts.time_behind(slow.max(estimate.flight_speed).min(speed))?;
         let is_cut = speed > 0.0 && time < flown;
         is_cut.then_some(CutWake {
             w,
@@ -121,8 +124,8 @@ impl Cut {
         }
     }
 
-    /// Time for which a row behind a wing of that `speed` [m/s] is kept \[s\], and the key that cuts it with its
-    /// value.
+    /// Time for which a row that goes away from its wing with that `speed` [m/s] is kept \[s\], and the key that cuts it
+    /// with its value.
     fn time_behind(&self, speed: f64) -> Option<(f64, String)> {
         let of_rows =
             (self.rows).map(|n| (n as f64 * self.step, format!("air.max_wake_rows = {n}")));

@@ -27,7 +27,7 @@ impl Value {
         if let Ok(n) = cell.parse::<i64>() {
             return Some(Self::Whole(n));
         }
-        if let Ok(truth) = cell.parse::<bool>() {
+        if let Ok(truth) = cell.to_lowercase().parse::<bool>() {
             return Self::of(&toml::Value::Boolean(truth));
         }
         match cell.parse::<f64>() {

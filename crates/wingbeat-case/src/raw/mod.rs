@@ -254,7 +254,8 @@ pub struct OutputCase {
     /// Change it to false in studies of many flights.
     #[default = true]
     pub page: bool,
-    /// Save the state for `wingbeat resume` every so many steps; 0: not by steps.
+    /// Save the state for `wingbeat resume` every so many steps; 0: not by steps. Flights in the air of another program
+    /// (`air.model` = `external`) have no states, whatever this and the two that follow say.
     ///
     /// Change it to have states at known steps.
     pub checkpoint_every: usize,

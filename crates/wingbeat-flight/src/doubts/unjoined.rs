@@ -146,7 +146,7 @@ impl FlightSetup {
         let remedy = match self.may_be_joined(pair) {
             true => "join them (joined = true of the wing), or move the hinges apart (hinge_m)",
             false => {
-                "let the roots lie on each other all along, where the lattice closes them by itself (the same hinge_m and chord; flapping keeps them there, feathering and deviation part them), or move the hinges apart (hinge_m)"
+                "let the roots lie on each other all along, where the lattice closes them by itself (the same hinge_m, chord and panels along it; flapping keeps them there, feathering and deviation part them), or move the hinges apart (hinge_m)"
             }
         };
         format!(

@@ -302,15 +302,15 @@ fn balances(
     };
     // Through samples that scatter wings beat with the noise, which smaller steps follow.
     let scattered = "the samples of wing angles scatter, which smaller steps do not mend";
-    let motion = match (is_free_and_elastic_by_momenta(setup), scatters) {
+    let motion = match scatters {
         _ if setup.excited_torsion().is_some() => {
             "the air excites the torsion of the wings, which smaller steps do not mend"
         }
-        (true, _) => {
-            "take smaller steps, or dynamics.formulation = \"euler\", before trusting the motion"
+        _ if is_free_and_elastic_by_momenta(setup) && summary.energy_residual_relative > OPEN => {
+            "take smaller steps, or of heavy wings dynamics.formulation = \"euler\", before trusting the motion"
         }
-        (false, true) => scattered,
-        (false, false) => "take smaller steps before trusting the motion",
+        true => scattered,
+        false => "take smaller steps before trusting the motion",
     };
     let reaction = match scatters {
         true => scattered,

@@ -384,7 +384,7 @@ fn exact_points_of_a_table_are_flown() {
         dir,
         "case = \"fruit-fly-blade\"\nkeep = [\"power_watt\", \"summary.steps\"]\ntable = \"points.csv\"\n[set]\n\"time.beats\" = 1\n",
     );
-    let table = "time.steps_per_beat,dynamics.formulation,motion.frequency_hz,air.buoyancy\n40,momentum,200.5,true\n60,quaternion,190,false\n";
+    let table = "time.steps_per_beat,dynamics.formulation,motion.frequency_hz,air.buoyancy\n40,momentum,200.5,true\n60,quaternion,190,False\n";
     fs::write(dir.join("points.csv"), table).unwrap();
     flown(dir, &["campaign", "run", "c.toml", "--out", "r", "--quiet"]);
     merged(dir, "r");

@@ -92,7 +92,7 @@ pub(super) const WAKE: &[HistoryQuantity] = &[
     scalar("wake_rings", Unit::Count, "rings of the wakes", |r, _, _| Count(&mut r.wake_rings)),
     scalar("wake_particles", Unit::Count, "vortex particles of the wakes",
         |r, _, _| Count(&mut r.wake_particles)),
-    scalar("regularised", Unit::Count, "times a near-singular velocity was regularised",
+    scalar("regularised", Unit::Count, "times a near-singular velocity was regularised; with air.mirror on the half computed, as the two that follow",
         |r, _, _| Count(&mut r.regularised)).fold(Sum),
     scalar("limited", Unit::Count,
         "ways of wake nodes (air.max_displacement_m) and strengths of particles that were limited, and leading edges that shed what they had too much: all among the regularised",
