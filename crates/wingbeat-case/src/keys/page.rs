@@ -21,7 +21,7 @@ that editors complete and check keys by, a file beside the case that `wingbeat n
 `wingbeat schema > wingbeat.schema.json` writes; nothing is fetched. Every key can also be set on the command line: `--set time.beats=3`. A key that
 is unknown, out of its range, given twice in two units, or without effect beside the others is
 refused with its line in the file. Where `--set air.model=...` chooses another model of the air, the
-settings of the case's own model stand by unused.
+settings of the case's own model are kept but not used.
 
 Where several paths stand above a table, it may stand at each of them. NAME is a name of your choice. Where the
 last column is empty, give what was measured.

@@ -64,7 +64,7 @@ pub struct AirCase {
     /// The flight is mirror-symmetric: the air is computed on one half. Lateral motion cannot
     /// grow; a motion, a stream, a gust, a shear or a ground that is not symmetric is refused.
     ///
-    /// Change it to true for symmetric flight: it costs half as much.
+    /// Change it to true for symmetric flight: it costs about half as much.
     #[schemars(extend("with" = LATTICE))]
     pub mirror: bool,
     /// Edges of the wings that shed wakes.
@@ -84,7 +84,7 @@ pub struct AirCase {
     /// Core of the vortex filaments in the wakes: a physical input of hover. Default:
     /// algebraic, from 0.07 mean chords on, which the radius is where a table gives the viscosity alone.
     ///
-    /// Change it by a factor of two both ways to see what hangs on it; for the drag of attached wings in a
+    /// Change it by a factor of two both ways to see what depends on it; for the drag of attached wings in a
     /// stream to 0.01 chords, with `wake_overlap_slope` = 0.03 (docs/lattice-settings.md,
     /// "Induced drag of attached wings").
     #[default(LambOseenCase::chords(0.07))]

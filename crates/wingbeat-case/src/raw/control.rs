@@ -10,11 +10,11 @@ use super::ExternalCase;
 
 /// Keys of any controller.
 const ANY: &str = "control.controller = regulator | stabiliser | external";
-/// Keys of controllers that are laid out about a trimmed flight.
-const LAID_OUT: &str = "control.controller = regulator | stabiliser";
+/// Keys of controllers that are designed about a trimmed flight.
+const DESIGNED: &str = "control.controller = regulator | stabiliser";
 
 /// Feedback: once or several times per wingbeat a controller sees the flyer and commands changes of the
-/// strokes. It acts from the release on. `regulator` and `stabiliser` are laid out about the trimmed flight of
+/// strokes. It acts from the release on. `regulator` and `stabiliser` are designed about the trimmed flight of
 /// the animal in blade elements when the flight is built; see docs/control.md.
 #[derive(Clone, Debug, PartialEq, SmartDefault, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
@@ -29,17 +29,17 @@ pub struct ControlCase {
     ///
     /// Change it to `start` where the case is trimmed already, by `wingbeat trim` in its own air.
     #[default(TargetCase::Trim)]
-    #[schemars(extend("with" = LAID_OUT))]
+    #[schemars(extend("with" = DESIGNED))]
     pub hold: TargetCase,
     /// Mean velocity to fly with along n1, with `hold` = `start` along the heading at the release.
     ///
     /// Change it for forward flight.
-    #[schemars(extend("with" = LAID_OUT, "exclusiveMinimum" = -SPEED_OF_SOUND, "exclusiveMaximum" = SPEED_OF_SOUND))]
+    #[schemars(extend("with" = DESIGNED, "exclusiveMinimum" = -SPEED_OF_SOUND, "exclusiveMaximum" = SPEED_OF_SOUND))]
     pub forward_m_s: f64,
     /// Mean velocity to fly with upwards, along -n3.
     ///
     /// Change it to climb or to sink.
-    #[schemars(extend("with" = LAID_OUT, "exclusiveMinimum" = -SPEED_OF_SOUND, "exclusiveMaximum" = SPEED_OF_SOUND))]
+    #[schemars(extend("with" = DESIGNED, "exclusiveMinimum" = -SPEED_OF_SOUND, "exclusiveMaximum" = SPEED_OF_SOUND))]
     pub climb_m_s: f64,
     /// Looks in a wingbeat, at equal times: a number that divides its time steps and leaves four or more between
     /// looks.
@@ -58,7 +58,7 @@ pub struct ControlCase {
     /// Change it for muscles and motors that take wingbeats to follow.
     #[schemars(range(min = 0, max = 100), extend("with" = ANY))]
     pub lag_beats: f64,
-    /// Wingbeats from one look to the next; between them the command is kept. Gains are laid out for
+    /// Wingbeats from one look to the next; between them the command is kept. Gains are designed for
     /// a look every wingbeat.
     ///
     /// Change it to see how rarely a flyer may look.

@@ -44,13 +44,13 @@ pub struct CutOffCase {
 pub struct RadiusCase {
     /// Core radius.
     ///
-    /// Change it by a factor of two both ways to see what hangs on it.
+    /// Change it by a factor of two both ways to see what depends on it.
     #[schemars(range(min = 0))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub radius_m: Option<f64>,
     /// Core radius in mean chords of all wings.
     ///
-    /// Change it by a factor of two both ways to see what hangs on it.
+    /// Change it by a factor of two both ways to see what depends on it.
     #[schemars(range(min = 0), extend("or" = "radius_m"))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub radius_chords: Option<f64>,
@@ -62,13 +62,13 @@ pub struct RadiusCase {
 pub struct LambOseenCase {
     /// Core radius at age zero.
     ///
-    /// Change it by a factor of two both ways to see what hangs on it.
+    /// Change it by a factor of two both ways to see what depends on it.
     #[schemars(range(min = 0))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub radius_m: Option<f64>,
     /// Core radius in mean chords of all wings.
     ///
-    /// Change it by a factor of two both ways to see what hangs on it.
+    /// Change it by a factor of two both ways to see what depends on it.
     #[schemars(range(min = 0), extend("or" = "radius_m"))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub radius_chords: Option<f64>,

@@ -66,9 +66,9 @@ pub struct SurfaceCase {
     /// Change it to what was measured.
     #[schemars(length(min = 3))]
     pub nodes_m: Vec<Vec<Vec<[f64; 3]>>>,
-    /// Harmonics of the series: two neighbouring phases may be less than 1 / (2 harmonics) wingbeats apart.
+    /// Harmonics of the series: two neighbouring phases must be less than 1 / (2 harmonics) wingbeats apart.
     ///
-    /// Change it to see what hangs on the fastest part of the motion.
+    /// Change it to see what depends on the fastest part of the motion.
     #[schemars(range(min = 1))]
     #[default = 4]
     #[serde(default = "harmonics")]

@@ -199,7 +199,7 @@ pub struct DynamicsCase {
     /// Integrator. Default: `hamming` with air, `bdf` where joints leave something free in a vortex lattice or
     /// beside elastic wings, `order_eight` without air and elastic wings. A wake needs `hamming` or `bdf`.
     ///
-    /// Change it to see what hangs on the method; to `bdf` where forces alternate from step to step.
+    /// Change it to see what depends on the method; to `bdf` where forces alternate from step to step.
     #[serde(skip_serializing_if = "Open::is_open")]
     pub integrator: Open<IntegratorCase>,
     /// Error per step of `order_eight`, relative to natural sizes.

@@ -177,13 +177,13 @@ pub struct AnimalCase {
 pub struct TimeCase {
     /// Steps per wingbeat. Default: 40, if `step_s` is left out.
     ///
-    /// Change it to 60 or 80 to see what hangs on the step.
+    /// Change it to 60 or 80 to see what depends on the step.
     #[schemars(range(min = 4))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub steps_per_beat: Option<usize>,
     /// Wingbeats to fly. Default: 5, if `steps` is left out.
     ///
-    /// Change it for longer flights; in the lattice the cost grows with the square.
+    /// Change it for longer flights; in the lattice the cost of a beat grows nearly with the square of its number.
     #[schemars(extend("exclusiveMinimum" = 0))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub beats: Option<f64>,

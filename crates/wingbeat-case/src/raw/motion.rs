@@ -367,7 +367,7 @@ pub struct TableCase {
     /// (factor -1, offset 90).
     #[serde(skip_serializing_if = "Option::is_none")]
     pub offset_deg: Option<f64>,
-    /// Harmonics of a Fourier series fitted to the samples by least squares; two neighbouring phases may be
+    /// Harmonics of a Fourier series fitted to the samples by least squares; two neighbouring phases must be
     /// less than 1 / (2 harmonics) wingbeats apart, phases may repeat or go on over several beats, which are
     /// folded into one, and the beat need not close. Left out: the spline, which goes through every sample.
     ///

@@ -62,7 +62,7 @@ pub struct BeamCase {
     pub axis_fraction: f64,
     /// Elements along the span, all of one length. Left out: 10.
     ///
-    /// Change it to see what hangs on it.
+    /// Change it to see what depends on it.
     #[schemars(range(min = 1, max = 400), extend("or" = "stations"))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub elements: Option<usize>,

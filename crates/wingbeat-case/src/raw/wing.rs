@@ -100,13 +100,13 @@ pub struct WingCase {
 pub struct WingMeshCase {
     /// Panels along the chord.
     ///
-    /// Change it to see what hangs on the mesh; the step goes with it.
+    /// Change it to see what depends on the mesh; the step goes with it.
     #[default = 4]
     #[schemars(range(min = 1))]
     pub chordwise: usize,
     /// Panels along the span.
     ///
-    /// Change it to see what hangs on the mesh.
+    /// Change it to see what depends on the mesh.
     #[default = 10]
     #[schemars(range(min = 1))]
     pub spanwise: usize,

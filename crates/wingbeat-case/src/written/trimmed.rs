@@ -366,7 +366,7 @@ fn with_start(
     let mut without = "";
     if lacks_feedback(case, trimmed) {
         raw.control = None;
-        without = "# Without its feedback, which is laid out for flights that are alike on the right and on the left.\n";
+        without = "# Without its feedback, which is designed for flights that are alike on the right and on the left.\n";
     }
     let body = written(&raw);
     format!(

@@ -107,7 +107,7 @@ impl Summary {
         if !no_air {
             let _ = writeln!(
                 out,
-                "At the end lift is {} and thrust {}.",
+                "At the last instant lift is {} and thrust {}.",
                 alone(self.final_lift_newton, "N"),
                 alone(self.final_thrust_newton, "N")
             );

@@ -64,7 +64,7 @@ pub(crate) enum Command {
     /// Trim, then give derivatives, modes averaged over the beat, and Floquet's modes.
     Stability(analyse::stability::StabilityArgs),
     /// Trim, then give the control derivatives of every wing.
-    #[command(mut_arg("case", |case| case.help(analyse::trimming::BLADE_CASE)))]
+    #[command(mut_arg("case", |case| case.help(analyse::trimming::BLADE_OR_TOWED_CASE)))]
     Derivatives(analyse::trimming::Trimming),
     /// Trim, then give the mechanical power of flapping.
     Power(analyse::power::PowerArgs),
@@ -75,6 +75,7 @@ pub(crate) enum Command {
     Flutter(analyse::flutter::FlutterArgs),
     /// Trim, disturb, and fly under feedback.
     #[command(mut_arg("case", |case| case.help(analyse::trimming::BLADE_CASE)))]
+    #[command(mut_arg("hold", |hold| hold.hide(true)), mut_arg("tolerance", |tolerance| tolerance.hide(true)))]
     Stabilise(analyse::stabilise::StabiliseArgs),
     /// The velocity of the air at points, on a line or on a plane, from a run.
     ///

@@ -61,7 +61,7 @@ pub(crate) fn run(args: &TrimArgs) -> Result<(), Failure> {
             file.write(&text)?;
             report.wrote(&file);
             if is_without {
-                line!(report, "without its feedback (control), which is laid out for flights that are alike on the right and on the left");
+                line!(report, "without its feedback (control), which is designed for flights that are alike on the right and on the left");
             }
         }
         Ok(())

@@ -21,9 +21,12 @@ use crate::command::progress::watch::watched;
 /// Wingbeats of the hold at most.
 const MAX_HELD: usize = 100;
 
-/// What the analyses of averaged models take.
+/// What feedback on averaged models takes.
 pub(crate) const BLADE_CASE: &str =
     "Case file or preset in blade elements; - is the standard input";
+
+/// What control derivatives take.
+pub(crate) const BLADE_OR_TOWED_CASE: &str = "Case file or preset in blade elements, gliders in the vortex lattice too; - is the standard input";
 
 /// What the analyses of any model take.
 const ANY_CASE: &str =
@@ -38,12 +41,9 @@ const HEADING: &str = "Trim";
 pub(crate) struct Trimming {
     #[command(flatten)]
     case: CaseArgs,
-    /// What trim may choose: three things [default: body_pitch stroke_amplitude stroke_offset; where joints drive all
-    /// wings body_pitch drive_amplitude mass_centre; where nothing beats body_pitch forward climb, and tail_incidence or
-    /// mass_centre for speeds that are given]; six, three of them lateral, in turns, sideslip and of animals that differ
-    /// right and left [default: these, body_roll, stroke_amplitude_difference, stroke_plane_difference]; those beyond for
-    /// least power.
-    #[arg(long, num_args = 3..=UNKNOWNS.len(), value_name = "NAME", value_parser = unknown, help_heading = HEADING)]
+    /// What trim may choose.
+    #[arg(long, num_args = 3..=UNKNOWNS.len(), value_name = "NAME", value_parser = unknown, help_heading = HEADING,
+          help = help_of_unknowns())]
     unknowns: Option<Vec<Unknown>>,
     /// Between what an unknown must lie, e.g. stroke_amplitude=-0.2..0.2 or body_pitch=20..60 (may be repeated):
     /// angles in degrees, relative changes as parts of 1, feathering_lead in wingbeats, mass_centre in wing lengths
@@ -86,6 +86,14 @@ pub(crate) struct Trimming {
 
 /// What to try where the incidences of a glider have no glide that is found.
 const GLIDE_BY_SPEED: &str = "where these incidences have no glide, or none near the speed and pitch of the case, a speed that is given has one more often (--forward): tail_incidence or mass_centre then follow from it";
+
+/// The names of all unknowns and the usual choices.
+fn help_of_unknowns() -> String {
+    let names = UNKNOWNS.map(|(_, name)| name).join(", ");
+    format!(
+        "What trim may choose, three of {names} [default: body_pitch stroke_amplitude stroke_offset; where joints drive all wings body_pitch drive_amplitude mass_centre; where nothing beats body_pitch forward climb]. Turns, sideslip and animals that differ right and left need six, three of them lateral [default: those, body_roll, stroke_amplitude_difference, stroke_plane_difference]; more are for least power"
+    )
+}
 
 /// Trimming failed; the best point found was reported.
 fn not_trimmed() -> Failure {

@@ -167,7 +167,10 @@ fn write_schema(case: &Target, existing: Existing) -> Result<(), Failure> {
 /// `wingbeat presets`.
 pub(crate) fn list(args: &ReportArgs) -> Result<(), Failure> {
     args.deliver([], |report, []| {
-        line!(report, "Presets (wingbeat run NAME, wingbeat new NAME):");
+        line!(
+            report,
+            "Presets (wingbeat run NAME, wingbeat new NAME; Table 1 is that of Roccia et al. 2011):"
+        );
         for preset in presets::PRESETS {
             line!(report, "  {:<27}{}", preset.name, preset.line());
         }

@@ -32,8 +32,8 @@ const DEFAULT_MEMBERS: usize = 8;
 pub(crate) struct EnsembleArgs {
     #[command(flatten)]
     case: CaseArgs,
-    /// Flights; in all but the first the air moves by a millionth of the wings' speed, and noise of the senses
-    /// is another.
+    /// Number of flights; all but the first start in air that moves at a millionth of the wings' speed, each with sensor
+    /// noise of its own.
     #[arg(long, value_name = "N", default_value_t = DEFAULT_MEMBERS,
           value_parser = options::count::<2, MAX_MEMBERS>)]
     members: usize,
