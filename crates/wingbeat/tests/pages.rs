@@ -304,3 +304,163 @@ fn balances_the_battery_of_the_page_on_motors() {
     );
     assert!(page.contains(&sentence), "{sentence}");
 }
+
+/// Rows of a table of a page whose second column is a sum of columns: of each row the names, as [beginning, end].
+fn sums(page: &str, row: &str) -> Vec<[String; 2]> {
+    let line = page.lines().find(|l| l.starts_with(&format!("| {row}")));
+    let names = line.unwrap_or_else(|| panic!("{row}")).split('`');
+    let names = names.skip(1).step_by(2);
+    let parts = names.map(|n| n.split_once("...").unwrap_or((n, "")));
+    parts.map(|(a, b)| [a.to_owned(), b.to_owned()]).collect()
+}
+
+/// Lift, thrust and power of the rows of a history by the sums of the page on results have the means of the summary,
+/// where wings feather on springs, too.
+#[test]
+fn agrees_lift_and_power_over_time_of_the_page_on_results_with_the_means_of_beats() {
+    let page = page("results.md");
+    let scratch = Scratch::new("sums");
+    let dir = &scratch.0;
+    let set = "--set air.model=blade_element --set time.beats=2 --set output.figures=false";
+    run(dir, &format!("wingbeat run robobee {set} --out r"));
+    let history = History::read(&dir.join("r/history.csv")).unwrap();
+    let text = fs::read_to_string(dir.join("r/summary.json")).unwrap();
+    let summary: serde_json::Value = serde_json::from_str(&text).unwrap();
+    let steps = (history.rows() - 1) / 2;
+    let mean = |x: &[f64]| {
+        let inner: f64 = x[steps + 1..2 * steps].iter().sum();
+        (inner + 0.5 * (x[steps] + x[2 * steps])) / steps as f64
+    };
+    let sum = |[begins, ends]: &[String; 2]| {
+        mean(&history.sum(|n| n.starts_with(&begins[..]) && n.ends_with(&ends[..])))
+    };
+    let lift = -sum(&sums(&page, "lift")[0]);
+    let thrust = sum(&sums(&page, "thrust")[0]);
+    let of_power = sums(&page, "power");
+    let (given, passive) = of_power.split_at(3);
+    let power = given.iter().map(sum).sum::<f64>() - sum(&passive[0]);
+    assert!(sum(&passive[0]).abs() > 0.0);
+    // The mean power of a beat is its work, which is not the trapezoidal rule of the powers: 4e-4 at 80 steps.
+    for (key, found, within) in [
+        ("lift_newton", lift, 1e-9 * lift),
+        ("thrust_newton", thrust, 1e-9 * lift),
+        ("power_watt", power, 2e-3 * power),
+    ] {
+        let mean = summary["beats"][1][key].as_f64().unwrap();
+        assert!((found - mean).abs() < within, "{key}: {found} {mean}");
+    }
+}
+
+/// Two wingbeats that are alike, flown as one beat as the page says of wingbeats that differ, have the forces of the
+/// wingbeats one by one.
+#[test]
+fn exact_wingbeats_of_the_page_on_measured_angles_fly_as_one_beat() {
+    let page = page("measured-angles.md");
+    let scratch = Scratch::new("long-beat");
+    let dir = &scratch.0;
+    let csv = blocks(&page, "csv")[0];
+    fs::write(dir.join("tracked.csv"), csv).unwrap();
+    let rows = csv
+        .lines()
+        .filter(|l| l.starts_with(|c: char| c.is_ascii_digit()));
+    // Frame 25 ends the first and begins the second.
+    let second = rows.skip(1).map(|row| {
+        let (frame, angles) = row.split_once(',').unwrap();
+        format!("{},{angles}\n", frame.parse::<usize>().unwrap() + 25)
+    });
+    let both = format!("{}\n{}", csv.trim_end(), second.collect::<String>());
+    fs::write(dir.join("two.csv"), both).unwrap();
+    said(dir, &["new", "fruit-fly-blade", "my-fly.toml"]);
+    let preset = fs::read_to_string(dir.join("my-fly.toml")).unwrap();
+    let preset = preset.replace("data = \"fry-hover\"", "");
+    let tables = blocks(&page, "toml")[0];
+    let long = tables.replace("tracked.csv", "two.csv");
+    let long = long.replace("beats_per_unit = 0.04", "beats_per_unit = 0.02");
+    let long = long.replace("harmonics = 6", "harmonics = 12");
+    let lifts = |name: &str, tables: &str, set: &str| {
+        fs::write(dir.join("my-fly.toml"), format!("{preset}\n{tables}")).unwrap();
+        let set = format!("{set} --set flight.mode=tethered --set output.figures=false");
+        run(dir, &format!("wingbeat run my-fly.toml {set} --out {name}"));
+        let text = fs::read_to_string(dir.join(name).join("summary.json")).unwrap();
+        let summary: serde_json::Value = serde_json::from_str(&text).unwrap();
+        let beats = summary["beats"].as_array().unwrap().clone();
+        let lifts = beats.iter().map(|b| b["lift_newton"].as_f64().unwrap());
+        lifts.collect::<Vec<_>>()
+    };
+    let once = "--set motion.frequency_hz=200 --set time.steps_per_beat=100 --set time.beats=4";
+    let twice = "--set motion.frequency_hz=100 --set time.steps_per_beat=200 --set time.beats=2";
+    let once = lifts("once", tables, once);
+    let twice = lifts("twice", &long, twice);
+    let mean = 0.5 * (once[2] + once[3]);
+    assert!((twice[1] / mean - 1.0).abs() < 1e-9, "{twice:?} {once:?}");
+}
+
+/// The glider of the page on flight mechanics: its commands run, flown it comes to the glide that trim finds, by the
+/// phugoid that stability finds, and the numbers of the page are these.
+#[test]
+fn agrees_the_glider_of_the_page_on_flight_mechanics_with_its_trim() {
+    let page = page("flight-mechanics.md");
+    let scratch = Scratch::new("glider");
+    let dir = &scratch.0;
+    let is_glider = |b: &&&str| b.contains("name = \"glider\"");
+    let files = blocks(&page, "toml");
+    fs::write(
+        dir.join("glider.toml"),
+        files.iter().find(is_glider).unwrap(),
+    )
+    .unwrap();
+    let commands = blocks(&page, "sh");
+    let of_glider: Vec<&str> = (commands.into_iter())
+        .filter(|b| b.contains("glider.toml"))
+        .collect();
+    let [alone, lattice, beating] = of_glider[..] else {
+        panic!("three blocks of commands")
+    };
+    alone.lines().for_each(|l| run(dir, l));
+    run(dir, beating);
+    // Its trim by tows takes minutes here; that the case is one is checked.
+    let trim = lattice.split_once(" --write").unwrap().0;
+    run(dir, &trim.replacen("wingbeat trim", "wingbeat check", 1));
+    let object = |command: &str| -> serde_json::Value {
+        serde_json::from_str(&said(dir, &[command, "glider.toml", "--json"])).unwrap()
+    };
+    let power = object("power");
+    let [forward, climb, lost] =
+        ["forward_m_s", "climb_m_s", "height_lost_watt"].map(|k| power[k].as_f64().unwrap());
+    let stability = object("stability");
+    let modes = stability["floquet_modes"].as_array().unwrap();
+    let phugoid = modes
+        .iter()
+        .find(|m| m["name"] == "stable phugoid")
+        .unwrap();
+    let [growth, rate] =
+        ["growth_per_s", "frequency_rad_per_s"].map(|k| phugoid[k].as_f64().unwrap());
+    let history = History::read(&dir.join("glide/history.csv")).unwrap();
+    let [ahead, sink] = ["n1", "n3"].map(|n| {
+        let momentum = history.column(&format!("momentum_{n}_kg_m_per_s"));
+        momentum.iter().map(|p| p / 0.03).collect::<Vec<f64>>()
+    });
+    // What is left of the phugoid after 40 s, of some 0.7 m/s.
+    let left = 0.7 * (growth * 40.0).exp();
+    let last = sink.len() - 1;
+    assert!((ahead[last] - forward).abs() < 2.0 * left, "{forward}");
+    assert!((sink[last] + climb).abs() < 2.0 * left, "{climb}");
+    let times = history.column("time_s");
+    let tops = (1..last).filter(|&k| sink[k] > sink[k - 1] && sink[k] >= sink[k + 1]);
+    let tops: Vec<[f64; 2]> = tops.map(|k| [times[k], sink[k] + climb]).collect();
+    let [first, fourth] = [tops[1], tops[4]];
+    let period = (fourth[0] - first[0]) / 3.0;
+    let decay = (first[1] / fourth[1]).ln() / (fourth[0] - first[0]);
+    // Rows are 0.02 s apart.
+    assert!((period * rate / std::f64::consts::TAU - 1.0).abs() < 5e-3);
+    assert!((decay / -growth - 1.0).abs() < 1e-2, "{decay} {growth}");
+    for said in [
+        format!("{forward:.3} m/s forward, {:.3} m/s down", -climb),
+        format!("phugoid {growth:.4} 1/s, {rate:.4} rad/s"),
+        format!("{:.1} mW", 1e3 * lost),
+        format!("a period of {period:.2} s"),
+        format!("by {decay:.3} 1/s"),
+    ] {
+        assert!(page.contains(&said), "{said}");
+    }
+}
