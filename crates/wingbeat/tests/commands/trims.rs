@@ -183,3 +183,21 @@ fn behaves_a_turn_is_written_without_feedback() {
     assert!(straight.contains("[control") && !straight.contains("# Without"));
     said(dir, &["check", "straight.toml"]);
 }
+
+/// The help of trim names all unknowns, that of feedback no option that only wakes have.
+#[test]
+fn behaves_help_of_trims_has_what_they_take() {
+    let scratch = Scratch::new("help-of-trims");
+    let dir = &scratch.0;
+    let help = said(dir, &["trim", "--help"]);
+    for (_, name) in wingbeat::analysis::UNKNOWNS {
+        assert!(help.contains(name), "{name}: {help}");
+    }
+    let help = said(dir, &["stabilise", "--help"]);
+    assert!(
+        help.contains("--bound") && !help.contains("--hold"),
+        "{help}"
+    );
+    let help = said(dir, &["derivatives", "--help"]);
+    assert!(help.contains("gliders in the vortex lattice"), "{help}");
+}
