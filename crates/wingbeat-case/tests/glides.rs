@@ -7,7 +7,10 @@ use wingbeat_analysis::{
     Plane, Trim, TrimRequest, Unknown, floquet_of_trim, linear_model, power_of_trim, sweep, trim,
 };
 use wingbeat_case::{LoadedCase, trimmed_case};
-use wingbeat_math::DVec3;
+use wingbeat_flight::Record;
+use wingbeat_math::{DMat3, DVec3, EulerSequence};
+
+use crate::common;
 
 /// A glider of wings and a tail without mass, on a body whose mass centre is at its origin.
 const GLIDER: &str = include_str!("data/glider.toml");
@@ -229,4 +232,36 @@ fn refuses_what_a_glide_has_not() {
         said.contains("let wind and gravity lie in the plane"),
         "{said}"
     );
+}
+
+/// Span and body along n1 and n2 are where angles of wings and body lose two of their digits' meaning, and no attitude.
+#[test]
+fn invariant_recorded_angles_have_the_attitudes_at_any_heading() {
+    let headed = |set: &[&str]| common::fly(case(GLIDER, set).setup);
+    let north = headed(&[
+        "time.steps=100",
+        "wing.right_tail.motion.psi.constant_deg=8",
+    ]);
+    let east = headed(&[
+        "time.steps=100",
+        "wing.right_tail.motion.psi.constant_deg=8",
+        "flight.yaw_deg=90",
+        "flight.velocity_m_s=[0, 6, 0.7]",
+    ]);
+    let attitude = |r: &Record, body: usize| {
+        let eta = DVec3::from_slice(&r.coordinates[6 * body + 3..]);
+        match body {
+            0 => EulerSequence::BODY_231.rotation(eta),
+            _ => EulerSequence::WING_132.rotation(eta),
+        }
+    };
+    let turned = DMat3::from_cols(DVec3::Y, -DVec3::X, DVec3::Z);
+    for (n, e) in north.iter().zip(&east) {
+        for body in 0..5 {
+            let apart = turned * attitude(n, body) - attitude(e, body);
+            assert!(apart.abs_diff_eq(DMat3::ZERO, 1e-6), "{apart}");
+        }
+    }
+    let pitch = |r: &Record| attitude(r, 0).x_axis.z;
+    assert!((pitch(&north[100]) - pitch(&north[0])).abs() > 0.3);
 }

@@ -16,8 +16,7 @@ use crate::interface::memory::{AirMemory, wakes_of};
 use crate::interface::record::{Integral, Record};
 use crate::simulation::turns;
 
-/// Below this |cos theta| Euler angles and their rates are not evaluated but kept: they lose
-/// all their digits there.
+/// Below this |cos theta| the first and the last Euler angle have no digits of their own, only together.
 const EULER_LIMIT: f64 = 1e-6;
 
 /// What balances are counted from, and the angles last recorded (so that they go on without
@@ -276,17 +275,20 @@ fn note_coordinates(bodies: &[Body], motions: &[BodyMotion], ledger: &mut Ledger
         let eta = body.sequence.angles(m.r);
         let regularity = body.sequence.regularity(eta);
         smallest = smallest.min(regularity);
-        if regularity < EULER_LIMIT && !first {
-            continue;
-        }
         let before = DVec3::from_slice(&ledger.coordinates[at + 3..]);
+        let is_singular = regularity < EULER_LIMIT;
+        let eta = match is_singular {
+            true => body.sequence.singular_angles(m.r, before),
+            false => eta,
+        };
         let near = without_jumps(eta, before);
         let eta = if first && near == eta { eta } else { near }; // zeros keep their signs
-        let rates = body.sequence.g(eta).inverse() * m.w;
+        let rates = match is_singular {
+            true => body.sequence.singular_rates(eta, m.w),
+            false => body.sequence.g(eta).inverse() * m.w,
+        };
         eta.write_to_slice(&mut ledger.coordinates[at + 3..]);
-        if rates.is_finite() {
-            rates.write_to_slice(&mut ledger.rates[at + 3..]);
-        }
+        rates.write_to_slice(&mut ledger.rates[at + 3..]);
     }
     smallest
 }

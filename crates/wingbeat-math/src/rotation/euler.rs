@@ -96,6 +96,27 @@ impl EulerSequence {
         DVec3::new(first, middle, last)
     }
 
+    /// Angles of a rotation matrix [rad] where the middle one is +-90 degrees: first and last angle turn about one
+    /// axis there, so the attitude determines only their sum or difference. The first is that of `before`, the last
+    /// has the rest. The attitude is theirs to within cos(eta_1).
+    pub fn singular_angles(&self, r: DMat3, before: DVec3) -> DVec3 {
+        let [i, j, _] = self.axes;
+        let middle = self.angles(r).y;
+        let last = rotation_about(j, -middle) * (rotation_about(i, -before.x) * r);
+        DVec3::new(
+            before.x,
+            middle,
+            (self.parity() * last.col(i)[j]).atan2(last.col(i)[i]),
+        )
+    }
+
+    /// Rates of the angles [rad/s] of which [`Self::singular_angles`] keeps the first, for the angular velocity `w`
+    /// in body components: the part of `w` across both axes is that of no angles.
+    pub fn singular_rates(&self, eta: DVec3, w: DVec3) -> DVec3 {
+        let g = self.g(eta);
+        DVec3::new(0.0, g.y_axis.dot(w), g.z_axis.dot(w))
+    }
+
     /// Cosine of the middle angle: the distance from the singularity, |det G|.
     pub fn regularity(&self, eta: DVec3) -> f64 {
         eta.y.cos().abs()
@@ -112,6 +133,7 @@ impl EulerSequence {
 mod tests {
     use super::*;
     use crate::rotation::untilde;
+    use std::f64::consts::PI;
 
     const BOTH: [EulerSequence; 2] = [EulerSequence::BODY_231, EulerSequence::WING_132];
 
@@ -120,6 +142,24 @@ mod tests {
         for s in BOTH {
             let eta = DVec3::new(2.1, -0.7, -1.3);
             assert!((s.angles(s.rotation(eta)) - eta).length() < 1e-14); // a few roundings
+        }
+    }
+
+    #[test]
+    fn exact_singular_angles_have_the_attitude_and_its_rate() {
+        let (h, kept) = (1e-6, 0.4);
+        for s in BOTH {
+            for middle in [0.5 * PI, -0.5 * PI] {
+                let eta = |last: f64| DVec3::new(kept, middle, last);
+                // The same attitude by a first angle that turned by as much as the last one is short of it.
+                let sign = s.g(eta(0.0)).x_axis.dot(s.g(eta(0.0)).z_axis);
+                let r = s.rotation(DVec3::new(kept + 0.9, middle, -2.0 - 0.9 * sign));
+                let found = s.singular_angles(r, eta(7.0));
+                assert!((found - eta(-2.0)).length() < 1e-7); // of the arc sine at 1, root of a rounding
+                let rate = s.singular_rates(found, DVec3::AXES[s.axes[2]]);
+                let later = s.singular_angles(r * rotation_about(s.axes[2], h), found);
+                assert!(((later - found) / h - rate).length() < 1e-8); // a rounding over h
+            }
         }
     }
 
