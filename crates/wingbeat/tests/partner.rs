@@ -210,7 +210,10 @@ fn refuses_programs_that_talk_without_end_or_do_not_listen() {
             "nothing asked for: `0 0 0 0 0 0`",
         ),
     ];
-    for (script, wanted) in talks {
+    // At once: those that are deaf have a second each to end.
+    all_at_once(&talks, |number, (script, wanted)| {
+        let dir = &dir.join(number.to_string());
+        fs::create_dir(dir).unwrap();
         scripted(dir, script, &PATIENCE.to_string());
         let limit = "ulimit -v 4000000; exec \"$0\" \"$@\"";
         let mut command = std::process::Command::new("sh");
@@ -223,7 +226,17 @@ fn refuses_programs_that_talk_without_end_or_do_not_listen() {
         assert!(matches!(out.status.code(), Some(1 | 2)), "{script}: {said}");
         assert!(said.contains(wanted), "{script}: {said}");
         assert!(began.elapsed() < AT_ONCE, "{script}");
-    }
+    });
+}
+
+/// Does this with each of the list and its number, in threads of their own; what fails in one fails.
+fn all_at_once<T: Sync>(list: &[T], of: impl Fn(usize, &T) + Sync) {
+    std::thread::scope(|scope| {
+        for (number, item) in list.iter().enumerate() {
+            let of = &of;
+            scope.spawn(move || of(number, item));
+        }
+    });
 }
 
 /// What a program may take [s] that is not meant to be waited for in vain, on a busy machine too; and within what
@@ -357,7 +370,7 @@ fn refuses_answers_of_a_controller_that_cannot_be_flown() {
             "feathering_lead = 1000000000000000 wingbeats; allowed: from -0.5 to 0.5",
         ),
     ];
-    for (script, wanted) in answers {
+    all_at_once(&answers, |number, (script, wanted)| {
         let command = serde_json::json!(["sh", "-c", format!("read line; {script}")]);
         let began = Instant::now();
         let limit: &[&str] = match wanted.contains("within 2 s") {
@@ -365,7 +378,7 @@ fn refuses_answers_of_a_controller_that_cannot_be_flown() {
             false => &[],
         };
         let more = [&["time.beats=3"], limit].concat();
-        let out = commanded(dir, "r", &command.to_string(), &more);
+        let out = commanded(dir, &format!("r{number}"), &command.to_string(), &more);
         let said = complaint(&out);
         assert!(matches!(out.status.code(), Some(1 | 2)), "{script}: {said}");
         assert!(said.contains(wanted), "{script}: {said}");
@@ -379,8 +392,7 @@ fn refuses_answers_of_a_controller_that_cannot_be_flown() {
             "{script}: {said}"
         );
         assert!(began.elapsed() < AT_ONCE, "{script}");
-        let _ = fs::remove_dir_all(dir.join("r"));
-    }
+    });
     let none = commanded(dir, "r", "[\"no-such-program\"]", &[]);
     let said = complaint(&none);
     assert!(
