@@ -71,7 +71,7 @@ fn refuses_lines_that_nothing_asked_for() {
         ),
         (
             CALM.replacen("esac", "accept) echo error no more;; esac", 1),
-            "no more",
+            "`: no more",
         ),
     ] {
         // Each answer takes a while, in which what was said before is heard; loads that are none of theirs are
@@ -96,7 +96,7 @@ fn refuses_a_line_that_the_end_of_output_cuts_off() {
             "printf '0 0 0 0 0 1.23'; exit",
             "its output ended within a line: `0 0 0 0 0 1.23`",
         ),
-        ("printf 'error no more'; exit", "no more"),
+        ("printf 'error no more'; exit", "`: no more"),
     ] {
         let last = format!("evaluate) echo 0 0 0 0 0 0; echo 0 0 0 0 0 0; {last};");
         let script = CALM.replacen("evaluate)", &last, 1);
@@ -200,7 +200,7 @@ fn refuses_programs_that_talk_without_end_or_do_not_listen() {
         (&asked("echo 0 0 0 0 0"), "expected six numbers"),
         (
             "exec 0<&-; sleep 1; echo error I am deaf; sleep 300",
-            "I am deaf",
+            "`: I am deaf",
         ),
         ("true", "it ended its output: exit status 0"),
         ("exit 3", "it ended its output: exit status 3"),
@@ -348,7 +348,7 @@ fn refuses_answers_of_a_controller_that_cannot_be_flown() {
         (&format!("echo '{nan}'")[..], "JSON has no NaN"),
         (&format!("echo '{key}'")[..], "unknown field `frequency`"),
         ("echo '{}'", "has no \"wings\""),
-        (r#"echo '{"error":"I am lost"}'"#, "I am lost"),
+        (r#"echo '{"error":"I am lost"}'"#, "`: I am lost"),
         (r#"echo '{"error":""}'"#, "an error without words"),
         (
             "sleep 300",
