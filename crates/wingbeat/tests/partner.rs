@@ -71,7 +71,7 @@ fn refuses_lines_that_nothing_asked_for() {
         ),
         (
             CALM.replacen("esac", "accept) echo error no more;; esac", 1),
-            "no more",
+            "`: no more",
         ),
     ] {
         // Each answer takes a while, in which what was said before is heard; loads that are none of theirs are
@@ -96,7 +96,7 @@ fn refuses_a_line_that_the_end_of_output_cuts_off() {
             "printf '0 0 0 0 0 1.23'; exit",
             "its output ended within a line: `0 0 0 0 0 1.23`",
         ),
-        ("printf 'error no more'; exit", "no more"),
+        ("printf 'error no more'; exit", "`: no more"),
     ] {
         let last = format!("evaluate) echo 0 0 0 0 0 0; echo 0 0 0 0 0 0; {last};");
         let script = CALM.replacen("evaluate)", &last, 1);
@@ -200,7 +200,7 @@ fn refuses_programs_that_talk_without_end_or_do_not_listen() {
         (&asked("echo 0 0 0 0 0"), "expected six numbers"),
         (
             "exec 0<&-; sleep 1; echo error I am deaf; sleep 300",
-            "I am deaf",
+            "`: I am deaf",
         ),
         ("true", "it ended its output: exit status 0"),
         ("exit 3", "it ended its output: exit status 3"),
@@ -210,7 +210,10 @@ fn refuses_programs_that_talk_without_end_or_do_not_listen() {
             "nothing asked for: `0 0 0 0 0 0`",
         ),
     ];
-    for (script, wanted) in talks {
+    // At once: those that are deaf have a second each to end.
+    all_at_once(&talks, |number, (script, wanted)| {
+        let dir = &dir.join(number.to_string());
+        fs::create_dir(dir).unwrap();
         scripted(dir, script, &PATIENCE.to_string());
         let limit = "ulimit -v 4000000; exec \"$0\" \"$@\"";
         let mut command = std::process::Command::new("sh");
@@ -223,7 +226,17 @@ fn refuses_programs_that_talk_without_end_or_do_not_listen() {
         assert!(matches!(out.status.code(), Some(1 | 2)), "{script}: {said}");
         assert!(said.contains(wanted), "{script}: {said}");
         assert!(began.elapsed() < AT_ONCE, "{script}");
-    }
+    });
+}
+
+/// Does this with each of the list and its number, in threads of their own; what fails in one fails.
+fn all_at_once<T: Sync>(list: &[T], of: impl Fn(usize, &T) + Sync) {
+    std::thread::scope(|scope| {
+        for (number, item) in list.iter().enumerate() {
+            let of = &of;
+            scope.spawn(move || of(number, item));
+        }
+    });
 }
 
 /// What a program may take [s] that is not meant to be waited for in vain, on a busy machine too; and within what
@@ -335,7 +348,7 @@ fn refuses_answers_of_a_controller_that_cannot_be_flown() {
         (&format!("echo '{nan}'")[..], "JSON has no NaN"),
         (&format!("echo '{key}'")[..], "unknown field `frequency`"),
         ("echo '{}'", "has no \"wings\""),
-        (r#"echo '{"error":"I am lost"}'"#, "I am lost"),
+        (r#"echo '{"error":"I am lost"}'"#, "`: I am lost"),
         (r#"echo '{"error":""}'"#, "an error without words"),
         (
             "sleep 300",
@@ -357,7 +370,7 @@ fn refuses_answers_of_a_controller_that_cannot_be_flown() {
             "feathering_lead = 1000000000000000 wingbeats; allowed: from -0.5 to 0.5",
         ),
     ];
-    for (script, wanted) in answers {
+    all_at_once(&answers, |number, (script, wanted)| {
         let command = serde_json::json!(["sh", "-c", format!("read line; {script}")]);
         let began = Instant::now();
         let limit: &[&str] = match wanted.contains("within 2 s") {
@@ -365,7 +378,7 @@ fn refuses_answers_of_a_controller_that_cannot_be_flown() {
             false => &[],
         };
         let more = [&["time.beats=3"], limit].concat();
-        let out = commanded(dir, "r", &command.to_string(), &more);
+        let out = commanded(dir, &format!("r{number}"), &command.to_string(), &more);
         let said = complaint(&out);
         assert!(matches!(out.status.code(), Some(1 | 2)), "{script}: {said}");
         assert!(said.contains(wanted), "{script}: {said}");
@@ -379,8 +392,7 @@ fn refuses_answers_of_a_controller_that_cannot_be_flown() {
             "{script}: {said}"
         );
         assert!(began.elapsed() < AT_ONCE, "{script}");
-        let _ = fs::remove_dir_all(dir.join("r"));
-    }
+    });
     let none = commanded(dir, "r", "[\"no-such-program\"]", &[]);
     let said = complaint(&none);
     assert!(

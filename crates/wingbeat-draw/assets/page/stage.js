@@ -34,6 +34,7 @@ const orbit = renderer && new THREE.OrbitControls(camera, canvas);
 const sized = []; // shaders that need the size of the stage in pixels
 const GROUND = -Math.max(2.4, 1.9 * REACH);
 let ground = null, room = null;
+const rooms = new Map(); // theme -> what bodies and wings mirror: made once, it takes longer than all other drawing
 if (renderer) {
   renderer.toneMapping = THREE.ACESFilmicToneMapping;
   renderer.toneMappingExposure = 0.95;
@@ -151,7 +152,8 @@ function setView(name) {
 }
 function dressStage() {
   scene.background = skyTexture();
-  scene.environment = room.fromScene(roomScene(), 0.04).texture;
+  if (!rooms.has(theme)) rooms.set(theme, room.fromScene(roomScene(), 0.04).texture);
+  scene.environment = rooms.get(theme);
   scene.environmentIntensity = theme.room;
   const u = ground.material.uniforms;
   u.colour.value.setRGB(...rgb(theme.grid)); u.share.value = theme.gridShare; u.shadow.value = theme.shadow;

@@ -40,8 +40,12 @@ fn behaves_whatever_the_surroundings() {
         }
     }
     for command in COMMANDS {
-        let code = field.within(Wanted::Survived, "exec >/dev/full;", b"", command);
-        assert_eq!(code, Some(1), "{command:?}: what it said is lost");
+        let full = field.within(Wanted::Survived, "exec >/dev/full;", b"", command);
+        assert_eq!(
+            full.status.code(),
+            Some(1),
+            "{command:?}: what it said is lost"
+        );
         field.within(Wanted::Survived, "ulimit -n 4;", b"", command);
         field.within(
             Wanted::Survived,

@@ -5,7 +5,7 @@ use std::fs;
 use std::io::Write as _;
 use std::os::unix::process::ExitStatusExt;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Stdio};
+use std::process::{Command, Output, Stdio};
 use std::time::{Duration, Instant};
 
 use crate::support::{QUICK, Scratch, contents, flown};
@@ -62,8 +62,8 @@ impl Field {
     }
 
     /// One attack; what is wrong with its end is noted.
-    pub fn attack(&mut self, wanted: Wanted, args: &[&str]) {
-        self.within(wanted, "", b"", args);
+    pub fn attack(&mut self, wanted: Wanted, args: &[&str]) -> Output {
+        self.within(wanted, "", b"", args)
     }
 
     /// One attack with this on the standard input.
@@ -71,14 +71,8 @@ impl Field {
         self.within(wanted, "", input, args);
     }
 
-    /// One attack after these commands of a shell; the exit code.
-    pub fn within(
-        &mut self,
-        wanted: Wanted,
-        around: &str,
-        input: &[u8],
-        args: &[&str],
-    ) -> Option<i32> {
+    /// One attack after these commands of a shell.
+    pub fn within(&mut self, wanted: Wanted, around: &str, input: &[u8], args: &[&str]) -> Output {
         self.count += 1;
         let limit = format!("ulimit -v {MEMORY}; {around} exec \"$0\" \"$@\"");
         let mut command = Command::new("sh");
@@ -149,7 +143,7 @@ impl Field {
             self.failures
                 .push(format!("[{pid}] {around} {args:?}: {problems}\n{said}"));
         }
-        code
+        out
     }
 
     pub fn refused(&mut self, args: &[&str]) {

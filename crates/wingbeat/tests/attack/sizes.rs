@@ -1,7 +1,6 @@
 //! Insects of impossible, extreme and usual sizes.
 
 use crate::field::{Field, Wanted};
-use crate::support::wingbeat;
 
 /// No size of any kind, whatever the unit.
 const NO_SIZES: [&str; 26] = [
@@ -81,7 +80,6 @@ fn refuses_sizes_that_are_none() {
 #[test]
 fn behaves_every_size_gives_a_case_or_a_reason() {
     let mut field = Field::new("attack-grid");
-    let dir = field.dir().to_owned();
     let mut flying = 0;
     for mass in ["20ug", "1mg", "30mg", "1g", "50g"] {
         for wing in [None, Some("0.3mm"), Some("3mm"), Some("12mm"), Some("20cm")] {
@@ -89,8 +87,7 @@ fn behaves_every_size_gives_a_case_or_a_reason() {
                 let mut args = vec!["new", "--mass", mass, "-"];
                 args.extend(wing.iter().flat_map(|w| ["--wing", w]));
                 args.extend(frequency.iter().flat_map(|f| ["--frequency", f]));
-                field.attack(Wanted::Survived, &args);
-                let out = wingbeat(&dir, &args);
+                let out = field.attack(Wanted::Survived, &args);
                 if out.status.success() {
                     flying += 1;
                     let quick = ["check", "-", "--set", "time.beats=0.02"];

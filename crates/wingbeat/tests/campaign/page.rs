@@ -6,6 +6,9 @@ use crate::browser::Browser;
 use crate::support::{Scratch, flown, required};
 use crate::write;
 
+/// The page draws in two dimensions only: the browser need not do in software what it would leave to a graphics card.
+const WITHOUT_GPU: &[&str] = &["--disable-gpu"];
+
 const TEXT: &str = r#"case = "fruit-fly-blade"
 keep = ["lift_over_weight", "power_watt"]
 files = ["page"]
@@ -23,7 +26,7 @@ list = [190, 200, 210]
 fn exact_the_page_shows_all_points_in_a_browser() {
     let scratch = Scratch::new("campaign-page");
     let dir = &scratch.0;
-    let Some(mut browser) = Browser::start(dir, &[]) else {
+    let Some(mut browser) = Browser::start(dir, WITHOUT_GPU) else {
         required("no browser (chromium, google-chrome) was found");
         return;
     };
@@ -99,7 +102,7 @@ fn exact_the_page_shows_all_points_in_a_browser() {
 fn exact_names_and_numbers_are_readable_on_the_page() {
     let scratch = Scratch::new("campaign-names");
     let dir = &scratch.0;
-    let Some(mut browser) = Browser::start(dir, &[]) else {
+    let Some(mut browser) = Browser::start(dir, WITHOUT_GPU) else {
         required("no browser (chromium, google-chrome) was found");
         return;
     };

@@ -4,28 +4,21 @@ use serde_json::json;
 
 use crate::browser::Browser;
 use crate::support::{Scratch, flown, wingbeat};
-use crate::{RUN, content, lent, lent_flat};
+use crate::{RUN, Use, content, lent, lent_run};
 
 #[test]
 fn behaves_time_can_be_chosen_while_it_plays() {
-    let Some(mut browser) = lent() else {
+    let Some(mut browser) = lent_run("wake=") else {
         return;
     };
-    browser.open(&RUN.join("flight.html"), "wake=");
     let set = "(id, v) => { const e = document.getElementById(id); e.value = v; e.dispatchEvent(new Event('input', { bubbles: true })); }";
     browser.value(&format!("({set})('speed', -6)"));
     browser.value("document.getElementById('play').click()");
-    browser.value("new Promise((r) => setTimeout(r, 300))");
+    browser.wait("state.playing && state.at > 0");
     browser.value(&format!("({set})('time', 10)"));
     // Slow machines draw late.
-    let mut frame = 0;
-    for _ in 0..50 {
-        browser.value("new Promise((r) => setTimeout(r, 200))");
-        frame = browser.state("frame").parse::<usize>().unwrap();
-        if frame >= 10 {
-            break;
-        }
-    }
+    browser.wait("byId('state').dataset.frame >= 10");
+    let frame = browser.state("frame").parse::<usize>().unwrap();
     assert!((10..=12).contains(&frame), "it jumped to {frame}");
     assert_eq!(
         browser.value("document.getElementById('time').value"),
@@ -36,10 +29,9 @@ fn behaves_time_can_be_chosen_while_it_plays() {
 
 #[test]
 fn behaves_keys_belong_to_the_control_that_has_the_focus() {
-    let Some(mut browser) = lent() else {
+    let Some(mut browser) = lent_run("") else {
         return;
     };
-    browser.open(&RUN.join("flight.html"), "");
     // Closed in a window as narrow as this one.
     browser.value("document.getElementById('display').open = true");
     let playing = "document.getElementById('play').dataset.playing";
@@ -92,7 +84,7 @@ fn behaves_keys_belong_to_the_control_that_has_the_focus() {
 /// What a link may choose is obeyed while the page is open, too; what it does not name stays.
 #[test]
 fn behaves_a_changed_link_is_obeyed() {
-    let Some(mut browser) = lent() else {
+    let Some(mut browser) = lent(Use::Run) else {
         return;
     };
     let shown = "JSON.stringify([frameNow(), state.view, state.theme, document.documentElement.dataset.theme, byId('colour').value, byId('force').value, +byId('age').value, byId('on-smoke').getAttribute('aria-pressed'), byId('on-vortices').getAttribute('aria-pressed')])";
@@ -113,10 +105,12 @@ fn behaves_a_changed_link_is_obeyed() {
 /// A print is light, whatever the page is, and as it was afterwards; the scene has a height at any width.
 #[test]
 fn behaves_prints_are_light() {
-    let Some(mut browser) = lent() else {
+    let Some(mut browser) = lent_run("frame=3&theme=dark&wake=smoke") else {
         return;
     };
-    browser.open(&RUN.join("flight.html"), "frame=3&theme=dark");
+    // Every pixel of the scene as it is now.
+    let scene = "(() => { drawAll(); const g = renderer.getContext(), p = new Uint8Array(4 * canvas.width * canvas.height); g.readPixels(0, 0, canvas.width, canvas.height, g.RGBA, g.UNSIGNED_BYTE, p); return [canvas.width, canvas.height, p.reduce((sum, x) => (31 * sum + x) >>> 0, 0)].join(); })()";
+    let before = browser.value(scene);
     browser.value("window.prints = [], window.addEventListener('beforeprint', () => { const c = byId('printed'); prints.push([state.theme, stage.clientHeight, c.width > 0 && c.getContext('2d').getImageData(9, 9, 1, 1).data[0]]); })");
     for landscape in [false, true] {
         browser.print(landscape);
@@ -130,13 +124,19 @@ fn behaves_prints_are_light() {
     assert_eq!(prints.as_array().unwrap().len(), 2);
     let after = "[state.theme, document.documentElement.className, !!byId('printed')].join()";
     assert_eq!(browser.value(after), json!("dark,,false"));
+    assert_eq!(browser.value(scene), before);
+    // What bodies and wings mirror is made once for each theme.
+    let mirrored = browser.value("[...['light', 'dark', 'light', 'dark'].map((name) => { state.theme = name; dress(); return scene.environment.id; }), rooms.size]");
+    assert_eq!((&mirrored[0], &mirrored[1]), (&mirrored[2], &mirrored[3]));
+    assert!(mirrored[0] != mirrored[1] && mirrored[4] == 2, "{mirrored}");
+    assert_eq!(browser.value(scene), before);
     content(&mut browser);
 }
 
 /// Two fingers on a plot zoom it and leave the time; one that taps or moves changes the time.
 #[test]
 fn behaves_a_pinch_on_a_plot_leaves_the_time() {
-    let Some(mut browser) = lent_flat() else {
+    let Some(mut browser) = lent(Use::Flat) else {
         return;
     };
     browser.open(&RUN.join("flight.html"), "frame=3");
@@ -153,10 +153,9 @@ fn behaves_a_pinch_on_a_plot_leaves_the_time() {
 
 #[test]
 fn behaves_a_film_of_the_scene_is_recorded() {
-    let Some(mut browser) = lent() else {
+    let Some(mut browser) = lent_run("frame=8&wake=smoke&speed=2") else {
         return;
     };
-    browser.open(&RUN.join("flight.html"), "frame=8&wake=smoke&speed=2");
     browser.value("save = (blob) => { window.saved = [blob.type, blob.size]; }");
     browser.value("document.getElementById('record').click()");
     browser.wait("!!window.saved");
@@ -184,7 +183,7 @@ fn stepped(browser: &mut Browser, flight: usize) -> [f64; 2] {
 #[test]
 fn behaves_two_flights_keep_step() {
     let scratch = Scratch::new("browser-pair");
-    let Some(mut browser) = lent_flat() else {
+    let Some(mut browser) = lent(Use::Flat) else {
         return;
     };
     for out in ["a", "b"] {

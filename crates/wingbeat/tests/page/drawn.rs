@@ -4,13 +4,13 @@ use serde_json::json;
 use wingbeat::results::frames::Frame;
 
 use crate::support::{Scratch, flown};
-use crate::{RUN, content, lent, lent_flat};
+use crate::{Use, content, lent, lent_run};
 
 /// Bodies are posed by matrices, not drawn from the frames: a node of the page is the node of the frame.
 #[test]
 fn exact_the_page_poses_the_parts_of_an_animal_with_joints() {
     let scratch = Scratch::new("browser-joints");
-    let Some(mut browser) = lent_flat() else {
+    let Some(mut browser) = lent(Use::Flat) else {
         return;
     };
     let args = ["run", "fruit-fly-abdomen", "--quiet", "--out", "run"];
@@ -46,7 +46,7 @@ fn exact_the_page_poses_the_parts_of_an_animal_with_joints() {
 #[test]
 fn exact_surfaces_of_a_straight_vortex_are_its_cylinder() {
     let scratch = Scratch::new("browser-cylinder");
-    let Some(mut browser) = lent_flat() else {
+    let Some(mut browser) = lent(Use::Flat) else {
         return;
     };
     let args = ["run", "fruit-fly-vacuum", "--quiet", "--out", "run"];
@@ -84,7 +84,7 @@ fn exact_surfaces_of_a_straight_vortex_are_its_cylinder() {
 #[test]
 fn exact_wakes_have_the_half_strokes_of_their_wings() {
     let scratch = Scratch::new("browser-four");
-    let Some(mut browser) = lent_flat() else {
+    let Some(mut browser) = lent(Use::Flat) else {
         return;
     };
     let args = ["run", "dragonfly", "--quiet", "--out", "run"];
@@ -143,7 +143,7 @@ fn exact_wakes_have_the_half_strokes_of_their_wings() {
 #[test]
 fn exact_joined_wings_shed_no_root_vortex() {
     let scratch = Scratch::new("browser-joined");
-    let Some(mut browser) = lent_flat() else {
+    let Some(mut browser) = lent(Use::Flat) else {
         return;
     };
     let args = [
@@ -179,11 +179,12 @@ fn exact_joined_wings_shed_no_root_vortex() {
     content(&mut browser);
 }
 
-/// A flight without any shape (mass and inertia alone): its ellipsoid is drawn and said to be one.
+/// A flight without any shape (mass and inertia alone): its ellipsoid is drawn and said to be one. Without air there is
+/// nothing else to choose.
 #[test]
 fn behaves_a_body_without_shape_is_drawn_as_its_ellipsoid() {
     let scratch = Scratch::new("browser-ellipsoid");
-    let Some(mut browser) = lent() else {
+    let Some(mut browser) = lent(Use::Scene) else {
         return;
     };
     let args = [
@@ -192,31 +193,34 @@ fn behaves_a_body_without_shape_is_drawn_as_its_ellipsoid() {
         "--quiet",
         "--out",
         "run",
-        "--set=time.beats=0.5",
+        "--set=time.beats=0.1",
+        "--set=air.model=none",
     ];
     flown(&scratch.0, &args);
     browser.open(&scratch.0.join("run/flight.html"), "");
     let words = browser.value("document.getElementById('legend').textContent");
-    assert!(
-        words
-            .as_str()
-            .unwrap()
-            .contains("ellipsoid of mass and inertia"),
-        "{words}"
+    assert_eq!(
+        words,
+        json!("no shape given: ellipsoid of mass and inertia")
     );
     let triangles: usize = browser.state("triangles").parse().unwrap();
     assert!(triangles > 500, "only {triangles} triangles were drawn");
+    assert_eq!(browser.value(NOTHING_TO_CHOOSE), json!(true));
     content(&mut browser);
 }
+
+/// Controls of wakes, pressures and forces are not on offer.
+const NOTHING_TO_CHOOSE: &str =
+    "['wake-controls', 'on-pressure', 'force-box'].every((i) => document.getElementById(i).hidden)";
 
 #[test]
 fn behaves_legends_say_what_is_drawn() {
     let scratch = Scratch::new("browser-legend");
-    let Some(mut browser) = lent() else {
+    let Some(mut browser) = lent_run("frame=12") else {
         return;
     };
     let legend = "document.getElementById('legend').textContent";
-    browser.open(&RUN.join("flight.html"), "frame=12");
+    assert_ne!(browser.value(NOTHING_TO_CHOOSE), json!(true));
     let words = browser.value(legend).as_str().unwrap().to_owned();
     assert!(
         words.contains("downstroke") && !words.contains("pressure"),
@@ -242,10 +246,16 @@ fn behaves_legends_say_what_is_drawn() {
     browser.wait(&format!("!{colours}"));
     browser.value("document.getElementById('on-pressure').click()");
     browser.wait(colours);
+    content(&mut browser);
+    drop(browser);
+    // The legend of a flight without air is empty, however it is drawn.
+    let Some(mut browser) = lent(Use::Flat) else {
+        return;
+    };
     let args = ["run", "fruit-fly-vacuum", "--quiet", "--out", "bare"];
     flown(&scratch.0, &[&args[..], &["--set=time.beats=0.1"]].concat());
     browser.open(&scratch.0.join("bare/flight.html"), "");
     assert_eq!(browser.value(legend), json!(""));
-    assert_eq!(browser.value("['wake-controls', 'on-pressure', 'force-box'].every((i) => document.getElementById(i).hidden)"), json!(true));
+    assert_eq!(browser.value(NOTHING_TO_CHOOSE), json!(true));
     content(&mut browser);
 }

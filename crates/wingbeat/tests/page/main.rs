@@ -4,7 +4,7 @@ use std::fs;
 use std::ops::{Deref, DerefMut};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
-use std::sync::{LazyLock, Mutex};
+use std::sync::{LazyLock, Mutex, MutexGuard, PoisonError};
 
 #[path = "../support/browser.rs"]
 mod browser;
@@ -67,55 +67,92 @@ fn started(folder: &Path, flags: &[&str]) -> Option<Browser> {
     browser
 }
 
-/// Browsers that wait for a next test, with WebGL and without: to start one takes longer than most tests do.
-static IDLE: Mutex<[Vec<Browser>; 2]> = Mutex::new([vec![], vec![]]);
-
-/// A browser for one test, and whether it has no WebGL; after one that fails there is no next.
-struct Lent(Option<Browser>, bool);
-
-/// One that draws the scene as users see it.
-fn lent() -> Option<Lent> {
-    lent_of(false)
+/// What a browser is for.
+#[derive(Clone, Copy)]
+enum Use {
+    /// The page of [`RUN`], drawn as users see it. It stays open from test to test, each in its turn: where no graphics
+    /// card compiles and runs them, the programs of the scene take longer than all the rest.
+    Run,
+    /// Other pages, drawn as users see them.
+    Scene,
+    /// What does not depend on how the scene is drawn, without WebGL.
+    Flat,
 }
 
-/// One without WebGL, for what does not depend on how the scene is drawn: where no graphics card compiles them, the
-/// programs of the scene take longer than all the rest.
-fn lent_flat() -> Option<Lent> {
-    lent_of(true)
+/// Browsers that wait for a next test, for each use: to start one takes longer than most tests do.
+static IDLE: Mutex<[Vec<Browser>; 3]> = Mutex::new([vec![], vec![], vec![]]);
+
+/// A browser for one test; after a test that fails there is no next.
+struct Lent {
+    browser: Option<Browser>,
+    of: Use,
+    _turn: Option<MutexGuard<'static, ()>>,
 }
 
-fn lent_of(flat: bool) -> Option<Lent> {
+fn lent(of: Use) -> Option<Lent> {
     static STARTED: AtomicUsize = AtomicUsize::new(0);
-    let idle = IDLE.lock().unwrap()[usize::from(flat)].pop();
+    static TURN: Mutex<()> = Mutex::new(());
+    let has_turns = matches!(of, Use::Run);
+    let turn = has_turns.then(|| TURN.lock().unwrap_or_else(PoisonError::into_inner));
+    let idle = IDLE.lock().unwrap()[of as usize].pop();
     idle.or_else(|| {
         let number = STARTED.fetch_add(1, Ordering::Relaxed);
         let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("browser-{number}"));
         let _ = fs::remove_dir_all(&folder);
         fs::create_dir_all(&folder).unwrap();
-        let flags: &[&str] = if flat { &["--disable-3d-apis"] } else { &[] };
+        let flags: &[&str] = match of {
+            Use::Flat => &["--disable-3d-apis", "--disable-gpu"],
+            Use::Run | Use::Scene => &["--disable-gpu-compositing"],
+        };
         started(&folder, flags)
     })
-    .map(|browser| Lent(Some(browser), flat))
+    .map(|browser| Lent {
+        browser: Some(browser),
+        of,
+        _turn: turn,
+    })
+}
+
+/// All that a link may choose; it stands after what a test chooses itself, which goes before it.
+const USUAL: &str = "frame=0&theme=dark&view=quarter&wake=vortices,smoke&colour=stroke&force=total&speed=0.5&age=1.1&level=1&pressure=0";
+
+/// A browser in which the page of [`RUN`] stands still, as this link says; the rest is as usual, whatever the test
+/// before has chosen.
+fn lent_run(link: &str) -> Option<Lent> {
+    let mut browser = lent(Use::Run)?;
+    let link = format!("{link}&{USUAL}");
+    let page = RUN.join("flight.html");
+    if browser.value("location.pathname") == json!(page) {
+        // What no link chooses. A link that is the same is none that changes: each has a number of its own.
+        browser.value("setPlaying(false), state.loop || byId('on-loop').click(), byId('values-box').open = false, document.activeElement.blur()");
+        browser.value(&format!(
+            "new Promise((done) => {{ addEventListener('hashchange', () => setTimeout(done), {{ once: true }}); location.hash = '{link}&test=' + performance.now(); }})"
+        ));
+    } else {
+        browser.open(&page, &link);
+    }
+    browser.wait("drawn === frameNow() && !wanted && pixelRatio === Math.min(devicePixelRatio, 2)");
+    Some(browser)
 }
 
 impl Deref for Lent {
     type Target = Browser;
 
     fn deref(&self) -> &Browser {
-        self.0.as_ref().unwrap()
+        self.browser.as_ref().unwrap()
     }
 }
 
 impl DerefMut for Lent {
     fn deref_mut(&mut self) -> &mut Browser {
-        self.0.as_mut().unwrap()
+        self.browser.as_mut().unwrap()
     }
 }
 
 impl Drop for Lent {
     fn drop(&mut self) {
         if !std::thread::panicking() {
-            IDLE.lock().unwrap()[usize::from(self.1)].extend(self.0.take());
+            IDLE.lock().unwrap()[self.of as usize].extend(self.browser.take());
         }
     }
 }
@@ -127,14 +164,13 @@ fn content(browser: &mut Browser) {
 
 #[test]
 fn exact_the_page_works_in_a_browser() {
-    let Some(mut browser) = lent() else {
+    let Some(mut browser) = lent_run("") else {
         return;
     };
-    let page = RUN.join("flight.html");
     let steps = frames::steps(&RUN).unwrap();
     let mut seen: Vec<Vec<Vec<f64>>> = vec![];
     for k in [0, steps.len() - 4] {
-        browser.open(&page, &format!("frame={k}"));
+        browser.value(&format!("location.hash = 'frame={k}'"));
         browser.wait(&format!(
             "document.getElementById('state').dataset.frame === '{k}'"
         ));
@@ -174,7 +210,7 @@ fn exact_the_page_works_in_a_browser() {
 
 #[test]
 fn behaves_without_webgl_the_flight_is_drawn_flat_and_says_so() {
-    let Some(mut browser) = lent_flat() else {
+    let Some(mut browser) = lent(Use::Flat) else {
         return;
     };
     browser.open(&RUN.join("flight.html"), "frame=3");
@@ -210,7 +246,7 @@ fn behaves_without_webgl_the_flight_is_drawn_flat_and_says_so() {
 #[test]
 fn behaves_any_description_is_shown() {
     let scratch = Scratch::new("browser-words");
-    let Some(mut browser) = lent_flat() else {
+    let Some(mut browser) = lent(Use::Flat) else {
         return;
     };
     let words = &format!(
