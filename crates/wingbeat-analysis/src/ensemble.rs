@@ -8,9 +8,11 @@ use wingbeat_math::DVec3;
 /// Velocity by which the streams of members differ, over the speed of the wings.
 const DIFFERENCE: f64 = 1e-6;
 
-/// Whether the senses of its controller are noisy, and the members differ by that noise.
+/// Whether the senses of its controller are noisy, and the members differ by that noise: not where no command acts.
 pub fn is_noisy(setup: &FlightSetup) -> bool {
-    redrawn(setup, 1).is_some()
+    let is_held = setup.mode.is_held_throughout(setup.time.steps);
+    let acts = !is_held && setup.commands_too_late().is_none();
+    acts && redrawn(setup, 1).is_some()
 }
 
 /// The feedback with the noise of member `k`; none without noise.

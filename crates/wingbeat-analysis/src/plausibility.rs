@@ -5,7 +5,7 @@
 //! |---|---|---|---|
 //! | R, c | `length`, `mean_chord` | wing length and mean chord | m |
 //! | f, Phi | `frequency`, `stroke_amplitude` | wingbeats per second, stroke from end to end | Hz, rad |
-//! | U_t | `tip_speed` | mean speed of the tip from flapping, `2 Phi R f` [Ellington 1984] | m/s |
+//! | U_t | `tip_speed` | mean speed of the tip; of a stroke to and fro in a plane `2 Phi R f` [Ellington 1984] | m/s |
 //! | U | `speed` | the largest of U_t, the flight speed and that of the tip on a moving tether | m/s |
 //! | Re | `reynolds` | `U c / nu` | 1 |
 //! | k | `reduced_frequency` | `pi f c / U` | 1 |

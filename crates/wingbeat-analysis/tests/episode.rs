@@ -186,7 +186,7 @@ fn behaves_the_regulator_masters_hover_and_nothing_does_not() {
         for k in 1..=course.beats {
             let d = episode.seen();
             let u = limits.applied(regulator.controls(&d));
-            regulator.remember(&d, u, limits.reached(&u));
+            regulator.remember(&d, u, usize::from(!limits.reached(&u)));
             let controls = std::array::from_fn(|i| if steered { u[i] / sizes[i] } else { 0.0 });
             let outcome = episode.step(&controls);
             *total += outcome.reward;

@@ -3,14 +3,14 @@
 use crate::common::{self, matrix, sizes};
 
 use wingbeat_analysis::control::{
-    CONTROLS, Channels, Controls, Departure, Held, Law, Limits, Orbit, Reference, Regulator,
-    STATES, Sensors, SteeredBeats, Steering, Timing, Weights, adjustments, disturbed, sides,
-    states,
+    CONTROLS, Channels, Controls, Departure, Held, Law, Limits, Orbit, ProcessNoise,
+    ProportionalDerivative, Reference, Regulator, STATES, Sensors, SteeredBeats, Steering,
+    Stiffness, Timing, Weights, adjustments, disturbed, sides, states,
 };
 use wingbeat_analysis::{Beat, Level, Perturbation, Trim, eigen};
 use wingbeat_dynamics::BodyMotion;
 use wingbeat_flight::{Controller, Sensed};
-use wingbeat_math::DVec3;
+use wingbeat_math::{DMat3, DVec3};
 
 /// The steering of a regulator that begins with these commands in force and under way.
 fn steering(trim: &Trim, regulator: &Regulator, timing: &Timing) -> Steering {
@@ -48,7 +48,7 @@ fn predicted(regulator: &Regulator, z: &[f64]) -> Vec<f64> {
         let in_force =
             |r: &Regulator| -> Controls { r.memory()[..CONTROLS].try_into().expect("one") };
         let now = in_force(&regulator);
-        regulator.remember(&d, u, false);
+        regulator.remember(&d, u, 1);
         let ahead = regulator.plants()[look].advance(&x, &now, &in_force(&regulator));
         x = ahead.try_into().expect("no free joints");
     }
@@ -162,6 +162,99 @@ fn balances_a_tilted_flight_under_looks_within_the_beat() {
         strayed
     });
     assert!(left[1] < left[0], "{left:?}");
+}
+
+/// Between the looks of one that looks rarely nothing is seen: what its filter and its sums make of the flight follows
+/// from the looks alone, of which each stands for the beats to the next one.
+#[test]
+fn exact_what_happens_between_rare_looks_is_not_seen() {
+    const EVERY: usize = 3;
+    let trim = common::hovering(40);
+    let timing = Timing {
+        parts: 1,
+        latency: 1,
+        lag: 0.0,
+    };
+    let weights = Weights {
+        sum: Some(2.0),
+        ..Weights::default()
+    };
+    let noise = Channels {
+        position: 2e-4,
+        velocity: 0.02,
+        tilt: 0.03,
+        rate: 5.0,
+    };
+    let regulator = Regulator::timed(&trim, &weights, &timing).expect("gains");
+    let observed = regulator
+        .clone()
+        .observed(&trim, &ProcessNoise::default(), &noise);
+    let loops = Stiffness {
+        integral: 0.02,
+        ..Stiffness::default()
+    };
+    let loops = ProportionalDerivative::new(&trim, &loops).expect("loops");
+    let sensed = |look: usize, off: f64, turn: f64| {
+        let root = trim.beat.root(&trim.state);
+        let place = DVec3::splat(off);
+        Sensed {
+            look,
+            time: look as f64 * trim.beat.period(),
+            root: BodyMotion {
+                p: root.p + place,
+                r: DMat3::from_rotation_z(turn) * root.r,
+                ..root
+            },
+            centre: DVec3::from_slice(&trim.state) + place,
+            velocity: trim.beat.velocity(&trim.state),
+        }
+    };
+    for (law, is_filtered) in [
+        (Law::Regulator(regulator), false),
+        (Law::Regulator(observed.expect("a filter")), true),
+        (Law::Stabiliser(loops), false),
+    ] {
+        let new = |every: usize| {
+            let reference = Reference::trimmed(&trim).expect("a reference");
+            let mut steering = Steering::new(law.clone(), Held::Known(reference), &trim.setup);
+            steering.every = every;
+            steering.limits = Limits {
+                amplitude: 10.0,
+                angle: 10.0,
+            };
+            steering
+        };
+        let [mut still, mut moved] = [new(EVERY), new(EVERY)];
+        for look in 0..4 * EVERY {
+            let off = 1e-5 * look as f64;
+            let between = if look.is_multiple_of(EVERY) {
+                off
+            } else {
+                1e-3
+            };
+            let [a, b] = [(&mut still, off), (&mut moved, between)]
+                .map(|(steering, off)| steering.command(&sensed(look, off, 0.0)).unwrap());
+            assert_eq!(a, b, "{look}");
+            assert_eq!(still.memory(), moved.memory(), "{look}");
+        }
+        // As many beats are summed as go by: of what is seen, without a filter.
+        let sums = |every: usize| {
+            let mut steering = new(every);
+            for look in 0..2 * EVERY {
+                steering.command(&sensed(look, 0.0, 0.01)).unwrap();
+            }
+            let memory = steering.memory();
+            let first = 1 + memory[0] as usize + CONTROLS;
+            memory[first..first + CONTROLS].to_vec()
+        };
+        let [often, rarely] = [sums(1), sums(EVERY)];
+        let largest = often.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+        for (a, b) in often.iter().zip(&rarely) {
+            let off = (a - b).abs() / largest;
+            assert!(off < 1e-12 || is_filtered, "{often:?} {rarely:?}");
+        }
+        assert!(largest > 1e-6, "{often:?}");
+    }
 }
 
 /// The place that is held is that of the release, whatever noise is in the first look.

@@ -138,7 +138,7 @@ fn closed(regulator: &Regulator, z: &[f64]) -> Vec<f64> {
     let d = regulator.estimated(&departure(x));
     let u = regulator.controls(&d);
     let now: Controls = memory[..CONTROLS].try_into().expect("the command in force");
-    regulator.remember(&d, u, false);
+    regulator.remember(&d, u, 1);
     let memory = regulator.memory();
     let next: Controls = memory[..CONTROLS].try_into().expect("the next command");
     let x: &[f64; STATES] = x.try_into().expect("all states");

@@ -5,7 +5,8 @@ use serde::de::DeserializeOwned;
 use crate::error::{CaseError, Fault};
 use crate::keys::without_unit;
 use crate::text::nearest::nearest;
-use crate::text::source::{self, CaseSource};
+use crate::text::path::find_mut;
+use crate::text::source::CaseSource;
 
 /// Decodes the document; unknown keys, missing keys and wrong types become located errors.
 pub(crate) fn decode<T: DeserializeOwned>(source: &CaseSource) -> Result<T, Box<CaseError>> {
@@ -15,7 +16,7 @@ pub(crate) fn decode<T: DeserializeOwned>(source: &CaseSource) -> Result<T, Box<
         match serde_path_to_error::deserialize(document) {
             // 40.0 where a whole number is wanted; each turn makes one of them whole.
             Err(e) if wants_whole(e.inner().message()) => {
-                let value = source::find_mut(&mut table, &e.path().to_string());
+                let value = find_mut(&mut table, &e.path().to_string());
                 match value.and_then(|v| Some((whole(v)?, v))) {
                     Some((n, value)) => *value = toml::Value::Integer(n),
                     None => break Err(e),
@@ -82,13 +83,13 @@ fn one_choice(path: &str, keys: &[&str]) -> Fault {
 
 /// Of several choices at once in the table at `path` one that is none, with the whole table to give in its place.
 fn no_choice<T: DeserializeOwned>(table: &toml::Table, path: &str) -> Option<Fault> {
-    let keys: Vec<String> = (source::find_mut(&mut table.clone(), path)?.as_table()?)
+    let keys: Vec<String> = (find_mut(&mut table.clone(), path)?.as_table()?)
         .keys()
         .cloned()
         .collect();
     keys.iter().filter(|_| keys.len() > 1).find_map(|key| {
         let mut alone = table.clone();
-        let choices = source::find_mut(&mut alone, path)?.as_table_mut()?;
+        let choices = find_mut(&mut alone, path)?.as_table_mut()?;
         choices.retain(|k, _| k == key);
         let error = serde_path_to_error::deserialize::<_, T>(toml::Value::Table(alone)).err()?;
         let message = error.inner().message();

@@ -112,6 +112,22 @@ const TABLE: &[(&[&str], &str, &str)] = &[
         "",
     ),
     (&[VACUUM, STILL], "motion.adjust.stroke_amplitude=0.1", ""),
+    (
+        &[
+            VACUUM,
+            "wing.right.motion.phi={ fourier = { mean_deg = 5, cosine_deg = [0] } }",
+        ],
+        "motion.adjust.stroke_amplitude=0.1",
+        "",
+    ),
+    (
+        &[
+            VACUUM,
+            "wing.right.motion.psi={ fourier = { mean_deg = 5 } }",
+        ],
+        "motion.adjust.feathering_lead=0.1",
+        "",
+    ),
     (&[VACUUM, STILL], "motion.phase=0.5", ""),
     (&[VACUUM, STILL], "motion.start_beats=3", ""),
     (&[VACUUM, STILL], "wing.right.motion.phase=0.25", ""),

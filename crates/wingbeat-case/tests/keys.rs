@@ -454,4 +454,20 @@ fn exact_nothing_behind_the_equals_sign_takes_a_key_away() {
     };
     let words = "no such key to take away (which `time.step_s=`";
     assert!(error.to_string().contains(words), "{error}");
+    // Elements of lists, the others closing up.
+    let loads = "load=[{ force_newton = [1e-6, 0, 0] }, { force_newton = [2e-6, 0, 0] }]";
+    let blade = |all: &[&str]| LoadedCase::find("fruit-fly-blade", &sets(all));
+    let left = blade(&[loads, "load[0]="]).unwrap().setup.loads;
+    assert_eq!(left, blade(&[loads]).unwrap().setup.loads[1..]);
+    for (wrong, words) in [
+        ("load[2]=", "no such key to take away"),
+        ("load[]=", "`load[]` is no key"),
+        ("time.beats[]=3", "`time.beats[]` is no key"),
+        ("load[0]force_newton=[0, 0, 0]", "is no key"),
+        ("load[0=1", "is no key"),
+        ("load[-1]=", "is no key"),
+    ] {
+        let error = blade(&[loads, wrong]).map(|_| wrong).unwrap_err();
+        assert!(error.to_string().contains(words), "{error}");
+    }
 }

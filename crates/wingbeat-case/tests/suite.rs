@@ -50,6 +50,7 @@ mod table1;
 mod tables;
 mod tails;
 mod times;
+mod tip_speeds;
 mod too_short;
 mod towed_glides;
 mod turns;

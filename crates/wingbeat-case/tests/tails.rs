@@ -192,3 +192,50 @@ fn refuses_the_elevator_of_a_flyer_without_a_tail_or_with_two() {
     let said = refused(&format!("{BIRD}{nose}"));
     assert!(said.contains("`right_nose`, `right_tail`"), "{said}");
 }
+
+/// A tail is what stands still, however its shape and its angles are written; one that beats is none.
+#[test]
+fn exact_tails_are_wings_that_do_not_vary_however_they_are_written() {
+    let adjust = "motion.adjust={ stroke_offset_deg = 7, feathering_offset_deg = 2 }";
+    let shape = "wing.right_tail.deformation=";
+    for (set, is_tail) in [
+        (format!("{shape}{{ twist = [{{ linear_deg = [0, 2] }}] }}"), true),
+        (
+            format!("{shape}{{ twist = [{{ linear_deg = [0, 2], fourier = {{ mean = 1, sine = [0] }} }}] }}"),
+            true,
+        ),
+        (
+            format!("{shape}{{ twist = [{{ linear_deg = [0, 2], fourier.sine = [1] }}] }}"),
+            false,
+        ),
+        (
+            format!("{shape}{{ camber = [{{ linear = [0.02, 0.01] }}], bending = [{{ linear_m = [0, 1e-3], fourier.cosine = [0.1] }}] }}"),
+            false,
+        ),
+        ("wing.right_tail.motion.psi={ fourier.mean_deg = -3 }".to_owned(), true),
+        (
+            "wing.right_tail.motion.psi={ smooth_square = { amplitude_deg = 0, shape = 2 } }".to_owned(),
+            true,
+        ),
+        (
+            "wing.right_tail.motion.psi={ oval = { amplitude_deg = 0, count = 2 } }".to_owned(),
+            true,
+        ),
+        (
+            "wing.right_tail.motion.psi={ table.rows_deg = [[0, -3], [0.3, -3], [0.6, -3], [1, -3]] }".to_owned(),
+            true,
+        ),
+        (
+            "wing.right_tail.motion.psi={ table.rows_deg = [[0, -3], [0.3, -3], [0.6, -4], [1, -3]] }".to_owned(),
+            false,
+        ),
+    ] {
+        let [plain, adjusted] = [bird(&[&set]), bird(&[&set, adjust])];
+        let wings = plain.setup.animal.wings.iter().zip(&adjusted.setup.animal.wings);
+        let kept: Vec<bool> = wings.map(|(a, b)| a.motion == b.motion).collect();
+        // In the order of names: left, left_tail, right, right_tail.
+        assert_eq!(kept, [false, is_tail, false, is_tail], "{set}");
+        let steered: Vec<bool> = sides(&plain.setup).iter().map(Option::is_some).collect();
+        assert_eq!(steered, [true, !is_tail, true, !is_tail], "{set}");
+    }
+}

@@ -73,3 +73,35 @@ fn behaves_controllers_that_never_act_are_doubted() {
     assert!(once.contains("control.every_beats"), "{once}");
     assert_eq!(looks(&["control.every_beats=4"]), None);
 }
+
+/// A smooth start makes strokes late by half of its length, and a tether beside them that starts at once is ahead by so
+/// much of its period, or behind by the rest of it.
+#[test]
+fn exact_sides_by_which_tethers_and_strokes_are_apart() {
+    let said = |beats: f64, count: f64| {
+        let frequency = 200.0 * count;
+        let setup = preset(
+            "fruit-fly-blade",
+            &[
+                "flight={ mode = \"tethered\" }",
+                "motion.frequency_hz=200",
+                "motion.start=smooth",
+                &format!("motion.start_beats={beats:?}"),
+                &format!("flight.tether.z={{ frequency_hz = {frequency:?}, sine_m = [1e-4] }}"),
+                "time.beats=9",
+            ],
+        );
+        setup.setup.starts_apart()
+    };
+    for (beats, count, words) in [
+        (0.5, 1.0, "0.250 of its period ahead of"),
+        (1.5, 1.0, "0.250 of its period behind"),
+        (1.5, 2.0, "0.500 of its period"),
+        (0.8, 2.0, "0.200 of its period behind"),
+        (2.5, 1.0, "0.250 of its period ahead of"),
+    ] {
+        let text = said(beats, count).unwrap();
+        assert!(text.contains(words), "{beats} {count}: {text}");
+    }
+    assert_eq!(said(2.0, 1.0), None);
+}

@@ -188,6 +188,11 @@ pub trait ControlModel: fmt::Debug + Send + Sync {
         None
     }
 
+    /// Whether of the place it holds the altitude alone.
+    fn holds_only_altitude(&self) -> bool {
+        false
+    }
+
     /// The same whose noise of the senses has a seed later by `by`; none without noise that it draws itself.
     fn redrawn(&self, _by: u64) -> Option<Arc<dyn ControlModel>> {
         None

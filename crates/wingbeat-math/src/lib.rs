@@ -45,6 +45,6 @@ pub use rotation::euler;
 pub use rotation::euler::{EulerMatrices, EulerSequence};
 pub use rotation::jacobian as rotation_jacobian;
 pub use rotation::{
-    MovingRotation, RotationLaw, r1, r2, r3, rotation_about, rotation_vector,
+    MovingRotation, RotationLaw, facing, heading, r1, r2, r3, rotation_about, rotation_vector,
     rotation_vector_of_matrix, tilde, untilde,
 };

@@ -51,7 +51,8 @@ impl Wing {
 
     /// Whether all its angles are constant, and its shape is, too.
     pub fn is_still(&self) -> bool {
-        self.motion.angles.are_constant() && self.deformation.is_none()
+        let shape = self.deformation.as_ref();
+        self.motion.angles.are_constant() && shape.is_none_or(Deformation::is_steady)
     }
 
     /// Corner nodes of all panels, normal +axis 3.

@@ -110,7 +110,7 @@ impl Cell {
             let sizes = limits.sizes();
             let u = limits.applied(std::array::from_fn(|i| action[i] * sizes[i]));
             let seen = self.episode.seen_on_the_way();
-            regulator.remember(&seen, u, limits.reached(&u));
+            regulator.remember(&seen, u, usize::from(!limits.reached(&u)));
         }
     }
 

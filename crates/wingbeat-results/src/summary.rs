@@ -28,7 +28,6 @@ use std::path::Path;
 
 use wingbeat_flight::{AirModel, FlightSetup, Record};
 use wingbeat_math::{larger, smaller};
-use wingbeat_model::Wing;
 
 use crate::Outcome;
 pub use beats::{BeatMeans, Beats, down, over_weight};
@@ -249,9 +248,8 @@ fn gives_power(name: &str) -> bool {
 pub fn driving_power_name(setup: &FlightSetup, history: &crate::History) -> Option<&'static str> {
     let names = || history.names().iter().filter(|n| gives_power(n));
     // Joined roots have columns of their deformation even where nothing moves them.
-    let beats = |w: &Wing| w.deformation.is_some() || !w.motion.angles.are_constant();
     let is_driven = setup.feedback.is_some() || !setup.joints.is_empty();
-    let moves = is_driven || setup.animal.wings.iter().any(beats);
+    let moves = is_driven || setup.animal.wings.iter().any(|w| !w.is_still());
     let deforms = moves && names().any(|n| n.starts_with("deformation_"));
     let has_springs = history.names().iter().any(|n| n == PASSIVE_POWER);
     names().next()?;

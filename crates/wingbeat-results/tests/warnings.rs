@@ -310,3 +310,42 @@ fn behaves_what_loads_carry_is_said() {
         "of the weight; the lift"
     ));
 }
+
+/// Of the place a stabiliser holds the altitude alone: carried along by a wind that stays it is not lost, as a
+/// regulator would be.
+#[test]
+fn exact_stabilised_flyer_is_where_it_is_to_be_at_its_altitude() {
+    let case = preset(
+        "fruit-fly-controlled",
+        &[
+            "air.model=blade_element",
+            "control.hold=trim",
+            "control.controller=stabiliser",
+            "control.latency_beats=0",
+            "motion.adjust={}",
+            "flight={ pitch_deg = 47.5 }",
+            "time={ steps_per_beat = 40, beats = 100 }",
+            "wing.right.mesh={ chordwise = 5, spanwise = 10 }",
+            "air.gust=[{ amplitude_m_s = [-0.3, 0, 0], table = [[0, 0], [0.05, 1], [9, 1]] }]",
+            "output.page=false",
+        ],
+    );
+    let summary = flown(&case);
+    let departures = summary.departures.as_ref().unwrap();
+    let place = departures.place_wing_lengths.unwrap();
+    let mut flight = Simulation::new(case.setup.clone()).unwrap();
+    let [from, mut to] = [flight.record().mass_centre; 2];
+    while !flight.finished() {
+        to = flight.step().unwrap().mass_centre;
+    }
+    let length = case.setup.animal.wing_length();
+    let [away, down] = [(to - from).length(), (to - from).z.abs()].map(|x| x / length);
+    println!("{away} wing lengths away, {down} of them down");
+    assert!(away > 20.0, "{away}");
+    assert!((place.last - down).abs() < 1e-9, "{place:?} {down}");
+    assert!(
+        !says(&summary, "lost under feedback"),
+        "{:?}",
+        summary.warnings
+    );
+}

@@ -166,14 +166,17 @@ fn exact_flight_under_feedback_goes_on_bit_for_bit() {
     ] {
         let setup = in_blades(&[&keys[..], more].concat());
         let whole = Flight::from(setup.clone()).fly().unwrap().records;
-        // Broken off within a passage, through the bytes of a checkpoint.
-        let mut flight = Simulation::new(setup.clone()).unwrap();
-        (0..75).for_each(|_| _ = flight.step().unwrap());
-        let text = serde_json::to_string(flight.state()).unwrap();
-        let state: FlightState = serde_json::from_str(&text).unwrap();
-        let mut flight = Simulation::resume(setup, state).unwrap();
-        for expect in &whole[76..] {
-            assert_eq!(flight.step().unwrap(), expect);
+        // Broken off within a passage, through the bytes of a checkpoint: before a beat that is looked at, and before
+        // one that is not.
+        for broken in [75, 115] {
+            let mut flight = Simulation::new(setup.clone()).unwrap();
+            (0..broken).for_each(|_| _ = flight.step().unwrap());
+            let text = serde_json::to_string(flight.state()).unwrap();
+            let state: FlightState = serde_json::from_str(&text).unwrap();
+            let mut flight = Simulation::resume(setup.clone(), state).unwrap();
+            for expect in &whole[broken + 1..] {
+                assert_eq!(flight.step().unwrap(), expect);
+            }
         }
     }
 }
@@ -237,6 +240,37 @@ fn balances_a_square_and_a_turn_along_waypoints() {
         height.abs() < 0.05 && turn.abs() < 1.0,
         "{height:e} R, {turn:e} deg"
     );
+}
+
+/// While the flyer is held, its reference is itself, on a way with waypoints as it begins.
+#[test]
+fn exact_reference_while_the_flyer_is_held() {
+    let set = [
+        "control.hold=start",
+        "flight={ pitch_deg = 47.5, yaw_deg = 40, held_beats = 2, velocity_m_s = [0.1, 0, 0] }",
+        "control.waypoint=[{ time_s = 0.01, heading_deg = 0 }]",
+        "time.beats=3",
+    ];
+    let mut flight = Simulation::new(in_blades(&set)).unwrap();
+    let aims: Vec<_> = std::iter::once(flight.record().reference[0])
+        .chain((0..82).map(|_| flight.step().unwrap().reference[0]))
+        .collect();
+    let released = aims[80].heading;
+    assert!(released > 0.5, "{released} rad");
+    for aim in &aims[..80] {
+        assert!((aim.heading - released).abs() < 1e-12, "{aim:?}");
+        assert!(aim.heading_rate.abs() < 1e-12, "{aim:?}");
+    }
+    // That of the mass centre, by its places a step before and after, once the strokes have risen.
+    let step = in_blades(&set).time.step;
+    let (mut off, mut fastest) = (0.0_f64, 0.0_f64);
+    for k in 42..79 {
+        let difference = (aims[k + 1].position - aims[k - 1].position) / (2.0 * step);
+        off = off.max((difference - aims[k].velocity).length());
+        fastest = fastest.max(difference.length());
+    }
+    println!("velocity of the reference: off by {off:e} of {fastest:e} m/s");
+    assert!(off < 0.05 * fastest, "{off:e} {fastest:e}");
 }
 
 #[test]

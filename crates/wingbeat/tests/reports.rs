@@ -230,3 +230,25 @@ fn refuses_trims_with_a_memory_before_they_are_announced() {
         }
     }
 }
+
+/// `check` counts the looks that are made.
+#[test]
+fn exact_check_counts_the_looks_that_are_made() {
+    let scratch = Scratch::new("looks");
+    for (every, words) in [
+        ("1", "a look every 100 steps, acting a look later"),
+        ("3", "a look every 300 steps, acting 100 steps later"),
+    ] {
+        let every = format!("--set=control.every_beats={every}");
+        let check = [
+            "check",
+            "fruit-fly-blade",
+            "--set=control.latency_beats=1",
+            "--set=time.beats=10",
+            "--set=time.steps_per_beat=100",
+            &every,
+        ];
+        let text = said(&scratch.0, &check);
+        assert!(text.contains(words), "{text}");
+    }
+}

@@ -280,6 +280,39 @@ fn refuses_directories_that_cannot_be_gone_on_with() {
     refused(&dir, "the manifest cannot be read");
 }
 
+/// Exports and figures show the part that was flown before: what goes on removes them, and nothing else. Where there is
+/// no checkpoint, that is what is said, whether it was lost or never written.
+#[test]
+fn behaves_going_on_removes_exports_and_figures_of_the_part_before() {
+    let scratch = Scratch::new("exports");
+    let dir = scratch.0.join("run");
+    interrupted(&dir);
+    fs::create_dir_all(dir.join("figures")).unwrap();
+    let [old, own] = [
+        ["flight.h5", "figures/forces.svg"],
+        ["notes.txt", "figures/own.svg"],
+    ]
+    .map(|names| names.map(|name| dir.join(name)));
+    for path in old.iter().chain(&own) {
+        fs::write(path, "before").unwrap();
+    }
+    let done = wingbeat(&dir, &["resume", ".", "--quiet"]);
+    assert!(done.status.success(), "{done:?}");
+    assert!(old.iter().all(|path| !path.exists()));
+    assert!(own.iter().all(|path| path.exists()));
+    let other = scratch.0.join("other");
+    interrupted(&other);
+    fs::remove_file(other.join("checkpoint.bin")).unwrap();
+    fs::write(other.join("flight.h5"), "before").unwrap();
+    let done = wingbeat(&other, &["resume", ".", "--quiet"]);
+    assert!(!other.join("flight.h5").exists());
+    let said = String::from_utf8_lossy(&done.stderr);
+    assert!(
+        said.contains("it has no checkpoint (checkpoint.bin): it is flown from the start"),
+        "{said}"
+    );
+}
+
 /// What processes that were killed left of a run's files, of its exports and figures.
 #[cfg(unix)]
 #[test]

@@ -1,11 +1,11 @@
 //! The level frame of a reference attitude, and small departures from it.
 
 use wingbeat_dynamics::BodyMotion;
-use wingbeat_math::{DMat3, DQuat, DVec3, rotation_vector};
+use wingbeat_math::{DMat3, DQuat, DVec3, facing, heading, rotation_vector};
 
 use crate::beat::{Beat, State};
 
-/// Forward, right and down at a reference attitude: down along gravity, forward the way the nose points (`forward`).
+/// Forward, right and down at a reference attitude: down along gravity, forward the way the nose points ([`facing`]).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Level {
     /// Level frame to N.
@@ -18,7 +18,7 @@ impl Level {
     /// The level frame of the attitude `r` (root to N) under `gravity` (N components).
     pub fn new(r: DMat3, gravity: DVec3) -> Self {
         let down = gravity.try_normalize().unwrap_or(DVec3::Z);
-        let ahead = forward(r, down);
+        let ahead = facing(r, down);
         let to_n = DMat3::from_cols(ahead, down.cross(ahead), down);
         Self {
             to_n,
@@ -29,9 +29,7 @@ impl Level {
     /// How far it is turned to the right about `down` from the level frame of a body that has the axes of N \[rad\]: its
     /// heading, from n1 where gravity is along n3.
     pub fn heading(&self) -> f64 {
-        let [ahead, right, down] = [self.to_n.x_axis, self.to_n.y_axis, self.to_n.z_axis];
-        let zero = forward(DMat3::IDENTITY, down);
-        (-zero.dot(right)).atan2(zero.dot(ahead))
+        heading(self.to_n.x_axis, self.to_n.z_axis)
     }
 
     /// That of the attitude in the state `y` at the start of a beat.
@@ -50,32 +48,6 @@ impl Level {
             ..*self
         }
     }
-}
-
-/// Horizontal part of the nose, beside one that is level, below which right of the body says the more where forward is,
-/// the nearer the nose is to the vertical \[1\].
-const UPRIGHT: f64 = 0.1;
-
-/// The horizontal direction in which a body of the attitude `r` (root to N) faces, N components \[1\]: the horizontal
-/// part of b1, of a body that is pitched beyond the vertical the reverse of it. So a body that pitches up through the
-/// vertical faces the same way all along, and its right is right; one on its back counts as pitched over, not as rolled
-/// over. Where b1 is nearly vertical, forward goes over to what has b2, made horizontal, to the right: the same in a
-/// flight that does not bank.
-fn forward(r: DMat3, down: DVec3) -> DVec3 {
-    /// Horizontal part of b2 below which it has no direction.
-    const NONE: f64 = 1e-9;
-    let nose = r.x_axis - r.x_axis.dot(down) * down;
-    let facing = r.y_axis.cross(down);
-    if facing.length() < NONE {
-        return nose.normalize(); // banked by a right angle
-    }
-    let facing = facing.normalize();
-    let along = nose.dot(facing);
-    let share = (along / UPRIGHT).powi(2);
-    if share >= 1.0 {
-        return along.signum() * nose.normalize();
-    }
-    (share * along.signum() * nose.normalize_or_zero() + (1.0 - share) * facing).normalize()
 }
 
 /// Names of the nine state components.

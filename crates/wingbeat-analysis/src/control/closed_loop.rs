@@ -95,7 +95,7 @@ impl ClosedLoop<'_> {
         for (look, plant) in self.regulator.plants().iter().enumerate() {
             let d = Departure::from_states(look, &x);
             let u = regulator.controls(&d);
-            regulator.remember(&d, u, false);
+            regulator.remember(&d, u, 1);
             let now = pass_on(&mut queue, u, share);
             x = plant.advance(&x, &now, &queue[0]);
         }

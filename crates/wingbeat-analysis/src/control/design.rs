@@ -250,6 +250,10 @@ impl ControlModel for Design {
         Some(self.velocity_in_n(setup))
     }
 
+    fn holds_only_altitude(&self) -> bool {
+        matches!(self.law, LawDesign::Stabiliser(_))
+    }
+
     fn redrawn(&self, by: u64) -> Option<Arc<dyn ControlModel>> {
         let sensors = self.sensors?.redrawn(by)?;
         Some(Arc::new(Self {

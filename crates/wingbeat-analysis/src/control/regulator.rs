@@ -215,23 +215,23 @@ impl Regulator {
         seen.iter().chain(&self.joints).copied().collect()
     }
 
-    /// A beat goes by: the command `u` joins those under way, the departure the sums, unless the
-    /// command is `limited`.
-    pub fn remember(&mut self, departure: &Departure, u: Controls, limited: bool) {
+    /// A beat goes by: the command `u` joins those under way, the departure so many `times` the sums. The departure
+    /// that is expected at its end.
+    pub fn remember(&mut self, departure: &Departure, u: Controls, times: usize) -> Departure {
         let now = pass_on(&mut self.commands, u, self.share);
-        let (x, next) = (self.states(departure), &self.commands[0]);
         let plant = &self.plants[departure.look % self.plants.len()];
-        if let Some(observer) = &mut self.observer {
-            observer.advance(plant, &x, &now, next);
-        } else if plant.joints > 0 {
-            let ahead = plant.advance(&x, &now, next);
-            self.joints.copy_from_slice(&ahead[STATES..]);
-        }
-        if !limited {
+        let ahead = plant.advance(&self.states(departure), &now, &self.commands[0]);
+        self.joints.copy_from_slice(&ahead[STATES..]);
+        if times > 0 {
             let states = states(departure);
             let summed = self.sums.iter_mut().zip(SUMMED);
-            summed.for_each(|(sum, k)| *sum += states[k]);
+            summed.for_each(|(sum, k)| *sum += times as f64 * states[k]);
         }
+        let expected = Departure::from_states(departure.look + 1, &ahead);
+        if let Some(observer) = &mut self.observer {
+            observer.expect(ahead);
+        }
+        expected
     }
 
     /// Sums, commands, and the filter's states or those of the free joints, for a flight that is resumed.
@@ -254,7 +254,12 @@ impl Regulator {
         let (seen, unseen) = memory.split_at(known.min(memory.len()));
         fits(seen, known)?;
         match &mut self.observer {
-            Some(observer) => observer.restore(unseen)?,
+            Some(observer) => {
+                observer.restore(unseen)?;
+                if let Some(joints) = unseen.get(STATES..) {
+                    self.joints.copy_from_slice(joints);
+                }
+            }
             None => {
                 fits(unseen, self.joints.len())?;
                 self.joints.copy_from_slice(unseen);

@@ -51,6 +51,10 @@ impl ControlModel for Sensing {
         self.controller.velocity(setup)
     }
 
+    fn holds_only_altitude(&self) -> bool {
+        self.controller.holds_only_altitude()
+    }
+
     fn redrawn(&self, by: u64) -> Option<Arc<dyn ControlModel>> {
         let sensors = self.sensors?.redrawn(by)?;
         Some(Arc::new(Self {

@@ -158,12 +158,13 @@ impl ProportionalDerivative {
         [tilt.x, tilt.y, tilt.z, departure.position.z]
     }
 
-    /// Time goes by to the next look: the departure joins the sums, unless the command is `limited`.
-    pub fn remember(&mut self, departure: &Departure, limited: bool) {
-        if self.integral > 0.0 && !limited {
+    /// Time goes by: the departure joins the sums so many `times`.
+    pub fn remember(&mut self, departure: &Departure, times: usize) {
+        if self.integral > 0.0 && times > 0 {
             let errors = self.errors(departure);
+            let share = times as f64 * self.integral;
             let sums = self.sums.iter_mut().zip(errors);
-            sums.for_each(|(sum, x)| *sum += self.integral * x);
+            sums.for_each(|(sum, x)| *sum += share * x);
         }
     }
 

@@ -7,7 +7,7 @@
 use std::collections::VecDeque;
 use std::sync::Arc;
 
-use wingbeat_flight::control::due;
+use wingbeat_flight::control::{due, fits};
 use wingbeat_flight::{Aim, Controller, Feedback, FlightSetup, RESUME_AS_SAVED, Sensed};
 use wingbeat_math::{DMat3, DVec3};
 use wingbeat_model::motion::Adjustment;
@@ -19,6 +19,7 @@ use crate::control::departure::{
 };
 use crate::control::part::Part;
 use crate::control::regulator::Regulator;
+use crate::control::regulator::plant::{STATES, states};
 use crate::control::route::Route;
 use crate::control::sensors::Sensors;
 use crate::control::stabiliser::ProportionalDerivative;
@@ -50,11 +51,15 @@ impl Law {
         }
     }
 
-    /// A beat goes by with the command `u`, which reaches a limit or not.
-    pub fn remember(&mut self, d: &Departure, u: Controls, limited: bool) {
+    /// A beat goes by with the command `u`, and the departure joins the sums so many `times`. The departure that is
+    /// reckoned with where nothing is seen at its end: of the stabiliser, which does not reckon, none.
+    pub fn remember(&mut self, d: &Departure, u: Controls, times: usize) -> Departure {
         match self {
-            Self::Stabiliser(loops) => loops.remember(d, limited),
-            Self::Regulator(regulator) => regulator.remember(d, u, limited),
+            Self::Stabiliser(loops) => {
+                loops.remember(d, times);
+                Departure::default()
+            }
+            Self::Regulator(regulator) => regulator.remember(d, u, times),
         }
     }
 
@@ -103,7 +108,7 @@ pub struct Steering {
     base: Adjustment,
     /// Largest departures of commands from those of the reference flight.
     pub limits: Limits,
-    /// Looks from one command to the next; it is kept between them.
+    /// Beats, or parts of them, from one look to the next; between them nothing is seen, and the command is kept.
     pub every: usize,
     /// Noise and bias of what is seen; none: the truth.
     pub sensors: Option<Sensors>,
@@ -114,6 +119,8 @@ pub struct Steering {
     /// Reference flight and true place of the mass centre at the first look, N components [m].
     first: Option<(Reference, DVec3)>,
     command: Controls,
+    /// What is reckoned with until the next look.
+    expected: Departure,
 }
 
 impl Steering {
@@ -131,6 +138,7 @@ impl Steering {
             orbit: vec![Departure::default()],
             first: None,
             command: [0.0; CONTROLS],
+            expected: Departure::default(),
         }
     }
 
@@ -153,6 +161,16 @@ impl Steering {
         }
     }
 
+    /// The departure that is reckoned with where it looks at a flight that is `truth`.
+    fn looked(&mut self, truth: &Sensed) -> Departure {
+        let sensed = self.sensors.map_or(*truth, |s| s.seen(truth));
+        let (reference, origin) = self.begin(truth, &sensed);
+        let aim = self.route.at(sensed.time);
+        let orbit = &self.orbit[sensed.look % self.orbit.len()];
+        let seen = reference.departure_on(&aim, &sensed, origin).less(orbit);
+        self.law.estimated(&seen)
+    }
+
     /// The reference flight and the true place where it began, in a flight that is `truth` and is seen as `sensed`; known
     /// from the first look on.
     fn begin(&mut self, truth: &Sensed, sensed: &Sensed) -> (Reference, DVec3) {
@@ -168,17 +186,21 @@ impl Steering {
 
 impl Controller for Steering {
     fn command(&mut self, truth: &Sensed) -> Result<Vec<Adjustment>, String> {
-        let sensed = self.sensors.map_or(*truth, |s| s.seen(truth));
-        let (reference, origin) = self.begin(truth, &sensed);
-        let aim = self.route.at(sensed.time);
-        let orbit = &self.orbit[sensed.look % self.orbit.len()];
-        let seen = reference.departure_on(&aim, &sensed, origin).less(orbit);
-        let d = self.law.estimated(&seen);
-        if d.look.is_multiple_of(self.every) {
+        let looks = truth.look.is_multiple_of(self.every);
+        let d = if looks {
+            let d = self.looked(truth);
             self.command = self.limits.applied(self.law.controls(&d));
-        }
-        let limited = self.limits.reached(&self.command);
-        self.law.remember(&d, self.command, limited);
+            d
+        } else {
+            Departure {
+                look: truth.look,
+                ..self.expected
+            }
+        };
+        // A look stands for the beats to the next one.
+        let is_summed = looks && !self.limits.reached(&self.command);
+        let times = if is_summed { self.every } else { 0 };
+        self.expected = self.law.remember(&d, self.command, times);
         let mut list = adjustments(&self.command, &self.sides);
         for (a, side) in list.iter_mut().zip(&self.sides) {
             let base = side.map_or_else(|| self.base.on_wing(), |_| self.base);
@@ -208,8 +230,12 @@ impl Controller for Steering {
         let first = self.first.map_or(vec![], |(reference, origin)| {
             [reference.to_vec(), origin.to_array().to_vec()].concat()
         });
-        let law = self.law.memory();
-        [vec![first.len() as f64], first, self.command.to_vec(), law].concat()
+        let (command, law) = (self.command.to_vec(), self.law.memory());
+        let mut memory = [vec![first.len() as f64], first, command, law].concat();
+        if self.every > 1 {
+            memory.extend(states(&self.expected));
+        }
+        memory
     }
 
     fn restore(&mut self, memory: &[f64]) -> Result<(), String> {
@@ -220,6 +246,12 @@ impl Controller for Steering {
         else {
             return Err(format!("it has no command; {RESUME_AS_SAVED}"));
         };
+        let expected = if self.every > 1 { STATES } else { 0 };
+        let (law, expected) = law.split_at(law.len().saturating_sub(expected));
+        if self.every > 1 {
+            fits(expected, STATES)?;
+            self.expected = Departure::from_states(0, expected);
+        }
         self.law.restore(law)?;
         self.first = begun(first)?;
         self.command.copy_from_slice(command);

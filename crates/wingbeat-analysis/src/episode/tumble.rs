@@ -97,7 +97,7 @@ impl<'a> Tumbles<'a> {
             }
             let formed = law.as_mut().map_or([0.0; CONTROLS], |law| {
                 let u = self.limits.applied(law.controls(&d));
-                law.remember(&d, u, self.limits.reached(&u));
+                law.remember(&d, u, usize::from(!self.limits.reached(&u)));
                 u
             });
             under_way.push_back(formed);

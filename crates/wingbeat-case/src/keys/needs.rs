@@ -3,7 +3,7 @@
 use toml::{Table, Value};
 
 use super::schema::Shape;
-use crate::text::source::find;
+use crate::text::path::find;
 
 /// What a key needs to have an effect.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -9,12 +9,10 @@ use wingbeat_model::mirror_name;
 
 use crate::error::{CaseError, Fault};
 use crate::text::digits::{token, with_all_digits};
+use crate::text::path::{check, find, set, take_away};
 
 /// What is advised where a text is no TOML.
 pub(crate) const START: &str = "`wingbeat new fruit-fly-hover` writes a case to start from";
-
-/// Parts of a key at most; `wing.right.deformation.twist[0].course.fourier.cosine_deg[0]` has ten.
-const MAX_PARTS: usize = 32;
 
 /// A case as written: text, key positions, overrides, and the document with overrides applied.
 #[derive(Clone, Debug)]
@@ -240,6 +238,7 @@ impl CaseSource {
             .split_once('=')
             .ok_or_else(|| wrong("", format!("`{}` has no `=`", shortened(item))))?;
         let (key, typed) = (key.trim(), typed.trim());
+        check(key).map_err(|problem| wrong(key, problem))?;
         if typed.is_empty() {
             take_away(&mut self.table, key).map_err(|problem| {
                 Box::new(CaseError {
@@ -357,103 +356,9 @@ fn record(
     places.insert(path, Place { key, value });
 }
 
-/// The parts of a path: `load[0].force_n` is `load`, `[0]`, `force_n`.
-fn parts(path: &str) -> impl Iterator<Item = Part<'_>> {
-    path.split('.').flat_map(|piece| {
-        let (name, rest) = piece.split_at(piece.find('[').unwrap_or(piece.len()));
-        let indices = rest
-            .split(['[', ']'])
-            .filter_map(|n| n.parse().ok())
-            .map(Part::Index);
-        std::iter::once(Part::Name(name)).chain(indices)
-    })
-}
-
-enum Part<'a> {
-    Name(&'a str),
-    Index(usize),
-}
-
 /// The raw case, or a table in it, as the table that would be read.
 pub(crate) fn table_of(raw: &impl serde::Serialize) -> Table {
     Table::try_from(raw).expect("a case that was read can be written")
-}
-
-/// The value at a path.
-pub(crate) fn find<'a>(table: &'a Table, path: &str) -> Option<&'a Value> {
-    let mut steps = parts(path);
-    let Some(Part::Name(first)) = steps.next() else {
-        return None;
-    };
-    steps.try_fold(table.get(first)?, |value, part| match part {
-        Part::Name(name) => value.get(name),
-        Part::Index(k) => value.get(k),
-    })
-}
-
-/// The same, to be changed.
-pub(crate) fn find_mut<'a>(table: &'a mut Table, path: &str) -> Option<&'a mut Value> {
-    let mut steps = parts(path);
-    let Some(Part::Name(first)) = steps.next() else {
-        return None;
-    };
-    steps.try_fold(table.get_mut(first)?, |value, part| match part {
-        Part::Name(name) => value.get_mut(name),
-        Part::Index(k) => value.get_mut(k),
-    })
-}
-
-/// Puts a value at a path, making tables on the way.
-fn set(table: &mut Table, path: &str, value: Value) -> Result<(), String> {
-    let steps: Vec<Part<'_>> = parts(path).collect();
-    if steps.len() > MAX_PARTS {
-        return Err(format!(
-            "a key of {} parts: no case has one that deep",
-            steps.len()
-        ));
-    }
-    let Some((Part::Name(first), rest)) = steps.split_first() else {
-        return Err("the key is empty".to_owned());
-    };
-    if first.is_empty() {
-        return Err("the key is empty".to_owned());
-    }
-    let fresh = || Value::Table(Table::new());
-    let mut slot = table.entry((*first).to_owned()).or_insert_with(fresh);
-    for part in rest {
-        slot = match (part, slot) {
-            (Part::Name(name), Value::Table(t)) => {
-                t.entry((*name).to_owned()).or_insert_with(fresh)
-            }
-            (Part::Index(k), Value::Array(items)) if *k < items.len() => &mut items[*k],
-            (Part::Index(k), _) => return Err(format!("there is no element [{k}] to set")),
-            (Part::Name(name), _) if name.parse::<usize>().is_ok() => {
-                return Err(format!(
-                    "`{name}` cannot be set: the elements of a list are [0], [1] and so on, without a point before them"
-                ));
-            }
-            (Part::Name(name), _) => {
-                return Err(format!(
-                    "`{name}` cannot be set: what holds it is not a table"
-                ));
-            }
-        };
-    }
-    *slot = value;
-    Ok(())
-}
-
-/// Takes the key at `path` out of the document, which must have it.
-fn take_away(table: &mut Table, path: &str) -> Result<(), String> {
-    let none =
-        || format!("the case has no such key to take away (which `{path}=` without a value does)");
-    let (outer, key) = path.rsplit_once('.').unwrap_or(("", path));
-    let holder = match outer {
-        "" => Some(table),
-        outer => find_mut(table, outer).and_then(Value::as_table_mut),
-    };
-    let gone = holder.and_then(|t| t.remove(key));
-    gone.map(|_| ()).ok_or_else(none)
 }
 
 /// A value in one line, shortened.

@@ -20,7 +20,7 @@ impl FlightSetup {
         let laws = motion.position.iter().chain(&motion.angles);
         let apart = laws.filter_map(|law| apart(law, beat, ahead));
         let most = apart.max_by(|a, b| a.abs().total_cmp(&b.abs()))?;
-        let side = if ahead > 0.0 { "ahead of" } else { "behind" };
+        let side = if most > 0.0 { "ahead of" } else { "behind" };
         Some(format!(
             "the tether (flight.tether) oscillates at the wingbeat frequency or a multiple of it and is {:.3} of its period {side} where the wings' angles put it, as they start differently: take motion.start = \"impulsive\" and no flight.tether.start_s, or give flight.tether.start_s the length of the wings' start (motion.start_beats over motion.frequency_hz)",
             most.abs()

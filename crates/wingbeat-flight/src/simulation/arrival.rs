@@ -4,13 +4,16 @@ use std::sync::Arc;
 
 use wingbeat_air::Points;
 use wingbeat_math::ode::StepReport;
-use wingbeat_math::rotation_vector_of_matrix;
+use wingbeat_math::{DVec3, facing, heading, rotation_vector_of_matrix};
 
 use super::Simulation;
 use crate::equations::{Equations, Scratch};
 use crate::error::FlightError;
 use crate::interface::air_probe::AirProbe;
+use crate::interface::controller::Aim;
 use crate::interface::memory::AirMemory;
+use crate::interface::record::Record;
+use crate::setup::FlightSetup;
 use crate::simulation::control::Sensed;
 use crate::simulation::recorder::Sources;
 
@@ -49,7 +52,7 @@ impl Simulation {
         let since = self.state.step - self.stages[self.state.stage].from_step;
         let time = since as f64 * self.setup.time.step;
         let feedback = self.feedback.as_ref();
-        let aim = feedback.and_then(|f| f.reference(time, self.record.mass_centre));
+        let aim = feedback.and_then(|f| f.reference(time, || held(&self.record, &self.setup)));
         self.record.reference.clear();
         self.record.reference.extend(aim);
         let is_released = self.state.stage + 1 == self.stages.len();
@@ -89,6 +92,18 @@ impl Simulation {
             self.state.control = Some(feedback.state());
         }
         Ok(())
+    }
+}
+
+/// Where the flyer of a record is, and where it goes and heads.
+fn held(record: &Record, setup: &FlightSetup) -> Aim {
+    let attitude = record.root_rotation();
+    let down = setup.gravity.try_normalize().unwrap_or(DVec3::Z);
+    Aim {
+        position: record.mass_centre,
+        velocity: record.momentum / setup.animal.mass(),
+        heading: heading(facing(attitude, down), down),
+        heading_rate: (attitude * record.root_angular_velocity).dot(down),
     }
 }
 

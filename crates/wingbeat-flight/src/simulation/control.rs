@@ -266,15 +266,11 @@ impl FeedbackLoop {
         &self.state.to
     }
 
-    /// Where the flyer is to be at `time` [s] since the release, if the reference moves; before it is known, at its
-    /// mass centre `centre` [m].
-    pub fn reference(&self, time: f64, centre: DVec3) -> Option<Aim> {
-        let here = Aim {
-            position: centre,
-            ..Aim::default()
-        };
+    /// Where the flyer is to be at `time` [s] since the release, if the reference moves; before that is known, where
+    /// it is `held`.
+    pub fn reference(&self, time: f64, held: impl FnOnce() -> Aim) -> Option<Aim> {
         self.follows
-            .then(|| self.controller.aim(time).unwrap_or(here))
+            .then(|| self.controller.aim(time).unwrap_or_else(held))
     }
 
     /// Attitude R_NB of the root that is held `steps` time steps after the release, `time` [s], if it does not follow

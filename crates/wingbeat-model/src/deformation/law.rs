@@ -117,7 +117,7 @@ impl Term {
 
     /// Whether it does not vary over the beat.
     pub fn is_steady(&self) -> bool {
-        self.time.cos.is_empty() && self.time.sin.is_empty()
+        self.time.is_constant()
     }
 
     /// Value and first two time derivatives of the series at the phase `[x, x', x'']`.

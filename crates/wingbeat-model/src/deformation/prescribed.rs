@@ -46,6 +46,11 @@ impl Deformation {
             .chain(named("bending", &self.bending))
     }
 
+    /// Whether the shape is the same at all times.
+    pub fn is_steady(&self) -> bool {
+        self.surface.is_none() && self.terms().all(|(_, term)| term.is_steady())
+    }
+
     /// For a wing `s` times as large: bending and places are lengths, twist and camber are not.
     pub fn scaled(&self, s: f64) -> Self {
         let bending = self.bending.iter().map(|t| Term {

@@ -1,12 +1,20 @@
 //! Adjusted angle laws: the means of steering and trim.
 
-use super::{AngleLaw, WingMotion};
+use super::{AngleLaw, Oval, SmoothSquare, SmoothTriangle, SplitCycle, WingMotion};
 use crate::mesh::Side;
 
 impl AngleLaw {
-    /// Whether it is one angle at all times.
+    /// Whether it is one angle at all times, whatever it could be by its form.
     pub fn is_constant(&self) -> bool {
-        matches!(self, AngleLaw::Constant(_))
+        match self {
+            AngleLaw::Constant(_) => true,
+            AngleLaw::Fourier(law) => law.is_constant(),
+            AngleLaw::SmoothTriangle(SmoothTriangle { amplitude, .. })
+            | AngleLaw::SmoothSquare(SmoothSquare { amplitude, .. })
+            | AngleLaw::Oval(Oval { amplitude, .. })
+            | AngleLaw::SplitCycle(SplitCycle { amplitude, .. }) => *amplitude == 0.0,
+            AngleLaw::Table(law) => law.is_constant(),
+        }
     }
 
     /// Mean over a beat \[rad\].

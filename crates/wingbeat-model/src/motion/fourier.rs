@@ -24,6 +24,11 @@ impl Fourier {
         self.at_turn((TAU * x).sin_cos())
     }
 
+    /// Whether it is its mean at all times.
+    pub fn is_constant(&self) -> bool {
+        self.cos.iter().chain(&self.sin).all(|c| *c == 0.0)
+    }
+
     /// As [`Self::at`], from sine and cosine of 2 pi x; those of the harmonics follow by addition
     /// of angles, each with a rounding more.
     pub(crate) fn at_turn(&self, (s1, c1): (f64, f64)) -> [f64; 3] {

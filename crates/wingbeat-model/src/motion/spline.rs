@@ -60,6 +60,11 @@ impl PeriodicSpline {
         self.x.iter().copied().zip(self.q.iter().copied())
     }
 
+    /// Whether all samples are one angle.
+    pub(crate) fn is_constant(&self) -> bool {
+        self.q.iter().all(|q| *q == self.q[0])
+    }
+
     /// Mean over the period, exact for the cubic pieces.
     pub(crate) fn mean(&self) -> f64 {
         let piece = |k: usize| {

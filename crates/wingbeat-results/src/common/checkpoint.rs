@@ -21,7 +21,7 @@ use wingbeat_case::IoError;
 pub const FILE: &str = "checkpoint.bin";
 const MAGIC: &str = "wingbeat-checkpoint ";
 /// What the bytes of a state mean, and with which forces a flight goes on from them: another one is refused.
-pub const FORMAT: &str = "27";
+pub const FORMAT: &str = "28";
 
 /// What a checkpoint says about itself.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]

@@ -12,23 +12,26 @@ use crate::common::whole::{target_name, was_there};
 use crate::series::history::is_abandoned;
 use crate::snapshots::vtp::is_frame;
 
-/// Files a run and its exports may have; `--overwrite` removes these, the frames and the figures, and
+/// Files a run may have; `--overwrite` removes these, its exports, the frames and the figures, and
 /// nothing else. The manifest comes first and goes last: where it is, there is a run.
-const ENTRIES: [&str; 14] = [
+const ENTRIES: [&str; 8] = [
     "history.csv",
     "flight.pvd",
     "summary.txt",
     "summary.json",
     "flight.html",
     "checkpoint.bin",
+    "case.toml",
+    "manifest.json",
+];
+/// Exports of it.
+const EXPORTS: [&str; 6] = [
     "flight.h5",
     "flight.glb",
     "history.parquet",
     "surfaces.vtkhdf",
     "wakes.vtkhdf",
     "particles.vtkhdf",
-    "case.toml",
-    "manifest.json",
 ];
 /// The folder that runs and campaigns go into unless it is said where.
 pub const RESULTS: &str = "results";
@@ -136,10 +139,7 @@ impl ResultDir {
             });
         }
         clear(&path.join(FRAMES), is_frame).map_err(make(path))?;
-        for styled in STYLED {
-            clear(&path.join(styled), is_figure).map_err(make(path))?;
-        }
-        clear(&path.join(FIGURES), is_figure).map_err(make(path))?;
+        remove_derived(path)?;
         remove_half_written(path);
         for entry in ENTRIES {
             was_there(fs::remove_file(path.join(entry))).map_err(make(path))?;
@@ -223,6 +223,14 @@ impl ResultDir {
         }
     }
 
+    /// Removes exports and figures: of a flight that goes on they would show the part that was flown before.
+    ///
+    /// # Errors
+    /// A file that cannot be removed.
+    pub fn remove_derived(&self) -> Result<(), IoError> {
+        remove_derived(&self.path)
+    }
+
     /// Removes what processes that died left of files that they were writing here.
     pub fn remove_half_written(&self) {
         remove_half_written(&self.path);
@@ -257,6 +265,17 @@ impl ResultDir {
     }
 }
 
+/// Removes the exports of a run and its figures.
+fn remove_derived(run: &Path) -> Result<(), IoError> {
+    for folder in STYLED.iter().chain([&FIGURES]) {
+        clear(&run.join(folder), is_figure).map_err(make(run))?;
+    }
+    for export in EXPORTS {
+        was_there(fs::remove_file(run.join(export))).map_err(make(run))?;
+    }
+    Ok(())
+}
+
 /// Removes what processes that died left of files of a run, its exports and its figures that they were writing.
 pub(crate) fn remove_half_written(run: &Path) {
     remove_left_behind(run, is_of_run);
@@ -266,16 +285,21 @@ pub(crate) fn remove_half_written(run: &Path) {
     }
 }
 
+/// Files that a run and its exports may have.
+fn entries() -> impl Iterator<Item = &'static str> {
+    ENTRIES.into_iter().chain(EXPORTS)
+}
+
 /// Whether this is the name of a file that a run, an export or a figure has.
 pub(crate) fn is_of_run(name: &str) -> bool {
-    ENTRIES.contains(&name) || is_figure(name)
+    entries().any(|entry| entry == name) || is_figure(name)
 }
 
 /// Whether this is the place of a file that a run writes or has written.
 pub(crate) fn belongs_to_run(path: &Path) -> bool {
     run_around(path).is_some_and(|(_, inside)| {
         let folder = [FRAMES, FIGURES].iter().any(|f| inside.starts_with(f));
-        folder || ENTRIES.iter().any(|entry| inside == Path::new(entry))
+        folder || entries().any(|entry| inside == Path::new(entry))
     })
 }
 

@@ -128,6 +128,7 @@ impl RunWriter {
         dir.write("manifest.json", manifest.to_json().as_bytes())?;
         history.cut()?;
         dir.remove_half_written();
+        dir.remove_derived()?;
         let steps = saver::go_back(dir.path(), header.step)?;
         let step = case.setup.time.step;
         let writer = Self {

@@ -26,7 +26,8 @@ impl Departure {
 pub struct Departures {
     /// Part of the looks at which the command stood at a limit \[1\].
     pub limited: f64,
-    /// Of the mass centre from where it is to be, in lengths of the longest wing \[1\]; none where that is not known.
+    /// Of the mass centre from where it is to be, in lengths of the longest wing \[1\], under a controller that holds
+    /// the altitude and no other place that of its altitude; none where that is not known.
     pub place_wing_lengths: Option<Departure>,
     /// Of the attitude from the one that is held \[deg\]: the trimmed one where it is known, otherwise that at the
     /// release, turned to where the flyer is to head.
@@ -82,7 +83,12 @@ impl Departures {
         let place = aim.map(|aim| aim.position);
         let place = place.or_else(|| feedback.controller.velocity(setup).map(straight));
         if let Some(place) = place {
-            let away = r.mass_centre.distance(place) / setup.animal.wing_length();
+            let off = r.mass_centre - place;
+            let away = match feedback.controller.holds_only_altitude() {
+                true => off.dot(setup.gravity.normalize_or(DVec3::Z)).abs(),
+                false => off.length(),
+            };
+            let away = away / setup.animal.wing_length();
             self.place_wing_lengths.get_or_insert_default().take(away);
         }
     }

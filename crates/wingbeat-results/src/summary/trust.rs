@@ -252,10 +252,15 @@ fn feedback(setup: &FlightSetup, summary: &Summary, list: &mut Warnings) {
         return;
     };
     let turn = departures.attitude_deg;
+    let feedback = setup.feedback.as_ref();
+    let its = match feedback.is_some_and(|f| f.controller.holds_only_altitude()) {
+        true => "altitude",
+        false => "place",
+    };
     let (place, away) = match &departures.place_wing_lengths {
         Some(d) => (
             format!(
-                "{:.1} wing lengths from its place at most and {:.1} in the end, and ",
+                "{:.1} wing lengths from its {its} at most and {:.1} in the end, and ",
                 d.largest, d.last
             ),
             Some(d.last),
@@ -263,7 +268,6 @@ fn feedback(setup: &FlightSetup, summary: &Summary, list: &mut Warnings) {
         None => (String::new(), None),
     };
     let limited = 100.0 * departures.limited;
-    let feedback = setup.feedback.as_ref();
     let held = match feedback.is_some_and(|f| f.controller.holds_attitude()) {
         true => "that of trim",
         false => "that of the release",

@@ -5,7 +5,8 @@ use std::process::{Command, Stdio};
 use std::thread::sleep;
 use std::time::Duration;
 
-use wingbeat::analysis::{TrimProblem, ensemble::member};
+use wingbeat::analysis::TrimProblem;
+use wingbeat::analysis::ensemble::{is_noisy, member};
 use wingbeat::case::{LoadedCase, trimmed_case};
 use wingbeat::flight::Simulation;
 use wingbeat::math::DVec3;
@@ -74,6 +75,14 @@ fn behaves_members_of_a_noisy_flight_scatter() {
     // The first member is the case itself.
     let silent = fly(&["time.beats=2"]).setup;
     assert!(!ensemble(&Flight::from(silent), 2, 0).unwrap().is_noisy);
+    // Noise that no command follows is none: the flyer is held to the end, or it is released too late.
+    let is_noisy = |set: &[&str]| is_noisy(&fly(&[&["time.beats=5", noise], set].concat()).setup);
+    assert!(is_noisy(&["flight.held_beats=2"]));
+    assert!(!is_noisy(&["flight.held_beats=5"]));
+    assert!(!is_noisy(&[
+        "flight.held_beats=3",
+        "control.latency_beats=2"
+    ]));
 }
 
 /// No air goes through a ground, a wall or the plane of symmetry: members of an ensemble have their wind along them.

@@ -234,11 +234,21 @@ fn agrees_bent_wings_of_the_animation_with_those_of_the_frames() {
     }
 }
 
-/// Where no frames are written, elastic wings bend as the history tells; rigid ones have no morph targets.
+/// Where no frames are written, elastic wings bend as the history tells, whatever their names; rigid ones have no morph
+/// targets.
 #[test]
 fn behaves_wings_without_frames_bend_by_the_history() {
     let scratch = Scratch::new("gltf-rows");
-    for (preset, targets) in [("hawkmoth-elastic", true), ("fruit-fly-blade", false)] {
+    flown(&scratch.0, &["new", "hawkmoth-elastic", "fore-wings.toml"]);
+    let case = scratch.0.join("fore-wings.toml");
+    let text = std::fs::read_to_string(&case).unwrap();
+    std::fs::write(&case, text.replace("wing.right", "wing.fore-right")).unwrap();
+    for (preset, targets) in [
+        ("hawkmoth-elastic", true),
+        ("fore-wings.toml", true),
+        ("fruit-fly-blade", false),
+    ] {
+        let out = preset.trim_end_matches(".toml");
         let set = ["--set=time.beats=0.2", "--set=output.frames_every=0"];
         let set = &set[..if targets { 2 } else { 1 }];
         let fly = [
@@ -246,12 +256,12 @@ fn behaves_wings_without_frames_bend_by_the_history() {
             preset,
             "--quiet",
             "--out",
-            preset,
+            out,
             "--set=output.page=false",
         ];
         flown(&scratch.0, &[&fly[..], set].concat());
-        flown(&scratch.0, &["export", preset, "--format", "gltf"]);
-        let (head, _) = glb(&scratch.0.join(preset).join("flight.glb"));
+        flown(&scratch.0, &["export", out, "--format", "gltf"]);
+        let (head, _) = glb(&scratch.0.join(out).join("flight.glb"));
         let meshes = head["meshes"].as_array().unwrap();
         let bends = |m: &serde_json::Value| m["primitives"][0]["targets"].is_array();
         assert_eq!(

@@ -19,7 +19,6 @@ use super::plant::{Plant, STATES, natural_sizes};
 use super::riccati::{product, solve_columns};
 use crate::AnalysisError;
 use crate::beat::Beat;
-use crate::control::departure::Controls;
 use crate::control::sensors::Channels;
 
 /// Parts of natural sizes below which noise of what is seen is not counted.
@@ -111,9 +110,9 @@ impl Observer {
         (0..n).map(corrected).collect()
     }
 
-    /// Time goes by from the estimate `x` on the map `plant`, in which the command `now` goes over to `next`.
-    pub fn advance(&mut self, plant: &Plant, x: &[f64], now: &Controls, next: &Controls) {
-        self.expected = Some(plant.advance(x, now, next));
+    /// Time goes by: `x` is what is expected at the next look.
+    pub fn expect(&mut self, x: Vec<f64>) {
+        self.expected = Some(x);
     }
 
     /// What it remembers.

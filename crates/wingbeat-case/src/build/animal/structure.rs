@@ -13,7 +13,8 @@ use crate::error::Fault;
 use crate::raw::{
     BeamCase, BeamMassCase, RegionCase, ShellCase, ShellRule, StructureCase, VeinCase,
 };
-use crate::text::source::{find, table_of};
+use crate::text::path::find;
+use crate::text::source::table_of;
 
 /// Elements of a beam where nothing is said.
 const ELEMENTS: usize = 10;

@@ -2,6 +2,7 @@
 
 use std::array::from_fn;
 
+use wingbeat_case::column_name;
 use wingbeat_flight::STATIONS;
 use wingbeat_math::{DVec3, r2};
 use wingbeat_model::Wing;
@@ -36,11 +37,12 @@ impl Bent {
     /// For a wing and the columns of a history; none where that does not say what sections do.
     pub fn new(wing: &Wing, names: &[String]) -> Option<Self> {
         let column = |name: String| names.iter().position(|n| *n == name);
+        let own = column_name(&wing.name);
         let of = |section: &str| -> Option<[usize; 3]> {
             Some([
-                column(format!("deflection_{section}_wing_{}_m", wing.name))?,
-                column(format!("twist_{section}_wing_{}_rad", wing.name))?,
-                column(format!("camber_{section}_wing_{}_dimensionless", wing.name))?,
+                column(format!("deflection_{section}_wing_{own}_m"))?,
+                column(format!("twist_{section}_wing_{own}_rad"))?,
+                column(format!("camber_{section}_wing_{own}_dimensionless"))?,
             ])
         };
         let columns: Option<Vec<_>> = SECTIONS.into_iter().map(of).collect();

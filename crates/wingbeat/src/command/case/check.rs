@@ -156,14 +156,17 @@ fn feedback(report: &mut Report, setup: &FlightSetup) {
     let Some(feedback) = &setup.feedback else {
         return;
     };
-    let [every, late] = [feedback.interval, feedback.latency];
-    let acts = match late {
-        0 => "acting at once".to_owned(),
-        1 => "acting a look later".to_owned(),
-        _ => format!("acting {late} looks later"),
+    let (every, late) = (feedback.controller.every(), feedback.latency);
+    let steps = every * feedback.interval;
+    let acts = match (every, late) {
+        (_, 0) => "acting at once".to_owned(),
+        (1, 1) => "acting a look later".to_owned(),
+        (1, _) => format!("acting {late} looks later"),
+        _ => format!("acting {} steps later", late * feedback.interval),
     };
-    entry!(report, "feedback", "a look every {every} steps, {acts}");
-    let value = json!({ "every_steps": every, "latency_looks": late });
+    entry!(report, "feedback", "a look every {steps} steps, {acts}");
+    // Latency counts the looks that are left out, too.
+    let value = json!({ "every_steps": steps, "latency_looks": late });
     report.value("feedback", value);
 }
 

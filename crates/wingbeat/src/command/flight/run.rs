@@ -147,7 +147,7 @@ fn go_back(
     let case = dir.case()?;
     let Some((header, state)) = saved.checkpoint else {
         let why = match case.setup.air.is_saved(None) {
-            true if saved.manifest.steps > 0 => Some("its checkpoint (checkpoint.bin) is missing"),
+            true if saved.manifest.steps > 0 => Some("it has no checkpoint (checkpoint.bin)"),
             true => None,
             false => Some("the memory of the program that computes its air is not saved"),
         };
@@ -155,6 +155,7 @@ fn go_back(
             tell!("{}: {why}: it is flown from the start again", case.name);
         }
         let flight = build(&case, interrupts)?;
+        dir.remove_derived()?;
         return begin(dir, case, flight, threads).map(Some);
     };
     if case.program().is_none() {
