@@ -83,7 +83,7 @@ impl Lattice {
     ) -> Result<Self, AirError> {
         settings.validate()?;
         let mut settings = settings;
-        settings.shedding.leading &= settings.leading.sheds();
+        settings.shedding.leading = settings.leading_edges_shed();
         let mut topology = Topology::new(&surfaces, joined, settings.shedding)?;
         if let Some(edge) = joined.iter().position(JoinedEdge::is_on_plane)
             && settings.images.is_empty()
@@ -184,6 +184,23 @@ impl Lattice {
     pub(crate) fn nearest_plane(&self, x: DVec3) -> Option<&Plane> {
         let far = |p: &&Plane| p.height(x).abs();
         (self.settings.images.iter()).min_by(|a, b| far(a).total_cmp(&far(b)))
+    }
+
+    /// The point about which the impulse of filaments is summed [m], N components: `x`, or where edges lie on planes of
+    /// images its foot on these. Filaments end there, at their images: what the sum over one side lacks of closed rings
+    /// lies along the normal if it is taken about a point of the plane, and else along the plane, too. Particles do not
+    /// close anyway.
+    pub(crate) fn impulse_point(&self, x: DVec3) -> DVec3 {
+        let is_open = !self.topology.plane_lines.is_empty() && self.settings.particles.is_none();
+        let planes = self.settings.images.iter().filter(|_| is_open);
+        planes.fold(x, |x, plane| plane.foot(x))
+    }
+
+    /// Part of circulation x moment of a filament of open surfaces and their wakes that is its impulse \[1\]: half. In
+    /// plane flow all of filaments along the span, for what closes their rings at the ends of the section has the other
+    /// half.
+    pub(crate) fn impulse_part(&self) -> f64 {
+        if self.settings.plane_wakes { 1.0 } else { 0.5 }
     }
 
     /// Checks that edges on planes of images are there, panels having this mean `size` [m].

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use wingbeat_flight::{AirModel, Feedback, FlightSetup};
+use wingbeat_flight::{Feedback, FlightSetup};
 use wingbeat_math::DVec3;
 
 /// Velocity by which the streams of members differ, over the speed of the wings.
@@ -33,7 +33,7 @@ pub fn member(setup: &FlightSetup, k: usize, count: usize) -> Option<FlightSetup
     let mut member = setup.clone();
     let length = member.animal.wing_length();
     let flapping = member.time.period.map_or(0.0, |p| length / p);
-    let normals = normals(&member.air);
+    let normals = normals(setup);
     if let Some(feedback) = (k > 0).then(|| redrawn(setup, k)).flatten() {
         member.feedback = Some(feedback);
     }
@@ -46,12 +46,13 @@ pub fn member(setup: &FlightSetup, k: usize, count: usize) -> Option<FlightSetup
 }
 
 /// Normals of the planes that no air goes through, at right angles or parallel, N components.
-fn normals(air: &AirModel) -> Vec<DVec3> {
-    let AirModel::VortexLattice(options) = air else {
+fn normals(setup: &FlightSetup) -> Vec<DVec3> {
+    let Some(options) = setup.air.lattice() else {
         return vec![];
     };
     let images = options.lattice.images.iter().map(|p| p.normal);
-    images.chain(options.mirror.then_some(DVec3::Y)).collect()
+    let across = options.mirror.then(|| setup.root_at_start().r.y_axis);
+    images.chain(across).collect()
 }
 
 /// The direction of what `of` has along all planes with these `normals`; of an axis instead, where that is

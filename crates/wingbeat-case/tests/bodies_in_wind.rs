@@ -82,6 +82,8 @@ fn behaves_gusts_that_never_arrive_are_named() {
         ("table = [[0, 0], [1, 1]], start_s = 0.03", 0),
         ("table = [[2, 0], [3, 1]]", 1),
         ("table = [[0, 0], [1, 1]], start_s = -5", 0),
+        ("table = [[0, 1], [1, 0]], start_s = -5", 1),
+        ("table = [[0, 1], [1, 0]], start_s = -0.9", 0),
         ("duration_s = 1, front_m_s = [0, 0, 1]", 0),
     ] {
         assert_eq!(said(gust), count, "{gust}");

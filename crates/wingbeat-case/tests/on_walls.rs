@@ -161,3 +161,27 @@ fn behaves_roots_that_meet_on_a_wall_are_not_to_be_joined() {
         "{whole:?}"
     );
 }
+
+/// A root on the wall is joined to its image; two wings whose roots are joined there lie on both sides of it.
+#[test]
+fn refuses_a_joined_pair_across_a_wall() {
+    let pair = setup(&WHOLE[..2]);
+    let error = Simulation::new(pair).map(|_| ()).unwrap_err().to_string();
+    for words in ["air.ground", "`left`", "`right`", "mirror = false"] {
+        assert!(error.contains(words), "{error}");
+    }
+}
+
+/// Wings that lie in the ground have no gap below them.
+#[test]
+fn behaves_wings_in_the_plane_of_the_ground_touch_it() {
+    let flat = [
+        "air.ground.normal=[0,0,1]",
+        "wing.right.motion.psi.constant_deg=0",
+    ];
+    let said = setup(&flat).surfaces_in_narrow_gaps();
+    assert!(
+        said.len() == 1 && said[0].contains("surfaces touch") && !said[0].contains("inf"),
+        "{said:?}"
+    );
+}

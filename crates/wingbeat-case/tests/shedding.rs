@@ -4,7 +4,7 @@ use std::path::Path;
 
 use wingbeat_air::LeadingEdge;
 use wingbeat_case::{LoadedCase, presets::PRESETS};
-use wingbeat_flight::{AirModel, Simulation};
+use wingbeat_flight::{AirModel, FlightSetup, Simulation};
 use wingbeat_math::DVec3;
 
 /// Hovering strokes are alike back and forth, or nearly so; those of the tethered dragonfly, slowed and turned,
@@ -70,6 +70,30 @@ fn behaves_one_sided_leading_edges_are_told_of_dragonflies_and_not_of_hovering_f
     assert_eq!(revolving(&heaving).long_steps_one_way(), None);
 }
 
+/// A glider at this incidence \[deg\], whose edges shed.
+fn glider(incidence: f64, shed: &str) -> FlightSetup {
+    let text = format!(
+        "format = 1\n[time]\nstep_s = 0.025\nsteps = 50\n[flight]\nmode = \"tethered\"\npitch_deg = {incidence}\n\
+         [air]\nstream_m_s = [-10, 0, 0]\nshed = {shed}\n\
+         [body]\nmass_kg = 1\ninertia_about_centre_kg_m2 = [1, 1, 1, 0, 0, 0]\n\
+         [wing.right]\nhinge_m = [0, 0, 0]\nmass_kg = 0\njoined = true\n\
+         planform.rectangle = {{ chord_m = 1, span_m = 2 }}\nmesh = {{ chordwise = 4, spanwise = 8 }}\n"
+    );
+    LoadedCase::from_text("glider", &text, Path::new(""), &[])
+        .unwrap()
+        .setup
+}
+
+/// The lift of such a glider at 2 deg.
+fn lift(shed: &str) -> f64 {
+    let mut flight = Simulation::new(glider(2.0, shed)).unwrap();
+    while !flight.finished() {
+        flight.step().unwrap();
+    }
+    let force: DVec3 = flight.record().air.iter().map(|a| a.force).sum();
+    -force.z
+}
+
 /// Tips along which a wake goes carry a tenth too much at an aspect ratio of 4, and no preset flies so.
 #[test]
 fn agrees_tips_of_attached_wings_shed_what_is_told_of_them() {
@@ -78,27 +102,7 @@ fn agrees_tips_of_attached_wings_shed_what_is_told_of_them() {
         let said = setup.tips_of_attached_wings();
         assert!(said.is_none(), "{}: {said:?}", preset.name);
     }
-    let glider = |incidence: f64, shed: &str| {
-        let text = format!(
-            "format = 1\n[time]\nstep_s = 0.025\nsteps = 50\n[flight]\nmode = \"tethered\"\npitch_deg = {incidence}\n\
-             [air]\nstream_m_s = [-10, 0, 0]\nshed = {shed}\n\
-             [body]\nmass_kg = 1\ninertia_about_centre_kg_m2 = [1, 1, 1, 0, 0, 0]\n\
-             [wing.right]\nhinge_m = [0, 0, 0]\nmass_kg = 0\njoined = true\n\
-             planform.rectangle = {{ chord_m = 1, span_m = 2 }}\nmesh = {{ chordwise = 4, spanwise = 8 }}\n"
-        );
-        LoadedCase::from_text("glider", &text, Path::new(""), &[])
-            .unwrap()
-            .setup
-    };
     let default = r#"["trailing", "tip", "leading"]"#;
-    let lift = |shed: &str| {
-        let mut flight = Simulation::new(glider(2.0, shed)).unwrap();
-        while !flight.finished() {
-            flight.step().unwrap();
-        }
-        let force: DVec3 = flight.record().air.iter().map(|a| a.force).sum();
-        -force.z
-    };
     let more = lift(default) / lift(r#"["trailing"]"#);
     println!("{more}");
     assert!((1.08..1.13).contains(&more), "{more}");
@@ -122,6 +126,43 @@ fn agrees_tips_of_attached_wings_shed_what_is_told_of_them() {
     };
     assert_eq!(with("always"), None);
     assert_eq!(with("0.02"), None);
+}
+
+/// Without a wake from trailing edges there is no lift, whatever else sheds, and that is said in place of tips that make
+/// it too high.
+#[test]
+fn limit_wings_whose_trailing_edges_shed_nothing_have_no_lift() {
+    let part = lift(r#"["leading"]"#) / lift(r#"["trailing"]"#);
+    println!("{part}");
+    assert!(part.abs() < 0.02, "{part}");
+    for (shed, is_named) in [
+        (r#"["leading"]"#, true),
+        (r#"["tip", "root"]"#, true),
+        (r#"["trailing", "tip", "leading"]"#, false),
+        ("[]", false),
+    ] {
+        let setup = glider(2.0, shed);
+        let said = setup.shed_without_trailing_edges();
+        assert_eq!(said.is_some(), is_named, "{shed}: {said:?}");
+        let of_tips = setup.tips_of_attached_wings();
+        assert!(!is_named || of_tips.is_none(), "{shed}: {of_tips:?}");
+    }
+}
+
+/// Edges that shed by the angle of attack shed nothing up to the threshold, and all beyond it.
+#[test]
+fn behaves_edges_that_shed_by_the_angle_of_attack_shed_beyond_it_alone() {
+    let part = |incidence: f64| {
+        let mut setup = glider(incidence, r#"["trailing", "leading"]"#);
+        let AirModel::VortexLattice(air) = &mut setup.air else {
+            panic!("a lattice");
+        };
+        air.lattice.leading = LeadingEdge::AngleOfAttack {
+            threshold: 15.0_f64.to_radians(),
+        };
+        setup.one_sided_part(0)
+    };
+    assert_eq!([2.0, 14.9, 15.1].map(part), [0.0, 0.0, 1.0]);
 }
 
 /// Incidence beyond stall with leading edges that shed nothing, which attached presets do not have. A plate held at 20 deg is

@@ -1,7 +1,7 @@
 //! The literature table: every preset has the model that the paper's table gives its row, and where both derivatives
 //! and modes were published, the modes follow from the derivatives.
 
-use wingbeat_analysis::{Mode, Plane, table_model};
+use wingbeat_analysis::{Mode, Plane, estimate, table_model};
 use wingbeat_blade::{AddedMassModel, Rotation};
 use wingbeat_case::LoadedCase;
 use wingbeat_flight::{AirModel, FlightSetup};
@@ -158,4 +158,21 @@ fn published_bumblebee_times_follow_from_the_published_derivatives() {
     }
     // "more than 15 times the wingbeat period (6.4 ms)"
     assert!(oscillation.doubling().unwrap() / oscillation.wingbeat > 15.0);
+}
+
+/// Air that streams past is flight the other way, to derivatives as to other air.
+#[test]
+fn invariant_speeds_of_derivatives_are_those_through_the_air() {
+    let speed = |stream: f64, velocity: f64| {
+        let set = [
+            format!("air.stream_m_s=[{stream},0,0]"),
+            format!("flight.velocity_m_s=[{velocity},0,0]"),
+        ];
+        let case = LoadedCase::find("table1-taylor-thomas-2003", &set).unwrap();
+        estimate(&case.setup).flight_speed
+    };
+    for (stream, velocity, expected) in [(0.0, 4.1, 4.1), (-4.1, 0.0, 4.1), (4.1, 4.1, 0.0)] {
+        let found = speed(stream, velocity);
+        assert!((found - expected).abs() < 1e-12, "{found} {expected}");
+    }
 }

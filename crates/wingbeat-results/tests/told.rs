@@ -148,3 +148,35 @@ fn behaves_only_what_leading_edges_shed_is_told() {
         assert_eq!(summary.regularised > 0, sheds, "{:?}", summary.warnings);
     }
 }
+
+/// Loads without the rate of the circulation lack added mass; the impulse of the vorticity, which has it, is not held
+/// against them.
+#[test]
+fn behaves_loads_without_the_circulation_rate_are_named() {
+    let set = [
+        "air.mirror=true",
+        "air.body=false",
+        "air.shed=[\"trailing\"]",
+        "air.circulation_rate=omitted",
+        "time.beats=0.4",
+        "wing.right.mesh={ chordwise = 2, spanwise = 4 }",
+    ];
+    let summary = flown(&preset("fruit-fly-tethered", &set));
+    let said = &summary.warnings;
+    assert!(says(&summary, "Loads are quasi-steady"), "{said:?}");
+    assert!(!says(&summary, "impulse in play"), "{said:?}");
+}
+
+/// Nothing leaves leading edges that never shed, though `air.shed` names them: flow is attached.
+#[test]
+fn behaves_leading_edges_that_never_shed_are_those_of_attached_flow() {
+    let shed = "air.shed=[\"trailing\", \"leading\"]";
+    let set = [shed, "air.leading_edge=never", "time.beats=0.1"];
+    let summary = flown(&preset("bird-cruise", &set));
+    let said = &summary.warnings;
+    assert!(
+        says(&summary, "Induced drag behind attached wings"),
+        "{said:?}"
+    );
+    assert!(!says(&summary, "less on faces"), "{said:?}");
+}

@@ -1,10 +1,11 @@
 //! Surfaces whose edges all shed.
 
 use crate::geometry::surface::Surface;
-use crate::geometry::topology::Topology;
+use crate::geometry::topology::{Edge, Topology};
 
-/// An open surface, or several joined ones, that shed from every edge: lattice and wakes together have no edge
-/// but that of the oldest rows, so that a circulation common to all rings moves no air except by that edge.
+/// An open surface, or several joined ones, that shed from every edge but the ends of a section of plane flow, which
+/// move no air: lattice and wakes together have no other edge than that of the oldest rows, so that a circulation common
+/// to all rings moves no air except by that edge.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct ShedAround {
     pub panels: Vec<usize>,
@@ -22,7 +23,8 @@ pub(crate) fn shed_around(
     let whole = |g: &usize| {
         let open = (0..surfaces.len()).all(|s| group[s] != *g || !surfaces[s].closed);
         let edges = || topology.edges.iter().filter(|e| of(e.plus) == *g);
-        open && edges().next().is_some() && edges().all(|e| e.minus.is_none() == e.wake.is_some())
+        let ends_nothing = |e: &Edge| e.is_end || e.minus.is_none() == e.wake.is_some();
+        open && edges().next().is_some() && edges().all(ends_nothing)
     };
     let members = |g: usize| ShedAround {
         panels: (0..topology.panels.len()).filter(|&p| of(p) == g).collect(),

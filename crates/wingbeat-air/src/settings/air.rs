@@ -229,9 +229,14 @@ impl AirSettings {
         }
     }
 
+    /// Whether leading edges shed by what decides there.
+    pub fn leading_edges_shed(&self) -> bool {
+        self.shedding.leading && self.leading.sheds()
+    }
+
     /// Whether the flow may leave leading edges: they shed, or have vortex lift.
     pub fn flow_may_leave_leading_edges(&self) -> bool {
-        self.shedding.leading || matches!(self.leading, LeadingEdge::VortexLift(_))
+        self.leading_edges_shed() || matches!(self.leading, LeadingEdge::VortexLift(_))
     }
 
     /// Part of the friction of an attached plate at this incidence [rad], 0 to pi/2, that its strips feel: the

@@ -7,7 +7,8 @@
 //! the rings: as if everything that ever was dropped lay there. In the flow it lies behind, spread over the way
 //! it has gone. So what all rings of the oldest row have, the least of them where they have one sign, is taken
 //! from all rings: nothing changes but that the vortex is gone, which is booked as cut. Where an edge holds,
-//! its rings have none, and nothing is taken.
+//! its rings have none, and nothing is taken. A section of plane flow, the ends of which move no air, sheds all around
+//! if both its edges do.
 
 use crate::geometry::ShedAround;
 use crate::lattice::Lattice;
@@ -32,12 +33,14 @@ impl Lattice {
 
     fn take_common(&self, wing: &ShedAround, state: &mut AirState) {
         let (mut least, mut most, mut area) = (f64::INFINITY, f64::NEG_INFINITY, DVec3::ZERO);
+        let (part, about) = (self.impulse_part(), self.impulse_point(DVec3::ZERO));
         for &k in &wing.sheets {
             let (sheet, signs) = (&state.sheets[k], &self.sheets()[k].signs);
             for (c, sign) in signs.iter().enumerate() {
                 least = least.min(sign * sheet.gamma[c]);
                 most = most.max(sign * sheet.gamma[c]);
-                area += 0.5 * sign * sheet.node(0, c).cross(sheet.node(0, c + 1));
+                let [a, b] = [c, c + 1].map(|c| sheet.node(0, c) - about);
+                area += part * sign * a.cross(b);
             }
         }
         let common = least.max(0.0) + most.min(0.0);

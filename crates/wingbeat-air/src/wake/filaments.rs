@@ -324,13 +324,13 @@ impl Filaments {
         (self.wake.nodes.iter()).fold(ends, |[low, high], x| [low.min(x), high.max(x)])
     }
 
-    /// Half the sum of circulation x moment of every filament about `origin`, which is the vector
-    /// impulse per density [m4/s], N: `1/2 sum Gamma a x b` for filaments from a to b, and
-    /// `1/2 x cross alpha` for blobs and particles. In plane flow filaments along the span count twice, for what
-    /// closes their rings at the ends of the section has the other half.
+    /// Half the sum of circulation x moment of every filament about `origin`, or what stands for it
+    /// ([`Lattice::impulse_point`]), which is the vector impulse per density [m4/s], N: `1/2 sum Gamma a x b` for
+    /// filaments from a to b, and `1/2 x cross alpha` for blobs and particles; in plane flow as
+    /// [`Lattice::impulse_part`] says.
     pub(crate) fn impulse(&self, lattice: &Lattice, origin: DVec3) -> DVec3 {
-        let is_plane = lattice.settings().plane_wakes;
-        let whole = |is_closed: bool| if is_closed || !is_plane { 0.5 } else { 1.0 };
+        let origin = lattice.impulse_point(origin);
+        let open = lattice.impulse_part();
         let of = |net: &Network, part: &dyn Fn(usize) -> f64| {
             let mut sum = DVec3::ZERO;
             for (e, (&[a, b], &gamma)) in net.edges.iter().zip(&net.gamma).enumerate() {
@@ -343,9 +343,12 @@ impl Filaments {
         let topology = lattice.topology();
         let bound = |e: usize| {
             let surface = topology.panel_surface[topology.edges[e].plus];
-            whole(lattice.surfaces()[surface].closed)
+            match lattice.surfaces()[surface].closed {
+                true => 0.5,
+                false => open,
+            }
         };
-        let wakes = |_| whole(false);
+        let wakes = |_| open;
         let of_blob = |b: &Blob| 0.5 * (b.position - origin).cross(b.strength);
         let particles: DVec3 = self.particles.iter().map(of_blob).sum();
         let blobs: DVec3 = self.blobs.iter().map(of_blob).sum();

@@ -193,9 +193,14 @@ fn exact_joined_pair_is_one_wing_of_twice_the_span() {
 
 /// The right half of the pair, its root on a plane of images, as a wing stands on the wall of a wind tunnel.
 fn half(settings: AirSettings) -> Lattice {
+    half_at(DVec3::ZERO, settings)
+}
+
+/// The same with the wall through this point \[m\].
+fn half_at(point: DVec3, settings: AirSettings) -> Lattice {
     let [right, _] = surfaces();
     let wall = Plane {
-        point: DVec3::ZERO,
+        point,
         normal: DVec3::Y,
     };
     let settings = AirSettings {
@@ -241,6 +246,42 @@ fn exact_half_on_a_plane_of_images_is_half_of_the_joined_pair() {
         assert!(worst < 1.5e-12);
         let [pair, half] = [&a, &b].map(|run| run.loads.normal_velocity_residual);
         assert!((pair - half).abs() < 1e-12);
+    }
+}
+
+/// Filaments of half a model end on the wall: along it their impulse and its account are half of those of the pair, whose
+/// rings are closed, wherever the wall is.
+#[test]
+fn exact_impulse_of_half_a_model_along_its_wall_is_half_of_the_pair_s() {
+    let all_around = AirSettings {
+        max_rows: Some(4),
+        ..symmetric(ALL, LoadMethod::Joukowski)
+    };
+    let trailing = settings(SheddingKinds::TRAILING, LoadMethod::Joukowski);
+    let places = halves();
+    for (settings, amplitude) in [(trailing, 0.0), (all_around, 0.5)] {
+        let whole = run(&pair(settings.clone()), &places, amplitude).loads;
+        for wall in [DVec3::ZERO, 10.0 * DVec3::Y] {
+            let beside = |t: f64| {
+                let mut motion = motion(&places[..places.len() / 2], t, amplitude);
+                motion.position.iter_mut().for_each(|x| *x += wall);
+                motion
+            };
+            let steps = if amplitude == 0.0 { 12 } else { 10 };
+            let lattice = half_at(wall, settings.clone());
+            let half = fly(&lattice, beside, 0.1, steps, |_, _, _, _| {}).unwrap();
+            let parts = |loads: &AirLoads| {
+                let account = loads.account;
+                [loads.impulse, account.created, account.moved, account.cut].map(|i| i.with_y(0.0))
+            };
+            let [whole, half] = [&whole, &half.loads].map(parts);
+            let apart = whole.iter().zip(half).map(|(w, h)| w.distance(2.0 * h));
+            let worst = apart.fold(0.0, f64::max) / whole[0].length();
+            println!("wall at {wall}: {worst:.1e} of {whole:?}");
+            assert_eq!(whole[3] != DVec3::ZERO, amplitude != 0.0);
+            // Roundings of places ten metres off, in a free wake.
+            assert!(worst < 1e-10, "{wall}: {worst:e}");
+        }
     }
 }
 

@@ -74,11 +74,8 @@ fn refuses_plane_wakes_of_side_edges() {
     assert!(error.contains("plane_wakes"), "{error}");
 }
 
-/// A section of this span at 8 deg in a unit stream that plunges by half a chord at a reduced frequency of 0.5, whose
-/// leading edge sheds, and so more vorticity of one sign; on its way back in every period the rings have gained
-/// circulation.
-fn gaining(span: f64, periods: usize) -> Vec<[f64; 2]> {
-    const STEPS: usize = 60;
+/// A section of one panel along the span and 4 along the chord whose leading edge sheds what it does not hold.
+fn separated(max_rows: Option<usize>) -> Lattice {
     let core = |radius: f64| CoreModel::Algebraic {
         radius,
         viscosity: 0.0,
@@ -93,9 +90,17 @@ fn gaining(span: f64, periods: usize) -> Vec<[f64; 2]> {
         wake_core: core(0.07),
         wake_overlap: 1.0,
         clearance: 0.1,
+        max_rows,
         ..with_leading_edges(held, DVec3::X)
     };
-    let lattice = Lattice::new(vec![Surface::grid("plate", 4, 1)], settings).unwrap();
+    Lattice::new(vec![Surface::grid("plate", 4, 1)], settings).unwrap()
+}
+
+/// Such a section of this span at 8 deg in a unit stream that plunges by half a chord at a reduced frequency of 0.5, and
+/// so sheds more vorticity of one sign; on its way back in every period the rings have gained circulation.
+fn gaining(span: f64, periods: usize) -> Vec<[f64; 2]> {
+    const STEPS: usize = 60;
+    let lattice = separated(None);
     let chord = r2(8.0_f64.to_radians()) * DVec3::X;
     let flat = rectangle(4, 1, chord, span * DVec3::Y);
     let omega = 1.0; // twice the reduced frequency
@@ -138,6 +143,40 @@ fn conserves_impulse_of_sections_that_gain_circulation() {
     let lost = seen[first][1] - seen[last][1];
     println!("impulse of force {force}, lost {lost}");
     assert!((force / lost - 1.0).abs() < 0.03, "{force} {lost}");
+}
+
+/// Lift and vortex impulse along it over the span, step by step of 0.05 chords, of a section at 20 deg whose wake keeps so
+/// many rows.
+fn stalled(max_rows: Option<usize>) -> Vec<[f64; 2]> {
+    const SPAN: f64 = 100.0;
+    let chord = r2(20.0_f64.to_radians()) * DVec3::X;
+    let nodes = rectangle(4, 1, chord, SPAN * DVec3::Y);
+    let motion = |_: f64| translating(nodes.clone(), DVec3::ZERO);
+    let mut seen = vec![];
+    fly(&separated(max_rows), motion, 0.05, 200, |_, _, loads, _| {
+        seen.push([total_force(loads).z, loads.impulse.z].map(|x| x / SPAN));
+    })
+    .unwrap();
+    seen
+}
+
+/// A section sheds all around if both its edges do. What its rings gain in common is gone where its wake is cut: the
+/// forces are those with the whole wake, and the rate of the impulse, with what was dropped.
+#[test]
+fn limit_forces_of_sections_whose_wakes_are_cut_are_those_of_the_whole_wake() {
+    let mean = |seen: &[[f64; 2]]| seen.iter().map(|s| s[0]).sum::<f64>() / seen.len() as f64;
+    let whole = mean(&stalled(None)[160..]);
+    let cut = stalled(Some(80));
+    for part in [&cut[120..160], &cut[160..]] {
+        let lift = mean(part);
+        println!("lift of a cut wake {lift}, of the whole {whole}");
+        assert!((lift / whole - 1.0).abs() < 0.1, "{lift} {whole}");
+    }
+    let (first, last) = (120, 199);
+    let force = 0.05 * cut[first + 1..=last].iter().map(|s| s[0]).sum::<f64>();
+    let lost = cut[first][1] - cut[last][1];
+    println!("impulse of force {force}, lost {lost}");
+    assert!((force / lost - 1.0).abs() < 0.1, "{force} {lost}");
 }
 
 /// Two sections that share an edge are one: plane flow has no side edges from which rings could lie inside.

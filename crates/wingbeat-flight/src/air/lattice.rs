@@ -2,7 +2,9 @@
 
 use std::ops::Range;
 
-use wingbeat_air::{AirLoads, AirSettings, AirState, Lattice, NodeMotion, Points, SheddingKinds};
+use wingbeat_air::{
+    AirLoads, AirSettings, AirState, EdgeKind, Lattice, NodeMotion, Points, SheddingKinds,
+};
 use wingbeat_dynamics::{BodyAcceleration, BodyMotion, Wrench};
 use wingbeat_math::{DVec3, Six, SixBySix, six};
 
@@ -27,6 +29,27 @@ pub struct LatticeAir {
     map: SurfaceMap,
 }
 
+/// # Errors
+/// Roots of wings that are joined to each other and lie on a plane, where roots are joined to their own images.
+fn refuse_roots_joined_twice(
+    setup: &FlightSetup,
+    joined: &[[usize; 2]],
+    on_planes: &[EdgeOnPlane],
+) -> Result<(), FlightError> {
+    let is_root_of = |edge: &EdgeOnPlane, pair: &[usize; 2]| {
+        edge.kind == EdgeKind::Root && pair.contains(&edge.wing)
+    };
+    let lies_there = |pair: &&[usize; 2]| on_planes.iter().any(|edge| is_root_of(edge, pair));
+    joined.iter().find(lies_there).map_or(Ok(()), |pair| {
+        let [a, b] = pair.map(|w| &setup.animal.wings[w].name);
+        let problem = format!(
+            "the roots of the wings `{a}` and `{b}` are joined to each other and lie on it, where a root is joined to its own image, which \
+             stands for the other wing; leave one of the two out (mirror = false), or fly both without the plane"
+        );
+        Err(FlightError::setup("air.ground", "", problem))
+    })
+}
+
 impl LatticeAir {
     /// The lattice of a setup.
     ///
@@ -36,10 +59,12 @@ impl LatticeAir {
     pub fn new(setup: &FlightSetup, options: &AirOptions) -> Result<Self, FlightError> {
         let carried = setup.carried_pairs(options);
         let pairs = (&options.joined[..], &carried[..]);
-        let on_planes = setup.edges_on_planes(options).into_iter();
+        let mut on_planes = setup.edges_on_planes(options);
+        on_planes.retain(EdgeOnPlane::is_joined);
+        refuse_roots_joined_twice(setup, &options.joined, &on_planes)?;
         let map = SurfaceMap::new(&setup.animal, options.body_surfaces, pairs)
             .with_tips(&setup.animal, &options.joined_tips)
-            .with_planes(&setup.animal, on_planes.filter(EdgeOnPlane::is_joined));
+            .with_planes(&setup.animal, on_planes.into_iter());
         let (mut surfaces, settings) = (map.surfaces.clone(), options.lattice.clone());
         for wing in setup.coincident_roots(options).into_iter().flatten() {
             surfaces[wing].reaches_root = true;

@@ -23,10 +23,7 @@ impl FlightSetup {
                     "air.gust[{k}] begins {later:.3} s after the end of the flight, which lasts {end:.3} s, and has no effect: let it begin earlier (start_s), or fly longer"
                 ));
             }
-            let over = match g.shape {
-                GustShape::OneMinusCosine { duration } => duration,
-                GustShape::Table(_) | GustShape::Turbulence(_) => return None,
-            };
+            let over = last(&g.shape)?;
             times.iter().all(|tau| *tau >= over).then(|| {
                 format!(
                     "air.gust[{k}] is over before the flight begins, and has no effect: let it begin later (start_s)"
@@ -34,6 +31,15 @@ impl FlightSetup {
             })
         };
         wind.gusts.iter().enumerate().filter_map(say).collect()
+    }
+}
+
+/// The gust's own time from which it blows no more [s]; none of one that blows on.
+fn last(shape: &GustShape) -> Option<f64> {
+    match shape {
+        GustShape::OneMinusCosine { duration } => Some(*duration),
+        GustShape::Table(rows) => rows.last().filter(|row| row.1 == 0.0).map(|row| row.0),
+        GustShape::Turbulence(_) => None,
     }
 }
 

@@ -50,6 +50,8 @@ pub enum DoubtKind {
     OneSidedEdges,
     /// Leading edges that shed one way over long steps.
     LongSteps,
+    /// Edges that shed without trailing edges.
+    NoTrailingEdges,
     /// Tips of wings whose flow is attached.
     AttachedTips,
     /// Wings far beyond stall whose flow is attached.
@@ -122,6 +124,7 @@ impl FlightSetup {
         add(ThinWakeCores, one(self.thin_cores_behind_leading_edges()));
         add(OneSidedEdges, one(self.one_sided_leading_edges()));
         add(LongSteps, one(self.long_steps_one_way()));
+        add(NoTrailingEdges, one(self.shed_without_trailing_edges()));
         add(AttachedTips, one(self.tips_of_attached_wings()));
         add(AttachedBeyondStall, one(self.attached_beyond_stall()));
         add(AttachedStrokes, one(self.attached_strokes_beyond_stall()));

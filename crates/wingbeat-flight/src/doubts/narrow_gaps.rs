@@ -10,6 +10,9 @@ use crate::setup::{FlightSetup, MotionMode};
 /// Panels along the chord from which on more of them are no remedy.
 const MANY: f64 = 100.0;
 
+/// Width of gaps over the length of the panels below which surfaces touch \[1\].
+const TOUCHING: f64 = 1e-6;
+
 /// Looks at a flight over a ground, at most.
 const LOOKS: usize = 200;
 
@@ -138,7 +141,8 @@ impl FlightSetup {
         } = gap.at;
         let excess = match (gap.is_aligned, gap.at.excess()) {
             (true, x) if x < 2.0 => format!("too large, in this one by up to {:.0} %", 100.0 * (x - 1.0)),
-            (true, x) => format!("too large, in this one up to {x:.1} times"),
+            (true, x) if x < 1.0 / TOUCHING => format!("too large, in this one up to {x:.1} times"),
+            (true, _) => "without meaning, as these surfaces touch".to_owned(),
             (false, _) => {
                 "wrong either way, as panels do not lie opposite each other, in narrow ones by more than they are".to_owned()
             }
@@ -152,8 +156,12 @@ impl FlightSetup {
                 "keep the surfaces farther apart, and trust no force at those instants".to_owned()
             }
         };
+        let gaps = match width < TOUCHING * panel {
+            true => "gaps of no width".to_owned(),
+            false => format!("gaps of {width:.2e} m"),
+        };
         let figures = format!(
-            "gaps of {width:.2e} m where panels are {panel:.2e} m long along the chord, over {:.0} % of the area at the narrowest, in {:.0} % of the {time}: forces that open or close such gaps come out {excess}; {remedy} (docs/separated-flow-evidence.md, \"Gaps narrower than a panel\")",
+            "{gaps} where panels are {panel:.2e} m long along the chord, over {:.0} % of the area at the narrowest, in {:.0} % of the {time}: forces that open or close such gaps come out {excess}; {remedy} (docs/separated-flow-evidence.md, \"Gaps narrower than a panel\")",
             100.0 * share,
             (100.0 * gap.time).max(1.0),
         );

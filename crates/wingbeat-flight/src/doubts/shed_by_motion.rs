@@ -47,7 +47,7 @@ impl FlightSetup {
     /// beside their chords, and which step would do.
     pub fn long_steps_one_way(&self) -> Option<String> {
         let air = self.air.lattice()?;
-        if !air.lattice.shedding.leading || !air.lattice.leading.sheds() {
+        if !air.lattice.leading_edges_shed() {
             return None;
         }
         let goes_on = |(w, wing): &(usize, &Wing)| {
@@ -87,7 +87,7 @@ impl FlightSetup {
     pub fn one_sided_leading_edges(&self) -> Option<String> {
         let air = self.air.lattice()?;
         let shedding = air.lattice.shedding;
-        if !shedding.leading || !air.lattice.leading.sheds() {
+        if !air.lattice.leading_edges_shed() {
             return None;
         }
         let carried = self.carried_pairs(air);
@@ -147,12 +147,27 @@ impl FlightSetup {
         ))
     }
 
+    /// Says that some edges shed and trailing edges do not, and what to do about it: wings have next to no lift in a steady
+    /// stream then, as nothing gives them the circulation that lets the flow leave there smoothly.
+    pub fn shed_without_trailing_edges(&self) -> Option<String> {
+        let shedding = self.air.lattice()?.lattice.shedding;
+        let is_meant = !self.animal.wings.is_empty() && shedding.any() && !shedding.trailing;
+        is_meant.then(|| {
+            "air.shed names edges but not \"trailing\": flow does not leave trailing edges smoothly, circulation about the wings \
+             does not build up, and their lift in a steady stream is next to nothing; add \"trailing\" (docs/lattice-settings.md, \
+             \"Edges that shed\")"
+                .to_owned()
+        })
+    }
+
     /// Says which wings meet the air at such small angles throughout their prescribed motion that the flow
     /// stays attached, while their tips shed: wakes that go along the tip, with the cores of wakes, in place of
-    /// the sharp edge there (docs/lattice-settings.md, "Edges that shed"). Wings with joints of their own are left out.
+    /// the sharp edge there (docs/lattice-settings.md, "Edges that shed"). Wings with joints of their own are left out,
+    /// and those without lift, whose trailing edges shed nothing.
     pub fn tips_of_attached_wings(&self) -> Option<String> {
         let air = self.air.lattice()?;
-        if !air.lattice.shedding.tip {
+        let shedding = air.lattice.shedding;
+        if !(shedding.tip && shedding.trailing) {
             return None;
         }
         let held = held(&air.lattice)?;
@@ -161,7 +176,7 @@ impl FlightSetup {
         let names = names(attached.map(|(_, wing)| &wing.name[..]), ", ");
         (!names.is_empty()).then(|| {
             format!(
-                "wings ({names}) meet the air with no more than {held} of suction ({:.0} deg of incidence), where flow stays attached, and \
+                "wings ({names}) meet the air with no more than {held:.3} of suction ({:.0} deg of incidence), where flow stays attached, and \
                  their tips shed nevertheless: the lift comes out high, by a quarter at an aspect ratio of 2, a tenth at 4, a twentieth \
                  at 8; take air.shed = [\"trailing\"] (docs/lattice-settings.md, \"Edges that shed\")",
                 held.asin().to_degrees()
@@ -270,9 +285,15 @@ fn shed_rates(
     wing: &Wing,
     past: impl Fn(DVec3) -> DVec3,
 ) -> impl Iterator<Item = f64> {
-    let held = lattice.leading.suction().map_or(0.0, |s| s[0]);
+    let held = held(lattice).unwrap_or(0.0);
+    // Beyond an angle all leaves, and not only what is beyond.
+    let kept = match lattice.leading {
+        LeadingEdge::AngleOfAttack { .. } => 0.0,
+        _ => held,
+    };
     sections(wing, past).map(move |s| {
-        let beyond = (s.suction.abs() - held).max(0.0).copysign(s.suction);
-        s.speed * s.speed * beyond * s.width
+        let size = s.suction.abs();
+        let leaves = if size > held { size - kept } else { 0.0 };
+        s.speed * s.speed * leaves.copysign(s.suction) * s.width
     })
 }

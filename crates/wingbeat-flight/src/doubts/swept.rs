@@ -49,7 +49,7 @@ impl FlightSetup {
     /// (docs/separated-flow.md, "Do not trust").
     pub fn shedding_of_swept_edges(&self) -> Option<String> {
         let air = self.air.lattice()?;
-        if !air.lattice.shedding.leading || !air.lattice.leading.sheds() {
+        if !air.lattice.leading_edges_shed() {
             return None;
         }
         let wings = self.animal.wings.iter().enumerate();

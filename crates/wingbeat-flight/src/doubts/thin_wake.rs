@@ -16,7 +16,7 @@ impl FlightSetup {
     /// these shed nothing, and of cores that know no such slope.
     pub fn thin_cores_behind_leading_edges(&self) -> Option<String> {
         let air = &self.air.lattice()?.lattice;
-        let sheds = air.shedding.leading && air.leading.sheds();
+        let sheds = air.leading_edges_shed();
         let widens = air.is_symmetric() && air.wake_overlap > 0.0;
         (sheds && widens && air.overlap_slope <= SLIGHT).then(|| {
             format!(

@@ -81,7 +81,8 @@ impl AirModel {
         match self {
             Self::BladeElement(options) => Some(options.blade.free_stream),
             Self::VortexLattice(options) => Some(options.lattice.free_stream),
-            Self::None | Self::Derivatives(_) | Self::External(_) | Self::Own(_) => None,
+            Self::Derivatives(table) => Some(table.stream),
+            Self::None | Self::External(_) | Self::Own(_) => None,
         }
     }
 
@@ -113,7 +114,7 @@ impl AirModel {
         known.or_else(|| self.density().filter(gas).map(viscosity_of_density))
     }
 
-    /// Its stream, to be changed.
+    /// Its stream, to be changed; none of stability derivatives, either.
     pub fn stream_mut(&mut self) -> Option<&mut DVec3> {
         match self {
             Self::BladeElement(options) => Some(&mut options.blade.free_stream),

@@ -89,18 +89,20 @@ fn behaves_members_of_a_noisy_flight_scatter() {
 #[test]
 fn behaves_members_of_an_ensemble_fly_beside_grounds_and_walls() {
     let cases = [
-        ("[0,0,1]", false),
-        ("[1,0,0]", false),
-        ("[0,1,0]", false),
-        ("[0.3,0.2,-2]", false),
-        ("[0,0,1]", true),
-        ("[2,0,1]", true),
+        ("[0,0,1]", false, 0),
+        ("[1,0,0]", false, 0),
+        ("[0,1,0]", false, 0),
+        ("[0.3,0.2,-2]", false, 0),
+        ("[0,0,1]", true, 0),
+        ("[0,0,1]", true, 30),
+        ("[2,0,1]", true, 0),
     ];
-    for (normal, mirror) in cases {
+    for (normal, mirror, yaw) in cases {
         let set = [
             format!("air.ground.normal={normal}"),
             "air.ground.point_m=[0.02,0.02,0.02]".to_owned(),
             format!("air.mirror={mirror}"),
+            format!("flight.yaw_deg={yaw}"),
             "time.steps_per_beat=20".to_owned(),
             "wing.right.mesh.chordwise=2".to_owned(),
             "wing.right.mesh.spanwise=4".to_owned(),

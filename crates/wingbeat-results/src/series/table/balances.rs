@@ -60,7 +60,7 @@ pub(super) const QUALITY: &[HistoryQuantity] = &[
 #[rustfmt::skip]
 pub(super) const WAKE: &[HistoryQuantity] = &[
     scalar("vortex_impulse_{c}", Unit::Momentum,
-        "impulse of all vorticity, less the momentum of the air that moving bodies of the lattice displace; with vortex particles, whose vorticity does not close, it depends on the origin",
+        "impulse of all vorticity, less the momentum of the air that moving bodies of the lattice displace; with vortex particles, whose vorticity does not close, it depends on the origin, of half a model on a wall its part across the wall does",
         |r, _, c| Real(&mut r.vortex_impulse[c])).along(Inertial, Frame::Inertial),
     scalar("air_impulse_{c}", Unit::NewtonSecond,
         "impulse of the air's force on all bodies so far, by the trapezoidal rule over the steps",

@@ -76,6 +76,7 @@ fn heard(kind: DoubtKind, is_lattice: bool) -> (Place, Verdict, &'static str, &'
         DoubtKind::UnjoinedEdges => (Air, Amber, "A gap is a limit of the lattice: ", ""),
         DoubtKind::SweptVortexLift | DoubtKind::SweptShedding => (Air, Amber, "Outside of what it was made for: ", ""),
         DoubtKind::OneSidedEdges | DoubtKind::LongSteps | DoubtKind::AttachedTips | DoubtKind::AttachedBeyondStall => (Air, Amber, "By the prescribed motion ", ""),
+        DoubtKind::NoTrailingEdges => (Air, Amber, "No Kutta condition: ", ""),
         DoubtKind::ThinWakeCores => (Air, Amber, "Wakes that are not resolved: ", ""),
         DoubtKind::AttachedStrokes => (Air, Green, "By the prescribed motion ", ""),
         DoubtKind::ViscosityOfAir => (Air, Amber, "Two fluids: ", ""),

@@ -1,7 +1,7 @@
 //! Whether the wakes of a lattice keep the impulse that its surfaces give them: what they do not keep, forces lack or
 //! have too much.
 
-use wingbeat_air::{AirSettings, CoreModel, LoadMethod};
+use wingbeat_air::{AirSettings, CirculationRate, CoreModel, LoadMethod};
 use wingbeat_analysis::way_in_a_step;
 use wingbeat_flight::FlightSetup;
 use wingbeat_math::RotationLaw;
@@ -42,7 +42,8 @@ pub(super) fn warnings(
     summary: &Summary,
     list: &mut Warnings,
 ) {
-    if !lattice.wind.is_none() {
+    let is_comparable = lattice.wind.is_none() && lattice.rate != CirculationRate::Omitted;
+    if !is_comparable {
         return;
     }
     let is_cut = cut_wake(setup, summary).is_some();

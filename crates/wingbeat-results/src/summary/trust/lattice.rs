@@ -1,7 +1,8 @@
 //! How far the results of a vortex lattice can be trusted.
 
 use wingbeat_air::{
-    AirSettings, Convection, CoreModel, Friction, LeadingEdge, LoadMethod, SectionDrag,
+    AirSettings, CirculationRate, Convection, CoreModel, Friction, LeadingEdge, LoadMethod,
+    SectionDrag,
 };
 use wingbeat_flight::{
     AirOptions, Doubt, DoubtKind, FlightSetup, IntegratorChoice, MotionMode, growing_joint,
@@ -24,6 +25,9 @@ const INDUCED_DRAG: &str = "Induced drag behind attached wings hangs on the core
 
 /// Cores and mesh of attached wings whose drag or thrust counts.
 const THIN_CORES: &str = "For drag, thrust and power in a stream take one table [air.wake_core.algebraic] with radius_chords = 0.01, air.bound_core likewise, air.wake_overlap_slope = 0.03 and mesh.spanwise_spacing = \"cosine\", and join roots that meet (docs/lattice-settings.md, \"Induced drag of attached wings\").";
+
+/// Loads of circulations as if these did not change.
+const RATE_OMITTED: &str = "Loads are quasi-steady: the rate of the circulation is left out of them (air.circulation_rate = \"omitted\"), and with it forces of added mass. The impulse of the vorticity, which has it, is no second way to them.";
 
 /// What a reader should know of the air: what it leaves out, where it was used beyond what it was made for,
 /// what was put in, and signs that it failed.
@@ -94,16 +98,22 @@ fn inputs(setup: &FlightSetup, air: &AirOptions, summary: &Summary, list: &mut W
     } else if has_wings {
         list.note("No edge of the wings sheds a wake (air.shed is empty): circulation about the wings stays zero. Forces are those of added mass; there is neither lift nor induced drag in a steady stream.");
     }
+    if lattice.rate == CirculationRate::Omitted {
+        match period(setup).is_some() {
+            true => list.limit(RATE_OMITTED),
+            false => list.note(RATE_OMITTED),
+        }
+    }
     if air.mirror {
         list.note("Mirror symmetry was assumed (air.mirror): a real flow of this kind loses it, and with it roll, yaw and sideways drift would come.");
     }
-    let may_shed = has_wings && lattice.shedding.leading && lattice.leading.sheds();
+    let may_shed = has_wings && lattice.leading_edges_shed();
     if may_shed && leading_edges_held(setup, summary) {
         list.note("Leading edges may shed (air.shed), and shed nothing: they hold the suction that they had.");
     } else if may_shed {
         list.note("Leading edges shed: such sheets have no converged history beyond the first half stroke. Read means over several beats and their spread, not single peaks.");
     }
-    let is_attached = !lattice.shedding.tip && !lattice.shedding.leading;
+    let is_attached = !lattice.shedding.tip && !may_shed;
     if has_wakes && is_attached {
         let smoothed = smoothed_by_cores(setup, lattice);
         let text = match has_sharp_wake(setup, lattice) {
@@ -187,10 +197,7 @@ const SMOOTHED: f64 = 0.05;
 /// plunge by a hundredth of the chord with cores of 0.07 chords, over Garrick's thrust: 0.99, 0.83 to 0.90 and 0.76 at
 /// reduced frequencies of 0.5, 2 and 3.9, where the factor is 0.93, 0.76 and 0.58; their lift is 3 to 6 % high.
 fn smoothed_by_cores(setup: &FlightSetup, lattice: &AirSettings) -> Option<String> {
-    let period = setup.time.period.or(match &setup.mode {
-        MotionMode::Tethered(motion) => motion.period(),
-        MotionMode::Free(_) => None,
-    })?;
+    let period = period(setup)?;
     let root = setup.root_at_start();
     let speed = (root.v - setup.air.stream().unwrap_or_default()).length();
     let radius = core(&lattice.wake_core).1;
@@ -203,6 +210,14 @@ fn smoothed_by_cores(setup: &FlightSetup, lattice: &AirSettings) -> Option<Strin
             radius / mean_chord(setup),
             100.0 * lost
         )
+    })
+}
+
+/// Period of the beat or of a tether that moves \[s\].
+fn period(setup: &FlightSetup) -> Option<f64> {
+    setup.time.period.or(match &setup.mode {
+        MotionMode::Tethered(motion) => motion.period(),
+        MotionMode::Free(_) => None,
     })
 }
 
