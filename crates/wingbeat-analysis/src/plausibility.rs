@@ -27,7 +27,7 @@ mod sizes;
 mod wake;
 
 pub(crate) use elastic::bent_by_weight;
-pub(crate) use joints::{chain, slowest_on_springs};
+pub(crate) use joints::slowest_on_springs;
 pub(crate) use lift::lift_over_weight;
 pub use numbers::stroke_amplitude;
 pub use numbers::{Estimate, WingEstimate};

@@ -1,9 +1,9 @@
 //! What is doubted of a wing that hangs on another one: its motion is that of both.
 
 use crate::common;
-use wingbeat_analysis::{doubtful_reynolds_numbers, estimate};
+use wingbeat_analysis::{Beat, Level, control_derivatives, doubtful_reynolds_numbers, estimate};
 use wingbeat_flight::FlightSetup;
-use wingbeat_math::DVec3;
+use wingbeat_math::{DVec3, r2};
 
 /// A hand wing on an arm wing, each of 3.3 chords, that flap together.
 const HAND: &str = r#"
@@ -153,4 +153,27 @@ fn behaves_a_hand_that_lies_in_its_arm_is_named() {
     assert!(named(&[]).is_empty());
     assert!(named(&["joint.wrist-right.at_m=[0.03,0.001,0]"]).is_empty()); // edge on edge
     assert!(named(&[within, FREE[0], FREE[1]]).is_empty());
+}
+
+/// What feathering of both hands does to the mean loads, by derivatives and by two cases.
+#[test]
+fn agrees_derivatives_of_hands_with_the_difference_of_two_cases() {
+    const STEP: f64 = 0.01;
+    let (attitude, velocity) = (r2(0.2), DVec3::new(3.0, 0.0, 0.0));
+    let level = Level::new(attitude, DVec3::new(0.0, 0.0, 9.81));
+    let load = |by: f64| {
+        let own = format!("wing.hand-right.motion.psi.constant_deg={by}");
+        let beat = Beat::new(&setup(&["flight.mode=\"free\"", &own]), 40).unwrap();
+        beat.mean_load(&level, velocity, DVec3::ZERO).unwrap().force
+    };
+    let force = (load(STEP) - load(-STEP)) / (2.0 * STEP.to_radians());
+    let free = setup(&["flight.mode=\"free\""]);
+    let list = control_derivatives(&free, attitude, velocity, 40).unwrap();
+    let hands = list
+        .iter()
+        .filter(|d| d.control == "feathering_offset" && d.wing.starts_with("hand-"));
+    let found: DVec3 = hands.map(|d| d.derivative.force).sum();
+    let apart = found.distance(force) / force.length();
+    println!("{force} {apart:e}");
+    assert!(force.length() > 1e-3 && apart < 1e-6, "{force} {apart:e}");
 }

@@ -1,46 +1,15 @@
 //! Flyers whose wings motors drive through joints: their trim, and wings that hang at one point.
 
 use crate::common;
-use wingbeat_analysis::{Trim, TrimProblem, TrimRequest, Unknown, trim};
+use wingbeat_analysis::control::sides;
+use wingbeat_analysis::{Trim, TrimProblem, TrimRequest, Unknown, tail_wings, trim};
 use wingbeat_case::{LoadedCase, trimmed_case};
 use wingbeat_flight::Simulation;
 use wingbeat_math::DVec3;
 
 /// Two wings of 70 mm on motors with springs, feathering hinges that give way; the body is long enough that it does
 /// not tumble within a beat.
-const MOTOR: &str = r#"
-format = 1
-[time]
-steps_per_beat = 100
-beats = 1
-[motion]
-frequency_hz = 20
-stroke_plane_pitch_deg = 90
-[flight]
-mode = "free"
-[air]
-model = "blade_element"
-[body]
-mass_kg = 4.2e-3
-inertia_about_centre_kg_m2 = [4e-6, 4e-6, 2e-6, 0, 0, 0]
-[wing.right]
-hinge_m = [2e-3, 12e-3, -10e-3]
-mass_kg = 1e-4
-planform.beta = { length_m = 70e-3, mean_chord_m = 22e-3, r2_hat = 0.55, axis_fraction = 0.1 }
-[joint.right]
-child = "right"
-kind = "universal"
-axes = [[1, 0, 0], [0, 1, 0]]
-[[joint.right.element]]
-direction = 0
-moment_newton_m = { cosine = [0.03] }
-follow = { angle_deg = {}, stiffness_newton_m_per_rad = 0, damping_newton_m_s_per_rad = 2e-4 }
-stiffness_newton_m_per_rad = 5e-3
-[[joint.right.element]]
-direction = 1
-stiffness_newton_m_per_rad = 2e-3
-damping_newton_m_s_per_rad = 2e-6
-"#;
+const MOTOR: &str = include_str!("data/motor.toml");
 
 fn hover(case: &LoadedCase, unknowns: Option<Vec<Unknown>>) -> Trim {
     let request = TrimRequest {
@@ -85,6 +54,33 @@ fn exact_trimmed_voltage_flies_a_periodic_beat() {
     assert!(moved < 1e-6 && apart(3, 6) < 1e-6);
     let joints = last.joints.iter().zip(&first.joints);
     assert!(joints.clone().all(|(a, b)| (a[0] - b[0]).abs() < 1e-6));
+}
+
+/// A pair of wings with constant angles beside wings on motors is a tail: stroke planes leave it as it is, and it has the
+/// elevator. Where nothing drives the joints there is none.
+#[test]
+fn exact_a_tail_beside_wings_on_motors_is_held() {
+    let tail = "wing.right_tail={ hinge_m = [-60e-3, 0, 0], mass_kg = 1e-5, motion.psi.constant_deg = 0, motion.phi.constant_deg = 0, \
+                motion.stroke_plane_pitch_deg = 0, planform.rectangle = { chord_m = 20e-3, span_m = 30e-3, axis_fraction = 0.25 } }";
+    let turned = [tail, "motion.adjust.stroke_plane_deg=5"];
+    let planes = |set: &[&str]| {
+        let setup = common::load(MOTOR, set).unwrap().setup;
+        let wings = setup.animal.wings.iter();
+        let planes: Vec<f64> = wings
+            .map(|w| w.motion.stroke_plane_pitch.to_degrees())
+            .collect();
+        (planes, sides(&setup), tail_wings(&setup).ok())
+    };
+    // left, left_tail, right, right_tail
+    let (found, steered, pair) = planes(&turned);
+    for (found, expected) in found.iter().zip([95.0, 0.0, 95.0, 0.0]) {
+        assert!((found - expected).abs() < 1e-12, "{found}");
+    }
+    assert_eq!(steered, [Some(-1.0), None, Some(1.0), None]);
+    assert_eq!(pair, Some([1, 3]));
+    let idle = "joint.right.element=[{ direction = 0, stiffness_newton_m_per_rad = 5e-3 }]";
+    let (found, steered, _) = planes(&[&turned[..], &[idle]].concat());
+    assert!((found[1] - 5.0).abs() < 1e-12 && steered.iter().all(Option::is_some));
 }
 
 /// The mass centre of a body that has a joint moves in the body, of one without the hinges move the other way: the same

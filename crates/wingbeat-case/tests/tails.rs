@@ -3,41 +3,13 @@
 use std::path::Path;
 
 use wingbeat_analysis::control::{adjustments, sides};
-use wingbeat_analysis::{TrimProblem, Unknown, trim};
+use wingbeat_analysis::{Beat, Level, TrimProblem, Unknown, control_derivatives, trim};
 use wingbeat_case::{LoadedCase, trimmed_case};
-use wingbeat_math::DVec3;
+use wingbeat_math::{DVec3, r2};
 use wingbeat_model::AngleLaw;
 
 /// A bird-sized flapper with a V-tail.
-const BIRD: &str = r#"
-format = 1
-name = "bird"
-time = { steps_per_beat = 60, beats = 4 }
-motion = { frequency_hz = 5, start = "impulsive" }
-flight = { velocity_m_s = [8, 0, 0], pitch_deg = 5 }
-air.model = "blade_element"
-air.blade.centre_of_pressure.fixed = 0.25
-air.blade.own = { lift = 2.0, drag_0 = 0.03, drag_90 = 2.0 }
-output.frames_every = 0
-body = { mass_kg = 0.3, centre_m = [-0.01, 0, 0], inertia_about_centre_kg_m2 = [1e-3, 3e-3, 3.5e-3, 0, 0, 0] }
-[wing.right]
-hinge_m = [0.03, 0.02, 0]
-mass_kg = 0.02
-planform.outline = { leading_m = [[0, 0.03], [0.5, 0.03]], trailing_m = [[0, -0.15], [0.5, -0.06]] }
-mesh = { chordwise = 2, spanwise = 8 }
-motion.psi.constant_deg = 4
-motion.phi.fourier.sine_deg = [25]
-deformation.twist = [{ linear_deg = [0, 12], fourier.cosine = [-1] }]
-[wing.right_tail]
-hinge_m = [-0.35, 0, 0]
-mass_kg = 0.005
-planform.outline = { leading_m = [[0, 0], [0.15, 0]], trailing_m = [[0, -0.1], [0.15, -0.1]] }
-mesh = { chordwise = 1, spanwise = 4 }
-motion.psi.constant_deg = -3
-motion.phi.constant_deg = -10
-[wing.left]
-[wing.left_tail]
-"#;
+const BIRD: &str = include_str!("data/bird.toml");
 
 fn bird(set: &[&str]) -> LoadedCase {
     let set: Vec<String> = set.iter().map(|&s| s.to_owned()).collect();
@@ -169,6 +141,47 @@ fn balances_a_bird_is_trimmed_by_its_elevator() {
         let left = again.solution.value(Unknown::TailIncidence).unwrap();
         assert!(left.abs() < 1e-7, "{left}");
     }
+}
+
+/// A tail that trims and commands leave is steered in derivatives: by as much as the mean loads of two cases differ that
+/// have it at other angles. "all" is of the wings that are steered together.
+#[test]
+fn agrees_derivatives_of_a_tail_with_the_difference_of_two_cases() {
+    const STEP: f64 = 0.01;
+    let (attitude, velocity) = (r2(0.1), DVec3::new(8.0, 0.0, 0.3));
+    let level = Level::new(attitude, DVec3::new(0.0, 0.0, 9.81));
+    let load = |by: f64| {
+        let own = format!(
+            "wing.left_tail.motion={{ phi.constant_deg = 10, psi.constant_deg = {} }}",
+            by - 3.0
+        );
+        let beat = Beat::new(&bird(&[&own]).setup, 60).unwrap();
+        beat.mean_load(&level, velocity, DVec3::ZERO).unwrap()
+    };
+    let [plus, minus] = [STEP, -STEP].map(load);
+    let list = control_derivatives(&bird(&[]).setup, attitude, velocity, 60).unwrap();
+    let of = |control: &str, wing: &str| {
+        let row = list.iter().find(|d| d.control == control && d.wing == wing);
+        row.unwrap().derivative
+    };
+    let found = of("feathering_offset", "left_tail");
+    let per = 2.0 * STEP.to_radians();
+    let force = (plus.force - minus.force) / per;
+    let moment = (plus.moment - minus.moment) / per;
+    let apart = [
+        found.force.distance(force) / force.length(),
+        found.moment.distance(moment) / moment.length(),
+    ];
+    println!("{force} {moment} {apart:?}");
+    assert!(
+        force.z < -1.0 && apart.iter().all(|x| *x < 1e-7),
+        "{force} {apart:?}"
+    );
+    // A stroke that does not vary has no amplitude.
+    assert_eq!(of("stroke_amplitude", "left_tail").force, DVec3::ZERO);
+    let wings = of("feathering_offset", "left").force + of("feathering_offset", "right").force;
+    let all = of("feathering_offset", "all").force;
+    assert!(wings.distance(all) < 1e-8 * all.length(), "{wings} {all}");
 }
 
 #[test]

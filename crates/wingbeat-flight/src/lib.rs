@@ -36,7 +36,7 @@ pub mod simulation;
 
 pub use air::{EdgeOnPlane, check_joined, check_joined_tip, strips};
 pub use bodies::joint_steps::{JointSteps, growing_joint, inertia_about};
-pub use bodies::joints::{self, closes_loop, faster, is_driven};
+pub use bodies::joints::{self, closes_loop, faster};
 pub use bodies::{
     JointCoordinate, WingLaw, check_assembly, doubtful_masses, joint_coordinates, loop_names,
     natural_units, system, system_of,

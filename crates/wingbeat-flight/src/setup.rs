@@ -2,6 +2,7 @@
 
 mod air;
 pub(crate) mod applied;
+pub mod carriers;
 mod integration;
 pub(crate) mod prescribed;
 mod start;
@@ -15,6 +16,7 @@ use wingbeat_math::{DVec3, EulerSequence};
 use wingbeat_model::Animal;
 
 pub use self::air::{AirModel, AirOptions, BladeOptions};
+pub use self::carriers::is_driven;
 pub use self::integration::{
     BaumgarteChoice, CorrectorSettings, FormulationChoice, IntegratorChoice, LOOKS,
     StabilizationChoice, TimeGrid,

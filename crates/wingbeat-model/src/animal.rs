@@ -167,11 +167,6 @@ impl Animal {
         self.wings.iter().any(|w| w.structure.is_some())
     }
 
-    /// Whether wing `w` stands still beside wings that beat: a tail, or a surface that is held.
-    pub fn is_held(&self, w: usize) -> bool {
-        self.wings[w].is_still() && self.wings.iter().any(|other| !other.is_still())
-    }
-
     /// Wing length R of the longest wing, hinge to tip along the span \[m\]; 0 without wings.
     pub fn wing_length(&self) -> f64 {
         self.wings.iter().map(Wing::length).fold(0.0, f64::max)

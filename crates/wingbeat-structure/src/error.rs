@@ -53,7 +53,7 @@ pub enum StructureError {
     },
     /// A free node has no inertia in some direction.
     #[error(
-        "node {node} is free but has no inertia in direction {direction} (0-2 translation, 3-5 rotation): give it mass, give the sections that meet there an inertia per length, or hold it"
+        "node {node} is free but has no inertia in direction {direction} (0-2 translation, 3-5 rotation): give it mass, give the sections that meet there an inertia per length, or hold it; a sheet that ends in a point asks for more panels along the span"
     )]
     Inertia {
         /// The node.

@@ -401,6 +401,26 @@ fn balances_stabilised_hover_is_drawn() {
     );
 }
 
+/// Right and left command the same against a pitch, and a tail between them in the order of names has no say.
+#[test]
+fn invariant_commands_of_a_flyer_with_a_tail_are_those_of_its_wings() {
+    const BIRD: &str = include_str!("../../wingbeat-case/tests/data/bird.toml");
+    let scratch = Scratch::new("stabilised-bird");
+    let dir = &scratch.0;
+    fs::write(dir.join("b.toml"), BIRD).unwrap();
+    let args = "stabilise b.toml --forward 8 --steps 40 --beats 3 --json";
+    let args: Vec<&str> = args.split(' ').collect();
+    let told: Value = serde_json::from_str(&said(dir, &args)).expect("JSON");
+    let last = &told["beats"][3];
+    let amplitudes = &last["stroke_amplitude_change_left_right"];
+    let [left, right] = [0, 1].map(|k| amplitudes[k].as_f64().unwrap());
+    assert!(left.abs() > 1e-3 && (left - right).abs() < 1e-6, "{last}");
+    assert!(
+        last["stroke_offset_rad"].as_f64().unwrap().abs() > 1e-3,
+        "{last}"
+    );
+}
+
 #[test]
 fn limit_massless_wings_are_a_rigid_aircraft() {
     // Without wing mass the inertial power of the wings is nothing.

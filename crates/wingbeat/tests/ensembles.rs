@@ -101,10 +101,16 @@ fn behaves_members_that_fail_are_named_and_flown_again() {
 fn refuses_ensembles_that_can_have_no_means_before_they_are_flown() {
     let none = |_: usize, _: &Simulation| -> std::ops::ControlFlow<()> { panic!("it flies") };
     let flight = Flight::preset_with("fruit-fly-blade", &["time.beats=0.9"]).unwrap();
-    for (flight, members) in [(&flight, 4), (&flight.clone().beats(2.0), 1)] {
+    let mut beatless = flight.clone();
+    beatless.setup.time.period = None;
+    for (flight, members, reason) in [
+        (&flight, 4, "time.beats of 1 or more"),
+        (&flight.clone().beats(2.0), 1, "two members or more"),
+        (&beatless, 4, "no wingbeat frequency"),
+    ] {
         let refused = ensemble_watched(flight, members, 1, None, none);
         let said = refused.map(drop).unwrap_err().to_string();
-        assert!(said.contains("two members or more"), "{said}");
+        assert!(said.contains(reason), "{said}");
     }
     let mut wrong = flight.beats(2.0);
     wrong.setup.corrector.max_passes = 0;

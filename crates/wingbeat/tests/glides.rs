@@ -5,7 +5,9 @@ use std::path::Path;
 
 use serde_json::Value;
 
-use crate::support::{Scratch, refused, said};
+use wingbeat::flight::MotionMode;
+
+use crate::support::{Scratch, case_of, refused, said};
 
 const GLIDER: &str = include_str!("../../wingbeat-case/tests/data/glider.toml");
 
@@ -95,6 +97,22 @@ fn agrees_the_commands_of_a_glider_with_wakes_with_those_without() {
     let sweep = [&["trim", "g.toml", "--sweep", "5", "7"][..], &wakes].concat();
     let error = refused(dir, 2, &sweep);
     assert!(error.contains("--sweep has no effect here"), "{error}");
+    // Written in other steps, it flies as long as before.
+    let write = ["trim", "g.toml", "--steps", "40", "--write", "w.toml"];
+    said(dir, &[&write[..], &wakes].concat());
+    let text = fs::read_to_string(dir.join("w.toml")).unwrap();
+    let (time, mode) = {
+        let setup = case_of("w", &text, &[]).setup;
+        (setup.time, setup.mode)
+    };
+    let MotionMode::Free(start) = mode else {
+        panic!("{text}");
+    };
+    let flown = (time.steps - start.held_steps) as f64 * time.step;
+    assert!((flown - 1.0).abs() < time.step, "{flown} in {}", time.step);
+    // What parts right from left in a glide.
+    let error = refused(dir, 2, &["trim", "g.toml", "--turn-rate", "5"]);
+    assert!(error.contains("feathering_offset_difference"), "{error}");
 }
 
 /// A has the modes: sums of powers of its eigenvalues are traces of its powers. B has Newton's law: the masses of flyer

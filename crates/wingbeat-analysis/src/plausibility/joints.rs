@@ -3,6 +3,7 @@
 use std::f64::consts::PI;
 
 use wingbeat_dynamics::{ElementLaw, Joint, JointType};
+use wingbeat_flight::setup::carriers::chain;
 use wingbeat_flight::{FlightSetup, growing_joint, inertia_about};
 
 use super::limit::{Doubts, Limit, rounded};
@@ -41,25 +42,11 @@ pub(super) fn doubts(setup: &FlightSetup, frequency: Option<f64>, list: &mut Dou
     list.0.extend(growing);
 }
 
-/// The joints that carry a wing, from its own to that on the central body; none of a wing without a joint.
-pub(crate) fn chain(setup: &FlightSetup, wing: usize) -> Vec<&Joint> {
-    let mut found: Vec<&Joint> = vec![];
-    let mut body = Some(wing + 1);
-    while let Some(joint) = setup.joints.iter().find(|j| Some(j.child) == body) {
-        if found.iter().any(|j| std::ptr::eq(*j, joint)) {
-            break; // refused elsewhere
-        }
-        found.push(joint);
-        body = joint.parent;
-    }
-    found
-}
-
 /// The joint that carries a wing on whose springs what it carries vibrates most slowly, rigid and in a vacuum, and the
 /// period \[s\]; none without springs. The inertia of the wing and of the bodies between is counted about the joint that
 /// carries each: at least as much as that hangs on the spring.
 pub(crate) fn slowest_on_springs(setup: &FlightSetup, wing: usize) -> Option<(String, f64)> {
-    let chain = chain(setup, wing);
+    let chain = chain(&setup.joints, wing + 1);
     let of = |(place, joint): (usize, &&Joint)| {
         let stiffness = |k: usize| joint.model.damping_and_stiffness(k)[1];
         let inertia = |k: usize| -> f64 {

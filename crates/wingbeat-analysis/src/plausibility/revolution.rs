@@ -3,11 +3,10 @@
 use std::f64::consts::TAU;
 
 use wingbeat_dynamics::{BodyMotion, ElementLaw, Joint, JointType};
+use wingbeat_flight::setup::carriers::chain;
 use wingbeat_flight::{FlightSetup, MotionMode, PrescribedMotion};
 use wingbeat_math::{DVec3, DriftingFourier, RotationLaw};
 use wingbeat_model::Wing;
-
-use super::joints::chain;
 
 /// Turns of which the wake is kept from which on what is left out is felt little in air at rest. Two blades of
 /// aspect ratio 4 at 10 deg (thrust coefficient 0.007) have 27, 16, 11, 7, 4 and 2 % more thrust with 1, 1.5,
@@ -36,7 +35,7 @@ impl Revolution {
     /// That of wing `w` as it begins, of the root or on a joint that is free to turn, the faster of them; none
     /// where it turns less than once in the flight. A wing that circles farther away leaves its wake behind.
     pub fn of(setup: &FlightSetup, w: usize) -> Option<Self> {
-        let joints = chain(setup, w);
+        let joints = chain(&setup.joints, w + 1);
         let on_joints = (0..joints.len()).filter_map(|k| on_joint(setup, w, &joints[..=k]));
         let all = on_joints.chain(with_root(setup, w, &joints));
         let flown = setup.time.steps as f64 * setup.time.step;

@@ -54,25 +54,27 @@ impl Control {
         }
     }
 
-    /// The flyer with `x` of this control of all wings, or of the wing `chosen`.
+    /// The flyer with `x` of this control of all wings that are steered together ([`FlightSetup::is_adjusted`]), or of the
+    /// wing `chosen` alone, whichever it is: a tail, a hand wing in the axes of its arm wing.
     pub(crate) fn steered(self, setup: &FlightSetup, chosen: Option<usize>, x: f64) -> FlightSetup {
-        let mut all = match self {
-            Self::Trimmed(unknown) => adjusted(setup, &[unknown], [0.0; 2], &[x]).setup,
-            Self::StrokeSplit => {
-                let mut setup = setup.clone();
-                for wing in &mut setup.animal.wings {
-                    wing.motion.angles.phi = wing.motion.angles.phi.split_by(x);
+        let mut steered = setup.clone();
+        let wings = steered.animal.wings.iter_mut().enumerate();
+        let meant = wings.filter(|(k, _)| chosen.is_none_or(|c| c == *k));
+        let meant = meant.map(|(_, wing)| wing);
+        match self {
+            Self::Trimmed(unknown) => {
+                let all = adjusted(setup, &[unknown], [0.0; 2], &[x]);
+                if chosen.is_none() {
+                    return all.setup;
                 }
-                setup
+                let by = &all.adjustment;
+                meant.for_each(|wing| wing.motion = wing.motion.adjusted(wing.side, by));
             }
-        };
-        let wings = all.animal.wings.iter_mut().zip(&setup.animal.wings);
-        for (k, (wing, unsteered)) in wings.enumerate() {
-            if chosen.is_some_and(|c| c != k) {
-                wing.motion = unsteered.motion.clone();
-            }
+            Self::StrokeSplit => meant.for_each(|wing| {
+                wing.motion.angles.phi = wing.motion.angles.phi.split_by(x);
+            }),
         }
-        all
+        steered
     }
 
     /// Those that act on wings which stand still.

@@ -4,6 +4,7 @@ use wingbeat_flight::FlightSetup;
 use wingbeat_math::DVec3;
 
 use crate::AnalysisError;
+use crate::beat::glide::glides;
 use crate::trim::problem::TrimProblem;
 use crate::trim::residuals::Residuals;
 use crate::trim::unknown::{SPEED_OF_SOUND, check_unknowns};
@@ -22,7 +23,7 @@ pub(crate) fn check_symmetric(lateral: f64, rounding: f64) -> Result<(), Analysi
         true => Ok(()),
         false => Err(AnalysisError::Asymmetric {
             lateral,
-            remedy: "name six unknowns, three of them lateral, e.g. body_pitch stroke_amplitude stroke_offset body_roll stroke_amplitude_difference stroke_plane_difference; or make right and left wings alike and let wind and gravity lie in the plane of symmetry, n1 and n3",
+            remedy: "name six unknowns, three of them lateral, e.g. body_pitch stroke_amplitude stroke_offset body_roll stroke_amplitude_difference stroke_plane_difference, of a glider body_pitch forward climb body_roll feathering_offset_difference deviation_offset_difference; or make right and left wings alike and let wind and gravity lie in the plane of symmetry, n1 and n3",
         }),
     }
 }
@@ -48,7 +49,14 @@ pub(crate) fn check(setup: &FlightSetup, problem: &TrimProblem) -> Result<(), An
         };
         return Err(AnalysisError::not_covered(
             format!("{which} determines {needed} unknowns, and {named} are named"),
-            "name as many: three of them lateral (body_roll, stroke_amplitude_difference, ...) where there are six",
+            match glides(setup) {
+                true => {
+                    "name as many: three of them lateral (body_roll, feathering_offset_difference, deviation_offset_difference) where there are six"
+                }
+                false => {
+                    "name as many: three of them lateral (body_roll, stroke_amplitude_difference, ...) where there are six"
+                }
+            },
         ));
     }
     if let Some(k) = (1..all.len()).find(|&k| all[..k].contains(&all[k])) {

@@ -168,7 +168,7 @@ fn check_roll(problem: &TrimProblem, roll: f64) -> Result<(), AnalysisError> {
                 "the flight is released with a roll of {} degrees (flight.roll_deg), which parts right from left, and the unknowns are those of symmetric flight",
                 rounded(roll)
             ),
-            "set flight.roll_deg = 0, or name six unknowns: body_roll starts from it, and without body_roll it is kept (e.g. body_pitch stroke_amplitude stroke_offset body_roll stroke_amplitude_difference stroke_plane_difference)",
+            "set flight.roll_deg = 0, or name six unknowns: body_roll starts from it, and without body_roll it is kept (e.g. body_pitch stroke_amplitude stroke_offset body_roll stroke_amplitude_difference stroke_plane_difference, of a glider body_pitch forward climb body_roll feathering_offset_difference deviation_offset_difference)",
         )),
     }
 }

@@ -41,7 +41,7 @@ fn pairs_that_stand_still(setup: &FlightSetup) -> Vec<[usize; 2]> {
     let longest = setup.animal.wing_length();
     let stands = |w: usize| {
         let on_body = setup.joints.iter().all(|j| j.child != w + 1);
-        on_body && wings[w].is_still() && (is_glider || setup.animal.is_held(w))
+        on_body && wings[w].is_still() && (is_glider || setup.is_held_wing(w))
     };
     let counterpart = |w: usize| {
         let name = mirror_name(&wings[w].name)?;

@@ -25,6 +25,7 @@
 mod condition;
 mod deflection;
 mod disturbance;
+mod images;
 mod onset;
 mod response;
 mod sampling;

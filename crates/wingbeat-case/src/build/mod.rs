@@ -41,10 +41,11 @@ use crate::motion::carrier::is_carried;
 /// The setup of a resolved case.
 pub(crate) fn setup(case: &Case, name: &str) -> Built<FlightSetup> {
     size::check(case)?;
-    let animal = animal(case, name)?;
+    let mut animal = animal(case, name)?;
     let time = time::grid(case)?;
     names::check(&animal)?;
     let joints = joint::build_all(case, &animal)?;
+    wing::adjust(case, &mut animal, &joints).map_err(|e| fault_of_animal(case, e))?;
     let air = air::model::model(case, &animal)?;
     let mut loads = mechanics::loads(case, &animal)?;
     let buoyancy = buoyancy::loads(case, &air, &animal)?;

@@ -13,9 +13,9 @@ pub struct BeatRow {
     pub position: DVec3,
     /// Roll, pitch, heading from the trimmed flight \[rad\].
     pub tilt: DVec3,
-    /// Relative change of the stroke amplitude, first and last wing \[1\].
+    /// Relative change of the stroke amplitude, left and right \[1\].
     pub amplitude: [f64; 2],
-    /// Change of the mean stroke angle of the last wing \[rad\].
+    /// Change of the mean stroke angle \[rad\].
     pub offset: f64,
 }
 

@@ -14,13 +14,6 @@ pub fn closes_loop(joints: &[Joint], k: usize) -> bool {
     child == 0 || joints[..k].iter().any(|j| j.child == child)
 }
 
-/// Whether anything at the joint follows a law of time: rotation, travel, actuators.
-pub fn is_driven(joint: &Joint) -> bool {
-    let model = &joint.model;
-    let mut drives = model.elements.iter().filter_map(|e| e.law.drive());
-    joint.law.is_some() || model.travel.is_some() || drives.any(|s| !s.is_constant())
-}
-
 /// The same joint with everything that is prescribed there `factor` times as fast: rotation, travel and
 /// actuators.
 pub fn faster(joint: &Joint, factor: f64) -> Joint {

@@ -27,6 +27,8 @@ pub struct ElasticWing {
     pub(super) followers: Vec<Follower>,
     /// Nodes of the mesh at the tip: leading and trailing edge.
     pub(super) tip: [usize; 2],
+    /// Node of the elastic body at the tip.
+    tip_node: usize,
     /// Sections that are recorded.
     pub(super) stations: [Station; 4],
     pub(super) method: GeneralizedAlpha,
@@ -80,6 +82,7 @@ impl ElasticWing {
             tip: [0, wing.mesh.rows].map(|i| wing.mesh.node(i, wing.mesh.cols)),
             stations: Station::all(&wing.mesh.nodes, [wing.mesh.rows, wing.mesh.cols]),
             is_sheet: matches!(structure.members, Members::Shell(_)),
+            tip_node: body.tip,
             structure: body.structure,
             followers: body.followers,
             method,
@@ -95,6 +98,11 @@ impl ElasticWing {
     /// The elastic body.
     pub fn structure(&self) -> &Structure {
         &self.structure
+    }
+
+    /// Node of the elastic body at the tip: of a sheet that of its trailing edge, of a pointed one the point.
+    pub fn tip_node(&self) -> usize {
+        self.tip_node
     }
 
     /// Whether it is a sheet, of which every panel of the mesh is an element.

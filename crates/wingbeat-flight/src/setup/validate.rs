@@ -4,7 +4,7 @@ use crate::error::FlightError;
 use crate::interface::NO_BENDING;
 use crate::setup::{
     AirModel, BaumgarteChoice, FlightSetup, FormulationChoice, IntegratorChoice, MotionMode,
-    StabilizationChoice,
+    StabilizationChoice, carriers,
 };
 
 impl FlightSetup {
@@ -60,10 +60,15 @@ impl FlightSetup {
         self.wing_on_body(w) != w
     }
 
-    /// Whether what changes all strokes of the flyer (the controls of trim, commands to all wings) acts on wing `w`: not
-    /// on one that rides on another wing, nor on one that stands still beside wings that beat, as a tail does.
+    /// Whether wing `w` stands still beside wings that beat ([`carriers::is_held`]): a tail, or a surface that is held.
+    pub fn is_held_wing(&self, w: usize) -> bool {
+        carriers::is_held(&self.animal, &self.joints, w)
+    }
+
+    /// Whether what changes all strokes of the flyer (the controls of trim, commands to all wings) acts on wing `w`
+    /// ([`carriers::is_adjusted`]).
     pub fn is_adjusted(&self, w: usize) -> bool {
-        !self.rides_on_wing(w) && !self.animal.is_held(w)
+        carriers::is_adjusted(&self.animal, &self.joints, w)
     }
 
     /// Pitch of the stroke plane of wing `w` in the body \[rad\]: that of the wing on the body on which it rides.
@@ -72,21 +77,9 @@ impl FlightSetup {
         wing.motion.stroke_plane_pitch
     }
 
-    /// The innermost of the wings that carry wing `w`, directly or by segments; itself where none does.
+    /// The innermost of the wings that carry wing `w`; itself where none does.
     fn wing_on_body(&self, w: usize) -> usize {
-        let (mut body, mut innermost) = (w + 1, w);
-        // No chain is longer than there are joints.
-        for _ in 0..self.joints.len() {
-            let joint = self.joints.iter().find(|j| j.child == body);
-            match joint.and_then(|j| j.parent) {
-                None | Some(0) => break,
-                Some(parent) => body = parent,
-            }
-            if body <= self.animal.wings.len() {
-                innermost = body - 1;
-            }
-        }
-        innermost
+        carriers::wing_on_body(self.animal.wings.len(), &self.joints, w)
     }
 
     /// Whether what happens depends on the past beside the motion of rigid bodies: wakes, wings that loads bend.

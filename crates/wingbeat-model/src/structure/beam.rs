@@ -158,6 +158,7 @@ impl WingBeam {
         Ok(ElasticBody {
             structure: builder.build()?,
             followers: followers(wing.mesh, &at, &rest),
+            tip: at.len() - 1,
         })
     }
 

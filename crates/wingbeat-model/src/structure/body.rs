@@ -24,6 +24,8 @@ pub struct ElasticBody {
     pub structure: Structure,
     /// How the nodes of the wing's mesh follow, in their order.
     pub followers: Vec<Follower>,
+    /// The node at the tip: of a sheet that of its trailing edge, of a pointed one the point.
+    pub tip: usize,
 }
 
 /// Values of a law are looked for at so many places.

@@ -147,6 +147,7 @@ impl WingShell {
         Ok(ElasticBody {
             structure: builder.build()?,
             followers,
+            tip: mesh.node_of[grid.node(grid.rows, grid.cols)],
         })
     }
 

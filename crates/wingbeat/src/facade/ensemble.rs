@@ -88,8 +88,20 @@ impl WatchedEnsemble {
 
 /// Nothing to take a mean of.
 const TOO_FEW: Error = Error::Ensemble {
-    problem: "an ensemble is of two members or more that fly a whole wingbeat",
-    remedy: "more members, or time.beats of 1 or more",
+    problem: "an ensemble is of two members or more",
+    remedy: "more members",
+};
+
+/// Too short for means.
+const TOO_SHORT: Error = Error::Ensemble {
+    problem: "members are compared by the means of whole wingbeats, and the flight has none",
+    remedy: "time.beats of 1 or more",
+};
+
+/// No wingbeats.
+const BEATLESS: Error = Error::Ensemble {
+    problem: "members are compared by the means of wingbeats, and this flight has no wingbeat frequency",
+    remedy: "a flyer that beats (motion.frequency_hz), and fly a glider alone (`run`)",
 };
 
 /// [`ensemble`] while `watch`, which sees the number of a member, from 1, and its flight at the start and after
@@ -189,9 +201,14 @@ fn kept_in(flight: &Flight, members: usize, folder: &Path) -> Result<KeptMembers
 /// The flights of all members.
 fn members_of(flight: &Flight, members: usize) -> Result<Vec<Flight>, Error> {
     let time = &flight.setup.time;
-    let is_long = time.steps_per_beat().is_some_and(|beat| time.steps >= beat);
-    if members < 2 || !is_long {
+    if members < 2 {
         return Err(TOO_FEW);
+    }
+    if time.period.is_none() {
+        return Err(BEATLESS);
+    }
+    if time.steps_per_beat().is_none_or(|beat| time.steps < beat) {
+        return Err(TOO_SHORT);
     }
     let member = |k| {
         let mut member = flight.clone();

@@ -2,7 +2,8 @@
 
 use wingbeat_flight::{FlightSetup, FlightState, Simulation};
 
-use super::disturbance::{ModalVelocities, Stations, images};
+use super::disturbance::{ModalVelocities, Stations};
+use super::images::images;
 use super::response::{LINEAR, Response};
 use super::sampling::Sampling;
 use super::settings::FlutterSettings;

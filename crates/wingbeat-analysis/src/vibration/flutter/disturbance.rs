@@ -5,9 +5,8 @@ use wingbeat_math::{DQuat, DVec3, rotation_vector};
 use wingbeat_structure::NODE;
 
 use super::settings::FlutterSettings;
-use super::steady::{ElasticRig, SAME, SteadyWing, leading};
+use super::steady::{ElasticRig, leading};
 use crate::AnalysisError;
-use crate::plausibility::chain;
 
 /// Stations along the span at which outputs are taken.
 const STATIONS: usize = 4;
@@ -80,7 +79,8 @@ fn in_modes(
     Ok(velocity)
 }
 
-const SIGNS: [f64; NODE] = [1.0, -1.0, 1.0, -1.0, 1.0, -1.0];
+/// Signs of the numbers of a node in its mirror image.
+pub(super) const SIGNS: [f64; NODE] = [1.0, -1.0, 1.0, -1.0, 1.0, -1.0];
 
 /// The mirror image of velocities, places in W, turns in node components; of sense -1 its opposite.
 fn mirrored(velocity: &[f64], sense: f64) -> Vec<f64> {
@@ -105,51 +105,6 @@ fn check_antisymmetric(rig: &ElasticRig, image_of: &[Option<usize>]) -> Result<(
     }
 }
 
-/// Of each elastic wing in the steady state the wing before it that it is the mirror image of, deformed and damped as it
-/// is and on joints with the same springs, dampers and stops, if there is one.
-pub(crate) fn images(
-    rig: &ElasticRig,
-    state: &FlightState,
-    steady: &[SteadyWing],
-) -> Vec<Option<usize>> {
-    let shapes = |k: usize| {
-        let structure = rig.wing(k).structure();
-        let (at, rest) = (&state.wings[k].structure.configuration, structure.rest());
-        let size = structure.size();
-        let node = move |n: usize| {
-            let turn = rotation_vector(at.rotation[n] * rest.rotation[n].inverse());
-            [(at.position[n] / size).to_array(), turn.to_array()].concat()
-        };
-        (0..at.len()).flat_map(node)
-    };
-    let side = |k: usize| rig.setup.animal.wings[rig.wing(k).wing()].side;
-    let damping = |k: usize| rig.wing(k).structure().damping();
-    let joints = |k: usize| {
-        let chain = chain(&rig.setup, rig.wing(k).wing());
-        let models = chain.into_iter().map(|j| j.model.elements.clone());
-        models.collect::<Vec<_>>()
-    };
-    let is_image = |k: usize, other: usize| {
-        let nodes = |k: usize| state.wings[k].structure.configuration.len();
-        let sizes = [k, other].map(|k| rig.wing(k).structure().size());
-        let mut numbers = shapes(k).zip(shapes(other)).enumerate();
-        let mut frequencies = steady[k].vacuum.iter().zip(&steady[other].vacuum);
-        side(k) != side(other)
-            && damping(k) == damping(other)
-            && joints(k) == joints(other)
-            && nodes(k) == nodes(other)
-            && (sizes[0] - sizes[1]).abs() < SAME * sizes[0]
-            && numbers.all(|(n, (x, y))| (x - SIGNS[n % NODE] * y).abs() < SAME)
-            && frequencies.all(|(v, w)| (v - w).abs() < SAME * v)
-    };
-    let mut found: Vec<Option<usize>> = vec![];
-    for k in 0..rig.count() {
-        let own = (0..k).find(|&other| found[other].is_none() && is_image(k, other));
-        found.push(own);
-    }
-    found
-}
-
 /// Nodes of an elastic wing that are looked at.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Stations {
@@ -163,11 +118,12 @@ impl Stations {
     /// Numbers that are taken of a wing.
     pub const OUTPUTS: usize = NODE * STATIONS;
 
-    /// Of elastic wing number `wing`, equally far apart from each other, the last at the tip.
+    /// Of elastic wing number `wing`, equally far apart from each other in the order of its nodes, the last at the tip.
     pub fn of(rig: &ElasticRig, wing: usize) -> Self {
         let structure = rig.wing(wing).structure();
         let (last, rest) = (structure.nodes() - 1, structure.rest());
-        let nodes: Vec<usize> = (1..=STATIONS).map(|k| k * last / STATIONS).collect();
+        let along = (1..STATIONS).map(|k| k * last / STATIONS);
+        let nodes: Vec<usize> = along.chain([rig.wing(wing).tip_node()]).collect();
         let at = |&n: &usize| (rest.position[n], rest.rotation[n]);
         Self {
             wing,

@@ -233,8 +233,8 @@ impl ElasticRig {
         settings: &FlutterSettings,
     ) -> Result<SteadyWing, AnalysisError> {
         let rest = self.wing(k).structure().rest();
+        let tip = self.wing(k).tip_node();
         let tip_moved = |at: &Configuration| {
-            let tip = at.len() - 1;
             [
                 at.position[tip] - rest.position[tip],
                 rotation_vector(at.rotation[tip] * rest.rotation[tip].inverse()),

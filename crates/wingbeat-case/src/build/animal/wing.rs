@@ -1,9 +1,12 @@
 //! `[wing.NAME]`: planform, mesh, mass, hinge; pairs by mirror symmetry.
 
+use wingbeat_dynamics::Joint;
+use wingbeat_flight::setup::carriers;
 use wingbeat_math::DVec3;
 use wingbeat_model::planform::{Beta, ChordSize, Planform, WingShape};
 use wingbeat_model::{
-    GridMesh, MassInput, Side, Spacing, Wing, WingMotion, mirror_name, side_in_name,
+    Animal, GridMesh, MassInput, ModelError, Side, Spacing, Wing, WingMotion, mirror_name,
+    side_in_name,
 };
 
 use crate::build::animal::hinge::hinge;
@@ -18,7 +21,7 @@ use crate::raw::{
 };
 use crate::text::nearest::nearest;
 
-/// All wings in the order of their names, mirror images among them.
+/// All wings in the order of their names, mirror images among them, without the adjustments of the case.
 pub(crate) fn build_all(case: &Case) -> Built<Vec<Wing>> {
     let mut wings = vec![];
     for (name, own) in &case.wing {
@@ -31,16 +34,20 @@ pub(crate) fn build_all(case: &Case) -> Built<Vec<Wing>> {
             wings.push(wings[wings.len() - 1].mirrored(&other));
         }
     }
-    // Wings that stand still beside those that beat are tails, and stay as they are.
-    let any_beats = wings.iter().any(|w| !w.is_still());
-    for wing in &mut wings {
-        let is_held = any_beats && wing.is_still();
-        if !is_held && !rides_on_wing(case, &wing.name) {
-            wing.motion = motion::adjusted(case, &wing.motion, wing.side);
-        }
-    }
     wings.sort_by(|a, b| a.name.cmp(&b.name));
     Ok(wings)
+}
+
+/// Adjusts the wings of the flyer with these joints that it steers: tails and wings on wings stay as they are.
+pub(crate) fn adjust(case: &Case, animal: &mut Animal, joints: &[Joint]) -> Result<(), ModelError> {
+    let is_adjusted = |w: usize| carriers::is_adjusted(animal, joints, w);
+    let adjusted: Vec<bool> = (0..animal.wings.len()).map(is_adjusted).collect();
+    let wings = animal.wings.iter_mut().zip(adjusted);
+    for wing in wings.filter(|(_, is_adjusted)| *is_adjusted).map(|w| w.0) {
+        wing.motion = motion::adjusted(case, &wing.motion, wing.side);
+        wing.motion.check(&wing.name)?;
+    }
+    Ok(())
 }
 
 /// The wing of the case a wing of the animal was made from.

@@ -8,7 +8,6 @@ use wingbeat_model::{Animal, Wing, mirror_name};
 use crate::build::checks::{model_keys, spacing, still, wingless};
 use crate::build::fault::{Built, idle};
 use crate::error::Fault;
-use crate::motion::carrier::rides_on_wing;
 use crate::motion::own_motion::{every_phase, every_wing, has_all_angles};
 use crate::raw::{
     ANGLES, AirModel, Case, Formulation, JointCase, Mode, TurnCase, WingCase, WingMeshCase,
@@ -277,7 +276,6 @@ fn motion(case: &Case, animal: &Animal, source: &CaseSource) -> Built<()> {
 /// Changes of what does not vary on any wing.
 fn adjustments(case: &Case, setup: &FlightSetup) -> Built<()> {
     let wings = &setup.animal.wings;
-    let any_beats = wings.iter().any(|w| !w.is_still());
     let motion = &case.motion;
     for (table, by) in [
         ("adjust", &motion.adjust),
@@ -285,12 +283,11 @@ fn adjustments(case: &Case, setup: &FlightSetup) -> Built<()> {
     ] {
         let by = Adjustment::from(by);
         let mut parts = by.numbers().into_iter();
-        let lost_on = |wing: &Wing, part: &(&str, f64)| {
-            rides_on_wing(case, &wing.name)
-                || any_beats && wing.is_still()
-                || wing.motion.idle(&by).any(|i| i == *part)
+        let lost_on = |(w, wing): (usize, &Wing), part: &(&str, f64)| {
+            !setup.is_adjusted(w) || wing.motion.idle(&by).any(|i| i == *part)
         };
-        let lost = parts.find(|part| !wings.is_empty() && wings.iter().all(|w| lost_on(w, part)));
+        let each = || wings.iter().enumerate();
+        let lost = parts.find(|part| !wings.is_empty() && each().all(|w| lost_on(w, part)));
         if let Some((part, _)) = lost {
             let key = format!("motion.{table}.{part}");
             return Err(idle(

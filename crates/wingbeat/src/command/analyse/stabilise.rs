@@ -7,7 +7,7 @@ use rayon::prelude::*;
 use serde_json::{Value, json};
 use wingbeat::analysis::control::{
     Held, Law, ProportionalDerivative, Reference, Regulator, SteeredBeats, Steering, Stiffness,
-    Weights, disturbed,
+    Weights, disturbed, sides,
 };
 use wingbeat::analysis::episode::{Recovery, Tumbles};
 use wingbeat::analysis::{AnalysisError, Perturbation, Trim};
@@ -109,13 +109,14 @@ fn fly(args: &StabiliseArgs, report: &mut Report, figure: Option<Target>) -> Res
     let controller = watched("feedback", || controller(args, &trim, latency))?;
     let start = disturbed(&trim, &by);
     let mut flight = SteeredBeats::new(&trim, start, controller, latency)?;
-    let mut rows = vec![row(&flight)];
+    let steered = sides(&trim.setup);
+    let mut rows = vec![row(&flight, &steered)];
     let (mut lost, mut limited) = (None, 0);
     let watch = Watch::of("flying under feedback", args.beats as u64);
     for _ in 0..args.beats {
         match flight.beat() {
             Ok(()) => {
-                rows.push(row(&flight));
+                rows.push(row(&flight, &steered));
                 limited += usize::from(flight.controller().is_some_and(|c| c.is_limited()));
             }
             Err(e) => {
@@ -188,16 +189,18 @@ fn tumble(args: &StabiliseArgs, report: &mut Report, count: usize) -> Result<(),
     Ok(())
 }
 
-/// What is seen at this beat.
-fn row(flight: &SteeredBeats) -> BeatRow {
+/// What is seen at this beat; the commands are those of the first wing of each side that is `steered`.
+fn row(flight: &SteeredBeats, steered: &[Option<f64>]) -> BeatRow {
     let (d, acting) = (flight.departure(), flight.acting());
-    let (first, last) = (&acting[0], &acting[acting.len() - 1]);
+    let first = |side: f64| steered.iter().position(|s| *s == Some(side));
+    let wings = [-1.0, 1.0].map(first);
+    let offset = wings[1].or(wings[0]).map(|w| acting[w].stroke_offset);
     BeatRow {
         beat: flight.beats(),
         position: d.position,
         tilt: d.state.tilt,
-        amplitude: [first.stroke_amplitude, last.stroke_amplitude],
-        offset: last.stroke_offset,
+        amplitude: wings.map(|w| w.map_or(0.0, |w| acting[w].stroke_amplitude)),
+        offset: offset.unwrap_or(0.0),
     }
 }
 

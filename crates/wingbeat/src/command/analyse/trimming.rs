@@ -278,8 +278,12 @@ pub(crate) fn trimmed_with_wake(
             case.raw.time.steps_per_beat = Some(steps);
         }
         (Some(steps), None) => {
-            let period = period_of_glide(&case.setup);
-            case.setup.time.step = period.map_or(case.setup.time.step, |p| p / steps as f64);
+            if let Some(period) = period_of_glide(&case.setup) {
+                let time = &mut case.setup.time;
+                let flown = time.steps as f64 * time.step;
+                time.step = period / steps as f64;
+                time.steps = (flown / time.step).round() as usize;
+            }
         }
         (None, _) => {}
     }

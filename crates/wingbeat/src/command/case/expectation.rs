@@ -29,7 +29,7 @@ pub(crate) fn unknowns(setup: &FlightSetup) -> usize {
 /// Wings that stand still beside those that beat: what changes the strokes of the flyer leaves them as they are.
 pub(crate) fn tell_held(report: &mut Report, setup: &FlightSetup) {
     let wings = &setup.animal.wings;
-    let held = (0..wings.len()).filter(|&w| setup.animal.is_held(w) && !setup.rides_on_wing(w));
+    let held = (0..wings.len()).filter(|&w| setup.is_held_wing(w) && !setup.rides_on_wing(w));
     let held: Vec<&str> = held.map(|w| &wings[w].name[..]).collect();
     if !held.is_empty() {
         entry!(
