@@ -146,13 +146,14 @@ fn exact_parallelogram_drives_wings_as_laws_do() {
 /// Trim, the trimmed flight flown with all constraints, steering and power.
 #[test]
 fn agrees_trim_of_a_linkage_with_prescribed_joints() {
+    const STEPS: usize = 24;
     let problem = TrimProblem {
         unknowns: vec![
             Unknown::BodyPitch,
             Unknown::Frequency,
             Unknown::FeatheringOffset,
         ],
-        ..hover(60)
+        ..hover(STEPS)
     };
     let [a, b] = both().map(|s| trim(&s, &problem).unwrap());
     assert!(a.solution.converged && b.solution.converged);
@@ -180,7 +181,8 @@ fn agrees_trim_of_a_linkage_with_prescribed_joints() {
         a.beat.root(&a.beat.advance(&a.state).unwrap()),
     );
     let gap = (root.p - end.p).length() / a.beat.wing_length();
-    assert!(gap < 4e-5, "{gap:.1e}");
+    println!("{gap:e}");
+    assert!(gap < 1.2e-3, "{gap:.1e}");
     // The inertial power is counted limb by limb, and the linkage makes one limb of two. Projected constraints
     // hold to roundings.
     let [p, q] = [&a, &b].map(|t| {
@@ -197,7 +199,7 @@ fn agrees_trim_of_a_linkage_with_prescribed_joints() {
         2
     ];
     let [x, y] = [&a, &b].map(|t| {
-        let beat = Beat::between(&t.setup, 60, &now, &next).unwrap();
+        let beat = Beat::between(&t.setup, STEPS, &now, &next).unwrap();
         beat.advance(&a.state).unwrap()
     });
     assert!(apart(&x[10..], &y[10..]) < 1e-9);

@@ -150,6 +150,8 @@ fn behaves_wings_that_start_in_each_other_are_named() {
         "air.model=vortex_lattice",
         "air.body=false",
         "time.beats=0.02",
+        "wing.upper-right.mesh={chordwise=2,spanwise=4}",
+        "wing.lower-right.mesh={chordwise=2,spanwise=4}",
     ];
     let load = |more: &[&str]| common::load(&text, &[&lattice, more].concat()).unwrap();
     let together = load(&[]);

@@ -31,7 +31,7 @@ mass_kg = 0
 motion.psi.constant_deg = 4
 motion.phi.constant_deg = 0
 planform.outline = { leading_m = [[0, 0], [0.25, 0]], trailing_m = [[0, -0.08], [0.25, -0.08]] }
-mesh = { chordwise = 2, spanwise = 4 }
+mesh = { chordwise = 1, spanwise = 3 }
 [wing.right_tail]
 hinge_m = [-0.25, 0, -0.06]
 joined = true
@@ -39,7 +39,7 @@ mass_kg = 0
 motion.psi.constant_deg = 0
 motion.phi.constant_deg = 0
 planform.outline = { leading_m = [[0, 0], [0.1, 0]], trailing_m = [[0, -0.05], [0.1, -0.05]] }
-mesh = { chordwise = 2, spanwise = 2 }
+mesh = { chordwise = 1, spanwise = 1 }
 "#;
 
 fn case(text: &str, set: &[&str]) -> LoadedCase {
@@ -51,7 +51,7 @@ fn case(text: &str, set: &[&str]) -> LoadedCase {
 const FLYING_WING: &str = r#"
 format = 1
 name = "wing"
-time = { step_s = 6e-3, steps = 40 }
+time = { step_s = 9e-3, steps = 40 }
 flight = { velocity_m_s = [6, 0, 0.3] }
 body = { mass_kg = 0.03, inertia_about_centre_kg_m2 = [1e-4, 3e-4, 3.5e-4, 0, 0, 0] }
 [air]
@@ -68,7 +68,7 @@ joined = true
 mass_kg = 0
 motion.phi.constant_deg = 0
 planform.outline = { leading_m = [[0, 0], [0.25, 0]], trailing_m = [[0, -0.08], [0.25, -0.08]] }
-mesh = { chordwise = 2, spanwise = 8, spanwise_spacing = "cosine" }
+mesh = { chordwise = 2, spanwise = 6, spanwise_spacing = "cosine" }
 "#;
 
 /// A glider of wings and a tail in blade elements.
@@ -217,7 +217,7 @@ fn agrees_control_derivatives_of_a_glider_in_the_lattice_with_the_difference_of_
     let pitch = fast.solution.body_pitch - slow.solution.body_pitch;
     let v = fast.velocity - slow.velocity - pitch * DVec3::Y.cross(trim.velocity);
     let state = [v.x, v.y, v.z, 0.0, 0.0, 0.0, 0.0, pitch, 0.0];
-    // 2e-4 to 4e-4 measured: second order in the difference of the trims.
+    // 0.4e-4 to 2.5e-4 measured: second order in the difference of the trims.
     for row in [0, 2, 4] {
         let own: f64 = (0..9).map(|k| model.matrix[9 * row + k] * state[k]).sum();
         let steered: f64 = of_tail
@@ -324,10 +324,10 @@ fn limit_derivatives_of_wings_far_behind_are_those_of_their_distance() {
 fn limit_a_heavy_glider_in_the_lattice_has_the_phugoid_of_lanchester() {
     let set = [
         "body.mass_kg=1.2",
-        "time.step_s=2e-3",
+        "time.step_s=4e-3",
         "flight.velocity_m_s=[36, 0, 3]",
     ];
-    let trim = glide(&case(LATTICE, &set), 0.0, None, 1e-6);
+    let trim = glide(&case(LATTICE, &set), 0.0, None, 1e-5);
     let glide = trim.glide().unwrap();
     let rate = 9.81 / glide.airspeed;
     let steady = steady_model(&trim).unwrap().modes;
@@ -335,6 +335,7 @@ fn limit_a_heavy_glider_in_the_lattice_has_the_phugoid_of_lanchester() {
     for modes in [&steady, &carried] {
         let mode = modes.find(Plane::Longitudinal, "stable phugoid").unwrap();
         let frequency = mode.growth.hypot(mode.frequency) / (2f64.sqrt() * rate);
+        println!("{frequency}");
         assert!((frequency - 1.0).abs() < 0.02, "{frequency}");
     }
 }
@@ -395,7 +396,8 @@ fn exact_the_twist_of_a_glider_is_that_before_divergence() {
 
 #[test]
 fn limit_stiff_wings_glide_as_rigid_ones() {
-    let rigid = case(BLADES, &[]);
+    let coarse = "wing.right.mesh.spanwise=5";
+    let rigid = case(BLADES, &[coarse]);
     let rigid = trim(
         &rigid.setup,
         &TrimRequest::default().problem(&rigid.setup).unwrap(),
@@ -403,7 +405,7 @@ fn limit_stiff_wings_glide_as_rigid_ones() {
     .unwrap();
     let off = |stiffness: f64| {
         let found = glide(
-            &case(BLADES, &[&beam(stiffness, stiffness)]),
+            &case(BLADES, &[coarse, &beam(stiffness, stiffness)]),
             0.0,
             None,
             1e-9,

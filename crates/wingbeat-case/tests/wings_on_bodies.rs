@@ -59,8 +59,8 @@ impl Case {
             .setup
     }
 
-    fn fly(&self) -> Simulation {
-        let mut flight = Simulation::new(self.setup()).unwrap();
+    fn fly(&self, keys: &[&str]) -> Simulation {
+        let mut flight = Simulation::new(self.setup_with(keys)).unwrap();
         while !flight.finished() {
             flight.step().unwrap();
         }
@@ -69,7 +69,7 @@ impl Case {
 
     /// Lift of the body, and of the wings, after six chords \[N\].
     fn lift(&self) -> [f64; 2] {
-        let flight = self.fly();
+        let flight = self.fly(&["time.steps=24"]);
         let record = flight.record();
         let up = |forces: &[DVec3]| forces.iter().map(|f| -f.z).sum::<f64>();
         let forces: Vec<DVec3> = record.air.iter().map(|a| a.force).collect();

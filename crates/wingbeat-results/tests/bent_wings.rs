@@ -87,14 +87,14 @@ fn agrees_bent_wings_pass_through_each_other_where_nodes_of_the_lattice_do() {
 }
 
 /// Of elastic wings in blade elements the mean power is off by more than half a percent where the summary warns, and by
-/// less where it does not (0.9 and 0.05 % of five beats in 80 and 240 steps).
+/// less where it does not (0.9 and 0.05 % of five beats in 80 and 240 steps; 1.2 % apart in the second).
 #[test]
 fn order_elastic_wings_without_wakes_are_amber_where_their_power_is_off() {
     let fly = |steps: usize| {
         let steps = format!("time.steps_per_beat={steps}");
-        let set = ["air.model=\"blade_element\"", "time.beats=3", &steps];
+        let set = ["air.model=\"blade_element\"", "time.beats=2", &steps];
         let summary = flown(&preset("hawkmoth-elastic", &set));
-        (summary.verdict, summary.beats[2].mean.power_watt, summary)
+        (summary.verdict, summary.beats[1].mean.power_watt, summary)
     };
     let ((rough, high, said), (fine, low, _)) = (fly(80), fly(240));
     assert_eq!((rough, fine), (Verdict::Amber, Verdict::Green));

@@ -22,7 +22,7 @@ fn agrees_lift_by_all_loads_with_that_by_impulse_in_attached_hover() {
                 &format!("air.loads={loads}"),
                 "air.section_drag.friction=blasius",
                 "air.section_drag.viscosity_m2_s=1.5e-5",
-                "time.beats=3",
+                "time.beats=2",
             ],
         ));
         for beat in &summary.beats[1..] {
@@ -51,7 +51,7 @@ fn agrees_lift_with_that_by_impulse_of_a_wing_that_sheds_all_around_in_hover() {
         &[
             "air.shed=[\"trailing\",\"tip\",\"leading\",\"root\"]",
             "wing.right.mirror=false",
-            "time.beats=4",
+            "time.beats=3",
         ],
     ));
     for beat in &summary.beats[1..] {
@@ -131,17 +131,17 @@ fn balances_impulse_budget(summary: &Summary) {
 fn balances_impulse_along_a_ground() {
     let set = [
         "air.ground={point_m=[0,0,2.5e-3],normal=[0,0,-1]}",
-        "time.beats=3",
+        "time.beats=2",
     ];
     let summary = flown(&preset("fruit-fly-tethered", &set));
     let budget = summary.impulse_budget.expect("a lattice");
     let period = summary.time_s / summary.beats.len() as f64;
     let lift: f64 = summary.beats.iter().map(|b| two_lifts(b)[0]).sum();
     println!("{budget:?} {}", lift * period);
-    // Measured 0.011, along the stroke.
-    assert!(budget.residual_relative < 0.05);
+    // Measured 0.016, along the stroke.
+    assert!(budget.residual_relative < 0.03);
     assert!(
-        budget.residual_newton_s.abs() > 0.1 * lift * period,
+        budget.residual_newton_s.abs() > 0.05 * lift * period,
         "the test is void"
     );
     let text = summary.to_text();
@@ -343,7 +343,7 @@ fn behaves_ways_of_nodes_that_are_limited_are_counted_and_said() {
 fn behaves_forces_that_cancel_over_the_beat_are_not_doubted() {
     let text = r#"
         format = 1
-        time = { steps_per_beat = 40, beats = 3 }
+        time = { steps_per_beat = 24, beats = 3 }
         flight.mode = "tethered"
         body = { mass_kg = 1, inertia_about_centre_kg_m2 = [1, 1, 1, 0, 0, 0] }
         motion.frequency_hz = 10
@@ -357,7 +357,7 @@ fn behaves_forces_that_cancel_over_the_beat_are_not_doubted() {
         mass_kg = 0.005
         motion = { phi.fourier.sine_deg = [40], psi.constant_deg = 0 }
         planform.rectangle = { chord_m = 0.04, span_m = 0.1, axis_fraction = 0.5 }
-        mesh = { chordwise = 4, spanwise = 6 }
+        mesh = { chordwise = 3, spanwise = 4 }
     "#;
     let case = LoadedCase::from_text("paddles", text, Path::new(""), &[]).unwrap();
     let summary = flown(&case);

@@ -179,15 +179,16 @@ fn behaves_flights_under_feedback_say_how_far_they_were_from_what_they_hold() {
         "flight.pitch_deg=67.5",
         "time.steps_per_beat=40",
     ];
-    let back = fly("time.beats=60", &set).departures.expect("feedback");
+    let back = fly("time.beats=40", &set).departures.expect("feedback");
     let [most, last] = [back.attitude_deg.largest, back.attitude_deg.last];
     assert!(most > 17.0 && last < 0.1, "{most} {last}");
     let limits = [
         "control.amplitude_limit=1e-6",
         "control.angle_limit_deg=1e-6",
         "control.hold=start", // strokes that lift 1.25 weights
+        "time.steps_per_beat=40",
     ];
-    let lost = fly("time.beats=60", &limits);
+    let lost = fly("time.beats=30", &limits);
     let departures = lost.departures.as_ref().expect("feedback");
     assert!(departures.limited > 0.5);
     assert!(

@@ -92,7 +92,7 @@ fn agrees_at_any_tolerance_asked_for() {
 #[test]
 fn invariant_bits_under_threads_and_instructions() {
     let model = MODELS[1];
-    let net = wakes::hover(model, 12_000);
+    let net = wakes::hover(model, 5_000);
     let run = |threads: usize, instructions: InstructionSet, method: Method| {
         let pool = rayon::ThreadPoolBuilder::new()
             .num_threads(threads)
@@ -113,7 +113,6 @@ fn invariant_bits_under_threads_and_instructions() {
     for method in [Method::Tree, Method::Single] {
         let one = run(1, InstructionSet::Best, method);
         assert_eq!(one.1.method, method);
-        assert_eq!(one, run(2, InstructionSet::Best, method));
         assert_eq!(one, run(4, InstructionSet::Best, method));
         for set in InstructionSet::available() {
             assert_eq!(one, run(2, set, method), "{set:?}");

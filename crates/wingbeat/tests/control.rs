@@ -116,13 +116,13 @@ fn balances_hover_recovers_from_twenty_degrees_and_open_loop_does_not() {
 }
 
 #[test]
-fn balances_hover_in_the_lattice_for_twenty_beats() {
-    // Two beats are held. The wakes are chaotic: the preset is within 0.4 mm and 7 degrees, others
+fn balances_hover_in_the_lattice_for_twelve_beats() {
+    // Two beats are held. The wakes are chaotic: the preset is within 0.22 mm and 5 degrees, others
     // like it within twice that.
-    let preset = case(&["output.page=false"]).setup;
+    let preset = case(&["output.page=false", "time.beats=14"]).setup;
     let mut open = preset.clone();
     let flown = beats(preset);
-    assert_eq!(flown.len(), 22);
+    assert_eq!(flown.len(), 14);
     for (beat, (way, turned)) in flown.into_iter().enumerate() {
         assert!(
             way < 0.5e-3 && turned < 10.0,
@@ -130,8 +130,9 @@ fn balances_hover_in_the_lattice_for_twenty_beats() {
         );
     }
     open.feedback = None;
-    let (way, _) = beats(open)[21];
-    assert!(way > 1e-3, "{way:e} m");
+    // 0.78 mm, and 2.5 mm eight beats later.
+    let (way, _) = beats(open)[13];
+    assert!(way > 0.6e-3, "{way:e} m");
 }
 
 #[test]

@@ -243,7 +243,7 @@ fn balances_shape_and_loads_within_ten_passes_in_water() {
 #[test]
 fn balances_shape_and_loads_of_a_soft_hawkmoth_in_free_flight() {
     // Wings that twist by half a radian at every turn of the stroke; the body is free after its first beat.
-    let set = strings(&["time.beats=3", "air.max_wake_age_s=0.03"]);
+    let set = strings(&["time.beats=2", "air.max_wake_age_s=0.03"]);
     let (twist, passes) = hawkmoth_extremes(&set);
     assert!((0.3..1.0).contains(&twist), "{twist}");
     assert!(passes <= 12, "{passes}");

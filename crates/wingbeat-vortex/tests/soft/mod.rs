@@ -55,7 +55,7 @@ fn velocity(settings: FastSettings, net: &Network, at: &Points) -> (Points, Repo
 /// Velocity and vorticity alike, whatever the cores: from thin to wider than the wake.
 #[test]
 fn agrees_with_the_direct_sum_for_thin_wide_and_unequal_cores() {
-    for cores in [[0.005, 0.01], [0.02, 0.5], [0.3, 0.6], [1.0, 2.0]] {
+    for cores in [[0.005, 0.01], [0.02, 0.5], [1.0, 2.0]] {
         let net = wake(10_000, cores);
         let [u, w] = exact(&net, &net.nodes);
         for tolerance in [2.5e-3, 1e-3] {
@@ -126,7 +126,7 @@ fn limit_of_no_cores_agrees_with_the_expansions() {
 
 #[test]
 fn invariant_bits_under_threads_and_instructions_with_algebraic_cores() {
-    let net = wake(10_000, [0.02, 0.5]);
+    let net = wake(6_000, [0.02, 0.5]);
     let run = |threads: usize, instructions: InstructionSet| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
         let settings = FastSettings {

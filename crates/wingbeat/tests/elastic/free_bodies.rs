@@ -56,15 +56,15 @@ fn keeps_all(steps: usize, structure: &[String]) {
     let [early, late] = [&records[..steps / 2], &records[steps / 2..]].map(energy);
     println!("tip {tip:.2e} m, {linear:.1e}, {angular:.1e}, energy {early:.3e} {late:.3e}");
     assert!(tip > 5e-5, "soft: {tip}");
-    // Ten thousand steps of some roundings each.
+    // Thousands of steps of some roundings each.
     assert!(linear < 3e-14 && angular < 5e-13, "{linear:e} {angular:e}");
     // Second order in the step (here a twentieth of the first period), and bounded: no more in the second half.
     assert!(late < 1.2 * early && early < 5e-4, "{early:e} {late:e}");
 }
 
 #[test]
-fn conserves_momentum_and_energy_of_a_free_body_with_beams_over_ten_thousand_steps() {
-    keeps_all(10_000, &two_beams());
+fn conserves_momentum_and_energy_of_a_free_body_with_beams_over_thousands_of_steps() {
+    keeps_all(4_000, &two_beams());
 }
 
 #[test]

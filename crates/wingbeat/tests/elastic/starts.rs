@@ -116,7 +116,7 @@ fn clamped(t: f64) -> f64 {
 
 /// Displacements of the body and, relative to it, of the tips of two beams on it, under a force of [`SMALL`] from the
 /// start, every `step` \[s\]: `(M + 2 m) z'' + 2 sum g_i q_i'' = F`, `q_i'' + g_i z'' + omega_i^2 q_i = 0`, by the
-/// classical method of Runge and Kutta in steps of a fiftieth of the shortest period's radian.
+/// classical method of Runge and Kutta in steps of a fifth of the shortest period's radian.
 fn free(step: f64, seconds: f64) -> [Vec<f64>; 2] {
     const MODES: usize = 12;
     let whole: Vec<f64> = (0..MODES).map(|i| shape(i)[1]).collect();
@@ -129,7 +129,7 @@ fn free(step: f64, seconds: f64) -> [Vec<f64>; 2] {
         let of = (0..MODES).map(|i| -whole[i] * z - square[i] * y[i + 1]);
         (y[MODES + 1..].iter().copied().chain([z]).chain(of)).collect()
     };
-    let substeps = (50.0 * step * square[MODES - 1].sqrt()).ceil();
+    let substeps = (5.0 * step * square[MODES - 1].sqrt()).ceil();
     let h = step / substeps;
     let moved = |y: &[f64], f: &[f64], h: f64| -> Vec<f64> {
         y.iter().zip(f).map(|(y, f)| y + h * f).collect()

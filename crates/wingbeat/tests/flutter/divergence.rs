@@ -90,10 +90,12 @@ fn exact_static_divergence_of_strips() {
 #[test]
 fn exact_divergence_of_strips_under_weight_by_the_steady_deflections() {
     let exact = divergence();
-    for gravity in [0.0, 9.81, -9.81] {
+    for gravity in [9.81, -9.81] {
         let set = [
             format!("gravity_m_s2=[0,0,{gravity}]"),
             "wing.right.motion.psi.constant_deg=0.15".to_owned(),
+            "wing.right.mesh.spanwise=16".to_owned(),
+            "wing.right.structure.beam.elements=16".to_owned(),
             "wing.right.structure.beam.mass_kg_per_m=[0.05,0.05]".to_owned(),
             "wing.right.structure.beam.inertia_kg_m=[0.00005,0.00005]".to_owned(),
         ];

@@ -11,20 +11,20 @@ use crate::support::{case_of, strips};
 /// A slender wing (Tang & Dowell 2001, AIAA J. 39:1430, without the body at its tip), mass and elastic axes at mid chord, in strips.
 fn slender() -> String {
     strips(
-        "step_s = 0.0002
+        "step_s = 0.0003
 steps = 400",
         "density_kg_m3 = 1.225
 stream_m_s = [-30, 0, 0]
-blade.states = 8",
+blade.states = 6",
         "motion.psi.constant_deg = 0.01
 planform.rectangle = { chord_m = 0.0508, span_m = 0.4508, axis_fraction = 0.5 }
-mesh = { chordwise = 1, spanwise = 8 }
+mesh = { chordwise = 1, spanwise = 6 }
 [wing.right.structure]
 spectral_radius = 1.0
 [wing.right.structure.beam]
 axis_fraction = 0.5
 mass_fraction = 0.5
-elements = 8
+elements = 6
 flap_newton_m2 = [0.4186, 0.4186]
 lag_newton_m2 = [18.44, 18.44]
 torsion_newton_m2 = [0.9539, 0.9539]

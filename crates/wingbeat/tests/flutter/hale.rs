@@ -14,13 +14,13 @@ blade.states = 6",
         "mirror = false
 motion.psi.constant_deg = 0.02
 planform.rectangle = { chord_m = 1.0, span_m = 16.0, axis_fraction = 0.5 }
-mesh = { chordwise = 1, spanwise = 20 }
+mesh = { chordwise = 1, spanwise = 10 }
 [wing.right.structure]
 spectral_radius = 1.0
 [wing.right.structure.beam]
 axis_fraction = 0.5
 mass_fraction = 0.5
-elements = 16
+elements = 8
 flap_newton_m2 = [2e4, 2e4]
 torsion_newton_m2 = [1e4, 1e4]
 lag_newton_m2 = [4e6, 4e6]
@@ -46,7 +46,7 @@ fn behaves_squares_of_a_response_that_grows_are_no_modes() {
     let [mode] = found.modes[..] else {
         panic!("{:?}", found.modes)
     };
-    assert!((mode.growth - 1.917).abs() < 0.01, "{mode:?}");
+    assert!((mode.growth - 1.884).abs() < 0.01, "{mode:?}");
 }
 
 #[test]
