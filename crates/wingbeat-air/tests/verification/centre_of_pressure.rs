@@ -61,7 +61,7 @@ fn exact_quarter_chord_of_a_flat_plate_in_plane_flow() {
             LoadMethod::Polhamus => 0.25 / (1.0 + alpha.tan()),
             _ => 0.25,
         };
-        for (rows, shedding) in [1, 4, 8]
+        for (rows, shedding) in [1, 4]
             .into_iter()
             .flat_map(|n| [(n, SheddingKinds::TRAILING), (n, could_shed)])
         {
@@ -84,7 +84,10 @@ fn exact_quarter_chord_of_a_flat_plate_in_plane_flow() {
                     ..settings.clone()
                 };
                 let found = centre(settings, LONG, [rows, 1], (0.1 * LONG, 150));
-                println!("{leading:?}, {loads:?}, {rows} panels: {found:.8}, exact {exact:.8}");
+                println!(
+                    "{leading:?}, {loads:?}, {rows} panels: {found:.8}, off by {:e}",
+                    found - exact
+                );
                 // What the lattice leaves of the suction, and the starting vortex, 15 spans behind.
                 assert!((found - exact).abs() < 1e-7);
             }

@@ -169,12 +169,12 @@ fn agrees_second_method_impulse_of_a_plate_at_40_degrees_in_every_way_of_leading
         efficiency,
     };
     for leading in [LeadingEdge::Always, explicit, implicit(threshold)] {
-        let apart = [[4, 6, 10], [6, 9, 15]].map(|mesh| {
+        let apart = [[4, 6, 10], [5, 8, 12]].map(|mesh| {
             let [force, impulse] = steady_separation(leading, mesh, 5, None);
             impulse.distance(force) / force.length()
         });
         println!("{leading:?}: {apart:.4?}");
-        // Measured 1.5 to 2.4 and 2.3 to 2.8 %: quadrature along segments and filaments.
+        // Measured 1.7 to 1.9 and 1.7 to 2.3 %: quadrature along segments and filaments.
         assert!(apart.iter().all(|apart| *apart < 0.05));
     }
 }
@@ -184,12 +184,12 @@ fn agrees_second_method_impulse_of_a_plate_at_40_degrees_in_every_way_of_leading
 #[test]
 fn agrees_second_method_impulse_of_a_wing_that_sheds_around_with_its_wake_cut() {
     let [whole, cut] =
-        [None, Some(20)].map(|rows| steady_separation(implicit(0.15), [4, 6, 10], 8, rows));
+        [None, Some(15)].map(|rows| steady_separation(implicit(0.15), [4, 6, 10], 6, rows));
     println!("force, rate of impulse: whole {whole:?}, cut {cut:?}");
     let apart = [whole, cut].map(|[force, impulse]| impulse.distance(force) / force.length());
-    // Measured 3.3 % and 9.4 %: in the cut one the flow of what was dropped is missing.
+    // Measured 1.5 % and 13 %: in the cut one the flow of what was dropped is missing.
     assert!(apart[0] < 0.06 && apart[1] < 0.15, "{apart:?}");
-    // Measured 5.7 %.
+    // Measured 2.7 %.
     assert!(cut[0].distance(whole[0]) < 0.1 * whole[0].length());
 }
 
