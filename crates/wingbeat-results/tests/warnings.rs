@@ -311,8 +311,8 @@ fn behaves_what_loads_carry_is_said() {
     ));
 }
 
-/// Of the place a stabiliser holds the altitude alone: carried along by a wind that stays it is not lost, as a regulator
-/// would be.
+/// Of the place a stabiliser holds the altitude alone: carried along by a wind that stays it is not lost, as a
+/// regulator would be.
 #[test]
 fn exact_stabilised_flyer_is_where_it_is_to_be_at_its_altitude() {
     let case = preset(

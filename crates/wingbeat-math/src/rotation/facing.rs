@@ -13,11 +13,11 @@ pub fn heading(ahead: DVec3, down: DVec3) -> f64 {
 /// the nearer the nose is to the vertical \[1\].
 const UPRIGHT: f64 = 0.1;
 
-/// The horizontal direction in which a body of the attitude `r` (root to N) faces where down is `down`, N components \[1\]: the horizontal
-/// part of b1, of a body that is pitched beyond the vertical the reverse of it. So a body that pitches up through the
-/// vertical faces the same way all along, and its right is right; one on its back counts as pitched over, not as rolled
-/// over. Where b1 is nearly vertical, forward goes over to what has b2, made horizontal, to the right: the same in a
-/// flight that does not bank.
+/// The horizontal direction in which a body of the attitude `r` (root to N) faces where down is `down`, N components
+/// \[1\]: the horizontal part of b1, of a body that is pitched beyond the vertical the reverse of it. So a body that
+/// pitches up through the vertical faces the same way all along, and its right is right; one on its back counts as
+/// pitched over, not as rolled over. Where b1 is nearly vertical, forward goes over to what has b2, made horizontal, to
+/// the right: the same in a flight that does not bank.
 pub fn facing(r: DMat3, down: DVec3) -> DVec3 {
     /// Horizontal part of b2 below which it has no direction.
     const NONE: f64 = 1e-9;

@@ -26,8 +26,8 @@ impl Departure {
 pub struct Departures {
     /// Part of the looks at which the command stood at a limit \[1\].
     pub limited: f64,
-    /// Of the mass centre from where it is to be, in lengths of the longest wing \[1\], under a controller that holds the
-    /// altitude and no other place that of its altitude; none where that is not known.
+    /// Of the mass centre from where it is to be, in lengths of the longest wing \[1\], under a controller that holds
+    /// the altitude and no other place that of its altitude; none where that is not known.
     pub place_wing_lengths: Option<Departure>,
     /// Of the attitude from the one that is held \[deg\]: the trimmed one where it is known, otherwise that at the
     /// release, turned to where the flyer is to head.
