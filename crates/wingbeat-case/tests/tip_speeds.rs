@@ -47,13 +47,14 @@ fn invariant_tip_speed_whatever_is_called_a_beat() {
 #[test]
 fn agrees_tip_speed_with_the_mean_of_the_speed() {
     for name in ["fruit-fly-blade", "hawkmoth-elastic"] {
-        let setup = common::preset(name, &["motion.start=impulsive"]).setup;
+        let setup = common::preset(name, &[]).setup;
         let (wing, found) = (&setup.animal.wings[1], &estimate(&setup).wings[1]);
-        let period = 1.0 / wing.motion.frequency;
+        let motion = wing.motion.impulsive();
+        let period = 1.0 / motion.frequency;
         let tip = wing.length() * wingbeat_math::DVec3::Y;
         let n = 20_000;
         let speed = |k: u32| {
-            let moving = wing.motion.at(f64::from(k) / f64::from(n) * period);
+            let moving = motion.at(f64::from(k) / f64::from(n) * period);
             (moving.c * moving.w.cross(tip)).length()
         };
         let mean = (0..n).map(speed).sum::<f64>() / f64::from(n);
