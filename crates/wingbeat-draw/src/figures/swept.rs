@@ -11,6 +11,8 @@ pub struct SpeedRow {
     pub power: [f64; 3],
     /// Stroke angle from end to end \[rad\].
     pub stroke_amplitude: f64,
+    /// Relative change of what drives joints, in place of strokes where no wing flaps by itself \[1\].
+    pub drive: Option<f64>,
     /// Wingbeats per second \[Hz\].
     pub frequency: f64,
     /// Pitch of the body \[rad\].
@@ -46,10 +48,16 @@ pub fn swept(name: &str, rows: &[SpeedRow], lost: Option<f64>) -> String {
                     ("actuators, no elastic storage", each(&|r| r.power[2])),
                 ],
             ),
-            Panel::new(
-                "stroke [deg]",
-                vec![("end to end", each(&|r| r.stroke_amplitude.to_degrees()))],
-            ),
+            match rows.iter().any(|r| r.drive.is_some()) {
+                true => Panel::new(
+                    "drive [%]",
+                    vec![("change", each(&|r| 100.0 * r.drive.unwrap_or(0.0)))],
+                ),
+                false => Panel::new(
+                    "stroke [deg]",
+                    vec![("end to end", each(&|r| r.stroke_amplitude.to_degrees()))],
+                ),
+            },
             Panel::new(
                 "frequency [Hz]",
                 vec![("wingbeats", each(&|r| r.frequency))],
@@ -88,6 +96,7 @@ mod tests {
                     forward,
                     power: [1.0; 3],
                     stroke_amplitude: 2.0,
+                    drive: None,
                     frequency: 200.0,
                     body_pitch: 0.5,
                     wings_cross,

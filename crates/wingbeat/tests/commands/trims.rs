@@ -183,3 +183,26 @@ fn behaves_a_turn_is_written_without_feedback() {
     assert!(straight.contains("[control") && !straight.contains("# Without"));
     said(dir, &["check", "straight.toml"]);
 }
+
+/// Wings on motors have no stroke of their own: a sweep tells how the voltage changes.
+#[test]
+fn behaves_a_sweep_of_motors_has_their_drive_in_place_of_strokes() {
+    const MOTOR: &str = include_str!("../../../wingbeat-case/tests/data/motor.toml");
+    let scratch = Scratch::new("motor-sweep");
+    let dir = &scratch.0;
+    fs::write(dir.join("m.toml"), MOTOR).unwrap();
+    let args = "trim m.toml --sweep 0 0.1 --points 2 --out s.txt";
+    said(dir, &args.split(' ').collect::<Vec<_>>());
+    let text = fs::read_to_string(dir.join("s.txt")).unwrap();
+    assert!(
+        text.contains(" drive  ") && !text.contains("stroke deg"),
+        "{text}"
+    );
+    let row = text
+        .lines()
+        .find(|l| l.trim_start().starts_with("0.000"))
+        .unwrap();
+    let drive = row.split_whitespace().nth(4).unwrap();
+    let changed: f64 = drive.parse().unwrap();
+    assert!(drive.starts_with(['+', '-']) && changed != 0.0, "{text}");
+}

@@ -8,7 +8,7 @@ use wingbeat::analysis::{Lost, Sweep, Swept, TrimProblem, Unknown, glides, sweep
 use wingbeat::case::LoadedCase;
 use wingbeat::draw::figures::swept::{SpeedRow, swept};
 use wingbeat::math::DVec3;
-use wingbeat::results::fixed::signed;
+use wingbeat::results::fixed::{fixed, signed};
 
 use super::found::{sideslip_and_turn, values, why};
 use super::trimming::{Trimming, unused};
@@ -98,6 +98,7 @@ fn row(flight: &Swept) -> SpeedRow {
         forward: flight.velocity.x,
         power: [p.aerodynamic, p.perfect_storage, p.no_storage].map(|x| p.body_specific(x)),
         stroke_amplitude: flight.stroke_amplitude,
+        drive: drive(flight),
         frequency: match flight.glide {
             None => 1.0 / flight.trim.beat.period(),
             Some(_) => 0.0, // nothing beats
@@ -105,6 +106,13 @@ fn row(flight: &Swept) -> SpeedRow {
         body_pitch: flight.trim.solution.body_pitch,
         wings_cross: crossing(flight).is_some(),
     }
+}
+
+/// Relative change of what drives joints, where no wing flaps by itself \[1\].
+fn drive(flight: &Swept) -> Option<f64> {
+    let is_driven = flight.glide.is_none() && flight.stroke_amplitude == 0.0;
+    let solution = &flight.trim.solution;
+    is_driven.then(|| solution.value(Unknown::DriveAmplitude).unwrap_or(0.0))
 }
 
 fn tell(report: &mut Report, (name, is_glide): (&str, bool), problem: &TrimProblem, found: &Sweep) {
@@ -202,6 +210,7 @@ fn polar(report: &mut Report, found: &Sweep) {
 }
 
 fn table(report: &mut Report, found: &Sweep) {
+    let is_driven = found.flights.iter().any(|f| drive(f).is_some());
     line!(
         report,
         "  {:>11}{:>12}{:>14}{:>17}{:>12}{:>14}{:>11}",
@@ -209,18 +218,19 @@ fn table(report: &mut Report, found: &Sweep) {
         "air W/kg",
         "storage W/kg",
         "no storage W/kg",
-        "stroke deg",
+        if is_driven { "drive" } else { "stroke deg" },
         "frequency Hz",
         "pitch deg"
     );
     missed(report, found);
     for r in found.flights.iter().map(row) {
         let [air, perfect, none] = r.power;
+        let stroke = || fixed(r.stroke_amplitude.to_degrees(), 2);
         line!(
             report,
-            "  {:>11.3}{air:>12.2}{perfect:>14.2}{none:>17.2}{:>12.2}{:>14.2}{:>11.2}",
+            "  {:>11.3}{air:>12.2}{perfect:>14.2}{none:>17.2}{:>12}{:>14.2}{:>11.2}",
             r.forward,
-            r.stroke_amplitude.to_degrees(),
+            r.drive.map_or_else(stroke, |x| signed(x, 4)),
             r.frequency,
             r.body_pitch.to_degrees()
         );
@@ -229,6 +239,12 @@ fn table(report: &mut Report, found: &Sweep) {
         report,
         "  air: power against the air; storage: of actuators (muscles, motors) with perfect elastic storage, no storage: with none"
     );
+    if is_driven {
+        line!(
+            report,
+            "  drive: relative change of what drives the joints (drive_amplitude), from that of the case"
+        );
+    }
 }
 
 /// The speeds of least power and of least work per distance.
@@ -347,7 +363,7 @@ fn value(flight: &Swept) -> Value {
         "aerodynamic_watt_per_kg_body": air,
         "perfect_storage_watt_per_kg_body": perfect,
         "no_storage_watt_per_kg_body": none,
-        "stroke_deg": r.stroke_amplitude.to_degrees(),
+        "stroke_deg": r.drive.is_none().then(|| r.stroke_amplitude.to_degrees()),
         "frequency_hz": r.frequency,
         "body_pitch_deg": r.body_pitch.to_degrees(),
         "crossing_wings_part_of_beat": crossing(flight).map_or(0.0, |(_, part)| part),
