@@ -209,7 +209,7 @@ fn behaves_a_sweep_of_motors_has_their_drive_in_place_of_strokes() {
     let scratch = Scratch::new("motor-sweep");
     let dir = &scratch.0;
     fs::write(dir.join("m.toml"), MOTOR).unwrap();
-    let args = "trim m.toml --steps 40 --sweep 0 0.1 --points 2 --out s.txt";
+    let args = "trim m.toml --sweep 0 0.1 --points 2 --out s.txt";
     said(dir, &args.split(' ').collect::<Vec<_>>());
     let text = fs::read_to_string(dir.join("s.txt")).unwrap();
     assert!(
