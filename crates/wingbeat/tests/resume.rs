@@ -298,7 +298,9 @@ fn behaves_going_on_removes_exports_and_figures_of_the_part_before() {
     }
     let done = wingbeat(&dir, &["resume", ".", "--quiet"]);
     assert!(done.status.success(), "{done:?}");
-    assert!(old.iter().all(|path| !path.exists()));
+    assert!(!old[0].exists());
+    let drawn = fs::read_to_string(&old[1]); // again, at the end of the flight
+    assert!(drawn.is_ok_and(|text| text.contains("<svg")));
     assert!(own.iter().all(|path| path.exists()));
     let other = scratch.0.join("other");
     interrupted(&other);
