@@ -468,15 +468,14 @@ fn exact_a_swept_beam_has_the_masses_of_its_plate() {
 /// A sheet ends at its point, where all rows of its mesh end, whatever number the node there has.
 #[test]
 fn exact_the_tip_of_a_pointed_sheet_is_its_point() {
-    let half = [0.05, 0.04, 0.03, 0.0];
     let at = |k: usize| {
-        let (side, j) = ([1.0, 0.0, -1.0][k / 4], k % 4);
-        DVec3::new(side * half[j], 0.1 * j as f64, 0.0)
+        let (side, along) = ([1.0, 0.0, -1.0][k / 7], (k % 7) as f64 / 6.0);
+        DVec3::new(side * 0.05 * (1.0 - along).sqrt(), 0.3 * along, 0.0)
     };
     let mesh = GridMesh {
         rows: 2,
-        cols: 3,
-        nodes: (0..12).map(at).collect(),
+        cols: 6,
+        nodes: (0..21).map(at).collect(),
         columns: Spacing::Uniform,
     };
     let sheet = WingShell::solid([70e9; 2], 0.3, SpanLaw::constant(1e-3));
@@ -487,7 +486,7 @@ fn exact_the_tip_of_a_pointed_sheet_is_its_point() {
     };
     let (name, mass, mesh) = ("wing", 0.1, &mesh);
     let body = structure.body(&Blank { name, mesh, mass }).unwrap();
-    assert_eq!(body.structure.rest().position[body.tip], mesh.nodes[3]);
+    assert_eq!(body.structure.rest().position[body.tip], mesh.nodes[6]);
     let beam = made(&beam(), &self::mesh(), 1.0);
     let tip = beam.structure.rest().position[beam.tip];
     assert!((tip.y - SPAN).abs() < 1e-12, "{tip}");
