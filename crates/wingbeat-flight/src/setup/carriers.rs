@@ -33,8 +33,8 @@ pub fn is_held(animal: &Animal, joints: &[Joint], w: usize) -> bool {
 /// The innermost of the wings that carry wing `w` of `wings`, directly or by segments; itself where none does.
 pub fn wing_on_body(wings: usize, joints: &[Joint], w: usize) -> usize {
     let carriers = chain(joints, w + 1).into_iter().filter_map(|j| j.parent);
-    let on_wing = carriers.filter(|body| (1..=wings).contains(body));
-    on_wing.last().map_or(w, |body| body - 1)
+    let mut on_wing = carriers.filter(|body| (1..=wings).contains(body));
+    on_wing.next_back().map_or(w, |body| body - 1)
 }
 
 /// Whether what changes all strokes of the flyer (the controls of trim, commands to all wings) acts on wing `w`: not on
