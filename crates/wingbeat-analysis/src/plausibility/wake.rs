@@ -178,7 +178,7 @@ fn felt(setup: &FlightSetup, estimate: &Estimate, wake: &CutWake) -> Option<(f64
 /// What was measured of short wakes.
 const IN_HOVER: &str =
     "lift in hover came out 19 % high with half a wingbeat, 3 to 11 % with one to three";
-const IN_A_STREAM: &str = "lift in a stream came out 36, 14, 7 and 2 % low with 0.25, 1, 2 and 4 chords at an aspect ratio of 8";
+const IN_A_STREAM: &str = "lift of an attached wing in a stream came out 36, 14, 7 and 2 % low with 0.25, 1, 2 and 4 chords at an aspect ratio of 8, of a plane section at 30 deg whose leading edge sheds 13, 6 and 2 % high with 1.5, 3 and 6 chords";
 
 /// The tail, of half the span, four and eight chords behind: with a wake that ends a quarter, a half and a
 /// whole wing length beyond it its lift is 21 to 30, 10 to 13 and 4 % low.
