@@ -310,7 +310,11 @@ fn agrees_wakes_of_tiny_strokes_in_a_stream_are_judged_by_the_stream() {
     let (whole, cut) = (fly(100), fly(11));
     let kept = cut.final_lift_newton / whole.final_lift_newton;
     assert!((kept - 0.862).abs() < 0.005, "{kept}"); // as measured, digits as written
-    assert!(says(&cut, "lift in a stream"), "{:?}", cut.warnings);
+    assert!(
+        says(&cut, "lift of an attached wing in a stream"),
+        "{:?}",
+        cut.warnings
+    );
     assert!(!says(&cut, "lift in hover"), "{:?}", cut.warnings);
     assert!(!says(&whole, "Not the whole wake"), "{:?}", whole.warnings);
 }
