@@ -133,8 +133,7 @@ fn agrees_tips_of_attached_wings_shed_what_is_told_of_them() {
 #[test]
 fn limit_wings_whose_trailing_edges_shed_nothing_have_no_lift() {
     let part = lift(r#"["leading"]"#) / lift(r#"["trailing"]"#);
-    println!("{part}");
-    assert!(part.abs() < 0.02, "{part}");
+    assert!(part.abs() < 5e-3, "{part}"); // -9e-4: what the leading edge sheds
     for (shed, is_named) in [
         (r#"["leading"]"#, true),
         (r#"["tip", "root"]"#, true),

@@ -165,18 +165,25 @@ fn stalled(max_rows: Option<usize>) -> Vec<[f64; 2]> {
 #[test]
 fn limit_forces_of_sections_whose_wakes_are_cut_are_those_of_the_whole_wake() {
     let mean = |seen: &[[f64; 2]]| seen.iter().map(|s| s[0]).sum::<f64>() / seen.len() as f64;
-    let whole = mean(&stalled(None)[160..]);
+    let uncut = stalled(None);
+    let whole = mean(&uncut[160..]);
     let cut = stalled(Some(80));
     for part in [&cut[120..160], &cut[160..]] {
         let lift = mean(part);
-        println!("lift of a cut wake {lift}, of the whole {whole}");
-        assert!((lift / whole - 1.0).abs() < 0.1, "{lift} {whole}");
+        assert!((lift / whole - 1.0).abs() < 0.01, "{lift} {whole}"); // 0.4 and 0.2 %: four chords of wake
     }
-    let (first, last) = (120, 199);
-    let force = 0.05 * cut[first + 1..=last].iter().map(|s| s[0]).sum::<f64>();
-    let lost = cut[first][1] - cut[last][1];
-    println!("impulse of force {force}, lost {lost}");
-    assert!((force / lost - 1.0).abs() < 0.1, "{force} {lost}");
+    let balance = |seen: &[[f64; 2]]| {
+        let (first, last) = (120, 199);
+        let force = 0.05 * seen[first + 1..=last].iter().map(|s| s[0]).sum::<f64>();
+        force / (seen[first][1] - seen[last][1])
+    };
+    let [of_cut, of_whole] = [&cut, &uncut].map(|seen| balance(seen));
+    // 0.972 and 0.975: the cut costs 0.3 %.
+    assert!(
+        (of_cut / of_whole - 1.0).abs() < 0.01,
+        "{of_cut} {of_whole}"
+    );
+    assert!((of_cut - 1.0).abs() < 0.05, "{of_cut}");
 }
 
 /// Two sections that share an edge are one: plane flow has no side edges from which rings could lie inside.
