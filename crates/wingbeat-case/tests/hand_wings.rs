@@ -174,6 +174,6 @@ fn agrees_derivatives_of_hands_with_the_difference_of_two_cases() {
         .filter(|d| d.control == "feathering_offset" && d.wing.starts_with("hand-"));
     let found: DVec3 = hands.map(|d| d.derivative.force).sum();
     let apart = found.distance(force) / force.length();
-    println!("{force} {apart:e}");
-    assert!(force.length() > 1e-3 && apart < 1e-6, "{force} {apart:e}");
+    // 1.4e-8: differences over unequal steps.
+    assert!(force.length() > 1e-3 && apart < 1e-7, "{force} {apart:e}");
 }
