@@ -267,7 +267,7 @@ pub struct SensorsCase {
     /// Which noise.
     ///
     /// Change it for another flight of the same kind.
-    pub seed: u32,
+    pub seed: u64,
     /// Noise of the place.
     ///
     /// Change it to that of the sensors.

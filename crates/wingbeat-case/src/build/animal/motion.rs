@@ -220,7 +220,7 @@ fn table(path: &str, table: &TableCase) -> Built<AngleLaw> {
         let [allowed, remedy] = match table.harmonics {
             None => [
                 "at least 4 rows [phase, angle], phases rising, the last row one beat after the first with the same angle",
-                "repeat the first angle in a last row whose phase is 1 larger; measured samples, of one beat or several, are fitted by `harmonics = 4` or so",
+                "repeat the first angle in a last row whose phase is 1 larger; measured samples, of one beat or several, are fitted by `harmonics = 4` or so; where the first column has times, give beats_per_unit",
             ],
             Some(_) => [
                 "at least 4 rows [phase, angle], phases in wingbeats that do not fall, neighbours within a beat less than 1 / (2 harmonics) apart",

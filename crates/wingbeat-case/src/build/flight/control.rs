@@ -251,7 +251,7 @@ fn stiffness(case: &StiffnessCase) -> Stiffness {
 pub(crate) fn sensors(case: &SensorsCase) -> Sensors {
     let degrees = |v: [f64; 3]| vector(v.map(f64::to_radians));
     Sensors {
-        seed: case.seed.into(),
+        seed: case.seed,
         noise: Channels {
             position: case.position_noise_m,
             velocity: case.velocity_noise_m_s,
