@@ -361,7 +361,9 @@ impl Fleet {
             let limits = &cell.shared.course.limits;
             let sizes = limits.sizes();
             let u = limits.applied(regulator.controls(&cell.episode.seen_on_the_way()));
-            *row = std::array::from_fn(|i| (u[i] / sizes[i]) as f32);
+            // What may not move at all stays at 0.
+            let part = |i: usize| if sizes[i] > 0.0 { u[i] / sizes[i] } else { 0.0 };
+            *row = std::array::from_fn(|i| part(i) as f32);
         }
         Ok(())
     }

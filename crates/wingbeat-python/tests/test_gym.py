@@ -113,6 +113,14 @@ def test_behaves_the_regulator_holds_what_falls_without_it():
     assert total["regulated"].min() > 50.0 > total["still"].max()
 
 
+def test_behaves_the_regulator_leaves_what_may_not_move():
+    envs = VectorEnvironment(2, "hover", amplitude_limit=0.0)
+    envs.reset(seed=3)
+    regulated = envs.regulated()
+    assert np.isfinite(regulated).all() and (np.abs(regulated).sum(axis=0) == 0.0).sum() == 2
+    envs.step(regulated)
+
+
 def test_exact_the_regulator_goes_by_the_actions_that_acted():
     """It is linear in what is observed and in the commands that act: fitted, no residual is left, whoever acted."""
     envs = VectorEnvironment(64, "hover", autoreset_mode="Disabled", beats=60)

@@ -98,7 +98,7 @@ function valuesAt({ chart }, s, x) {
   const list = chart.x;
   let low = 0, high = list.length - 1;
   while (high - low > 1) { const m = (low + high) >> 1; if (list[m] <= x) low = m; else high = m; }
-  if (/extremes/.test(chart.title)) { const a = low - low % 2, both = [s.values[a], s.values[Math.min(a + 1, list.length - 1)]]; return [Math.min(...both), Math.max(...both)]; }
+  if (/, extremes of every \d+ (steps|of them)$/.test(chart.title)) { const a = low - low % 2, both = [s.values[a], s.values[Math.min(a + 1, list.length - 1)]]; return [Math.min(...both), Math.max(...both)]; }
   const v = s.values[Math.abs(list[high] - x) < Math.abs(list[low] - x) ? high : low];
   return [v, v];
 }

@@ -5,6 +5,9 @@ use crate::error::{ModelError, finite, positive, require_count};
 /// Part of the length of a wing that its contour may reach behind the hinge.
 const BEHIND: f64 = 0.05;
 
+/// Part of the length of a wing over which its edges jump, to either side.
+const STEP: f64 = 1e-9;
+
 /// An edge of a wing: points (r, x) \[m\] from root to tip.
 pub type EdgePoints = Vec<(f64, f64)>;
 
@@ -75,7 +78,8 @@ impl Landmarks {
 }
 
 /// Leading and trailing edge of a closed polygon of points (r, x) \[m\]: the foremost and the rearmost of its
-/// points at each r that a corner has. What reaches behind the hinge, a twentieth of the length at most, is
+/// points at each r. Where they jump (sides along the chord, corners at which the polygon turns back), the edges have
+/// two points [`STEP`] of the length apart. What reaches behind the hinge, a twentieth of the length at most, is
 /// left out.
 ///
 /// # Errors
@@ -101,32 +105,56 @@ pub(super) fn edges(points: &[(f64, f64)]) -> Result<[EdgePoints; 2], ModelError
         places.insert(0, 0.0);
     }
     places.dedup();
-    let sides = || points.iter().zip(points[1..].iter().chain(&points[..1]));
-    let section = |r: f64| {
-        let at = |(a, b): (&(f64, f64), &(f64, f64))| crossing(*a, *b, r);
-        let all = sides().filter_map(at).flatten();
-        all.fold([f64::NEG_INFINITY, f64::INFINITY], |[most, least], x| {
-            [most.max(x), least.min(x)]
-        })
+    let step = STEP * tip;
+    let (mut leading, mut trailing): (EdgePoints, EdgePoints) = (vec![], vec![]);
+    let mut add = |r: f64, [most, least]: [f64; 2]| {
+        if leading.last().is_none_or(|&(before, _)| before < r) {
+            leading.push((r, most));
+            trailing.push((r, least));
+        }
     };
-    let (mut leading, mut trailing) = (vec![], vec![]);
-    for r in places {
-        let [most, least] = section(r);
-        leading.push((r, most));
-        trailing.push((r, least));
+    for (k, &r) in places.iter().enumerate() {
+        let [inside, outside] = [inner, outer].map(|ends| section(points, r, ends));
+        match (inside, outside) {
+            (Some(inside), Some(outside)) if k > 0 && inside != outside => {
+                add(r - step.min(0.25 * (r - places[k - 1])), inside);
+                add(r + step.min(0.25 * (places[k + 1] - r)), outside);
+            }
+            (Some(edges), _) if k > 0 => add(r, edges),
+            (_, Some(edges)) | (Some(edges), None) => add(r, edges),
+            (None, None) => {}
+        }
     }
     Ok([leading, trailing])
 }
 
-/// Where the side from a to b is at r: at its ends the points themselves.
-fn crossing(a: (f64, f64), b: (f64, f64), r: f64) -> Option<[f64; 2]> {
-    if r < a.0.min(b.0) || r > a.0.max(b.0) {
-        return None;
+/// Whether a side between these distances from the hinge reaches to `r` from nearer the hinge.
+fn inner(r: f64, [near, far]: [f64; 2]) -> bool {
+    near < r && r <= far
+}
+
+/// Whether it goes on from `r` away from the hinge.
+fn outer(r: f64, [near, far]: [f64; 2]) -> bool {
+    near <= r && r < far
+}
+
+/// The foremost and the rearmost x \[m\] at r of the sides of a polygon that `reach` there; none if none does.
+fn section(
+    points: &[(f64, f64)],
+    r: f64,
+    reach: impl Fn(f64, [f64; 2]) -> bool,
+) -> Option<[f64; 2]> {
+    let sides = points.iter().zip(points[1..].iter().chain(&points[..1]));
+    let reaching = sides.filter(|(a, b)| reach(r, [a.0.min(b.0), a.0.max(b.0)]));
+    let both = reaching.map(|(a, b)| [at(*a, *b, r); 2]);
+    both.reduce(|[most, least], [x, _]| [most.max(x), least.min(x)])
+}
+
+/// x \[m\] at r of the side from a to b, which is not along the chord: at its ends that of the points themselves.
+fn at(a: (f64, f64), b: (f64, f64), r: f64) -> f64 {
+    match r {
+        _ if r == a.0 => a.1,
+        _ if r == b.0 => b.1,
+        _ => a.1 + (b.1 - a.1) * (r - a.0) / (b.0 - a.0),
     }
-    let at = |p: (f64, f64)| (p.0 == r).then_some(p.1);
-    Some(match (at(a), at(b)) {
-        (Some(x), Some(y)) => [x, y],
-        (Some(x), None) | (None, Some(x)) => [x, x],
-        (None, None) => [a.1 + (b.1 - a.1) * (r - a.0) / (b.0 - a.0); 2],
-    })
 }

@@ -69,21 +69,25 @@ impl Region {
         both.fold(true, |all, (own, others)| all && (own || !others))
     }
 
-    /// What panel `k` in it is made of.
+    /// What panel `k` in it is made of, but for the shear modulus ([`Self::own_shear`]).
     pub(super) fn applied(&self, grid: &GridMesh, k: usize, elsewhere: Lamina) -> Lamina {
         let young = self.young.unwrap_or(elsewhere.young);
         let poisson = self.poisson.unwrap_or(elsewhere.poisson);
-        let alike = self.young.map(|[along, _]| along / (2.0 * (1.0 + poisson)));
         Lamina {
             young,
             poisson,
-            shear: self.shear.or(alike).unwrap_or(elsewhere.shear),
             thickness: self.thickness.unwrap_or(elsewhere.thickness),
             density: self.density.unwrap_or(elsewhere.density),
             axis: (self.fibre_angle).map_or(elsewhere.axis, |angle| fibres(grid, k, angle)),
             prestress: (self.prestress).map_or(elsewhere.prestress, |[a, b]| [a, b, 0.0]),
             ..elsewhere
         }
+    }
+
+    /// Shear modulus that is given in it \[Pa\], in a sheet of which this one is given `elsewhere`; none: that of a sheet alike
+    /// in all directions.
+    pub(super) fn own_shear(&self, elsewhere: Option<f64>) -> Option<f64> {
+        self.shear.or(elsewhere.filter(|_| self.young.is_none()))
     }
 
     /// Whether it has a mass over area of its own, in a sheet with a density.
@@ -101,10 +105,9 @@ impl Region {
 
     /// What gives its fibres a direction, in a sheet of fibres `elsewhere`.
     pub(super) fn fibres(&self, elsewhere: Fibres) -> Fibres {
-        let own = elsewhere.shear.filter(|_| self.young.is_none());
         Fibres {
             young: self.young.unwrap_or(elsewhere.young),
-            shear: self.shear.or(own),
+            shear: self.own_shear(elsewhere.shear),
             prestress: self.prestress.unwrap_or(elsewhere.prestress),
         }
     }

@@ -196,19 +196,24 @@ impl WingShell {
         }
         let lamina = |k: usize| {
             let [r, x] = place(k);
-            let alike = self.young[0] / (2.0 * (1.0 + self.poisson));
-            let lamina = Lamina {
+            let elsewhere = Lamina {
                 young: self.young,
                 poisson: self.poisson,
-                shear: self.shear.unwrap_or(alike),
+                shear: 0.0,
                 thickness: self.thickness.at(r, root / tip),
                 density: self.density.unwrap_or(0.0),
                 added_mass: 0.0,
                 axis: fibres(grid, k, self.fibre_angle),
                 prestress: [self.prestress[0], self.prestress[1], 0.0],
             };
-            let here = self.regions.iter().filter(|g| g.holds([r, x]));
-            here.fold(lamina, |lamina, region| region.applied(grid, k, lamina))
+            let here = || self.regions.iter().filter(|g| g.holds([r, x]));
+            let lamina = here().fold(elsewhere, |made, g| g.applied(grid, k, made));
+            let given = here().fold(self.shear, |shear, g| g.own_shear(shear));
+            let alike = lamina.young[0] / (2.0 * (1.0 + lamina.poisson));
+            Lamina {
+                shear: given.unwrap_or(alike),
+                ..lamina
+            }
         };
         Ok((0..count).map(lamina).collect())
     }

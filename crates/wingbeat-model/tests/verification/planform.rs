@@ -215,6 +215,67 @@ fn exact_moments_of_an_ellipse_digitised_from_a_picture() {
     check(&points);
 }
 
+/// Steps of the chord, hooks and hairs along the span: areas and second moments of their rectangles.
+#[test]
+fn exact_steps_hooks_and_hairs_of_a_polygon() {
+    let turned = |points: &[(f64, f64)], angle: f64| {
+        let (sin, cos) = f64::sin_cos(angle);
+        let mark = |(r, x): (f64, f64)| [r * cos + x * sin, r * sin - x * cos];
+        let marks = Landmarks {
+            hinge: [0.0, 0.0],
+            tip: mark((6.0, 0.0)),
+            leading_edge: Some(mark((3.0, 1.0))),
+            unit: 1.0,
+        };
+        let picture: Vec<_> = points.iter().map(|&p| mark(p)).collect();
+        marks.place(&picture).unwrap()
+    };
+    let step = [
+        (0.0, 0.5),
+        (6.0, 0.5),
+        (6.0, -0.5),
+        (3.0, -0.5),
+        (3.0, -1.5),
+        (0.0, -1.5),
+    ];
+    let hair = [
+        (0.0, 0.5),
+        (6.0, 0.5),
+        (6.0, -0.5),
+        (4.0, -0.5),
+        (4.5, -1.0),
+        (4.0, -0.5),
+        (0.0, -0.5),
+    ];
+    // A barb of the triangle (4, -0.5), (4.5, -1), (4.2, -0.5), which leaves 1/2 x 0.5 x 0.5 with its shadow.
+    let hook = [
+        (0.0, 0.5),
+        (6.0, 0.5),
+        (6.0, -0.5),
+        (4.2, -0.5),
+        (4.5, -1.0),
+        (4.0, -0.5),
+        (0.0, -0.5),
+    ];
+    let third = |from: f64, to: f64, chord: f64| chord * (to.powi(3) - from.powi(3)) / 3.0;
+    // The triangle below -0.5 from 4 to 4.5: chord r - 4.
+    let barb = 0.25 * (4.5_f64.powi(4) - 4.0_f64.powi(4)) - 4.0 * third(4.0, 4.5, 1.0);
+    for (points, area, second) in [
+        (&step[..], 9.0, third(0.0, 3.0, 2.0) + third(3.0, 6.0, 1.0)),
+        (&hair[..], 6.125, third(0.0, 6.0, 1.0) + barb),
+        (&hook[..], 6.125, third(0.0, 6.0, 1.0) + barb),
+    ] {
+        for angle in [0.0, 0.7] {
+            let polygon = Planform::from_polygon(&turned(points, angle), 0.01).unwrap();
+            let r = report(polygon, 400);
+            let r2_hat = (second / area).sqrt() / 6.0;
+            println!("{} of {area}, {} of {r2_hat}", r.area, r.r2_hat);
+            assert!((r.area / area - 1.0).abs() < 1e-8, "{}", r.area);
+            assert!((r.r2_hat / r2_hat - 1.0).abs() < 1e-4, "{}", r.r2_hat);
+        }
+    }
+}
+
 #[test]
 fn behaves_contours_and_landmarks_that_are_no_wing_are_refused() {
     let square = [(-0.1, 0.0), (1.0, 0.0), (1.0, 1.0), (-0.1, 1.0)];

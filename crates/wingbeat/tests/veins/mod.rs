@@ -223,15 +223,16 @@ fn limit_frequencies_of_a_film_under_tension_without_loads() {
 #[test]
 fn exact_mass_and_stiffness_of_regions() {
     let dense = ["wing.right.structure.shell.density_kg_m3=1200"];
-    let text = |lists: &str| {
+    let made = |lists: &str, set: &[&str]| {
         let case = CASE.replace("mass_kg = 1e-4", "").replace(
             "[wing.right.motion.phi.fourier]",
             &format!("{lists}\n[wing.right.motion.phi.fourier]"),
         );
-        let set = strings(&[&SHEET[..], &dense, &["air.model=\"none\""]].concat());
+        let set = strings(&[&SHEET[..], &dense, &["air.model=\"none\""], set].concat());
         let case = LoadedCase::from_text("region", &case, Path::new("."), &set).unwrap();
         both(&case).pop().unwrap()
     };
+    let text = |lists: &str| made(lists, &[]);
     let plain = text("");
     let outer = text("[[wing.right.structure.region]]\nspan_range = [0.5, 1]\nthickness_m = 2e-4");
     assert!((outer.mass / plain.mass - 1.5).abs() < 1e-12);
@@ -239,6 +240,12 @@ fn exact_mass_and_stiffness_of_regions() {
     // Twice as thick: frequencies of bending twice as high, but for shear and rotary inertia, (h / c)^2.
     let [a, b] = [&plain, &whole].map(|w| frequencies(w)[0]);
     assert!((b / a - 2.0).abs() < 5e-5, "{}", b / a);
+    // Another Poisson's ratio over all of it is that of a sheet alike in all directions, in twist, too.
+    let region = text("[[wing.right.structure.region]]\npoisson = 0.49");
+    let sheet = made("", &["wing.right.structure.shell.poisson=0.49"]);
+    for (a, b) in frequencies(&region).iter().zip(frequencies(&sheet)) {
+        assert!((a / b - 1.0).abs() < 1e-12, "{a} {b}");
+    }
     let soft = "wing.right.structure.shell.bending_factor=0.01";
     let [a, b] = [&[][..], &[soft]].map(|set| frequencies(&right(set, ""))[0]);
     assert!((b / a - 0.1).abs() < 1e-6, "{}", b / a);

@@ -8,6 +8,9 @@ use wingbeat_results::columns::column_stems;
 /// Differences of places over the length of a wing that are rounding \[1\].
 const LENGTH_FLOOR: f64 = 1e-9;
 
+/// A force over the largest beside it that is rounding \[1\].
+pub(crate) const FORCE_FLOOR: f64 = 1e-9;
+
 /// Power over force times speed of the flight that is rounding \[1\].
 pub(crate) const POWER_FLOOR: f64 = 1e-12;
 
@@ -16,8 +19,8 @@ pub(crate) fn scaled(values: &[f64], factor: f64) -> Vec<f64> {
 }
 
 /// A decimal prefix that suits the largest magnitude, and its factor.
-pub(crate) fn prefix(values: &[f64]) -> (f64, &'static str) {
-    let finite = values.iter().filter(|v| v.is_finite());
+pub(crate) fn prefix<'a>(values: impl IntoIterator<Item = &'a f64>) -> (f64, &'static str) {
+    let finite = values.into_iter().filter(|v| v.is_finite());
     let top = finite.fold(0.0_f64, |a, v| a.max(v.abs()));
     let all = [(1e3, "k"), (1.0, ""), (1e-3, "m"), (1e-6, "µ"), (1e-9, "n")];
     let fits = |(scale, _): &(f64, &str)| top >= 0.99 * scale;
@@ -26,7 +29,10 @@ pub(crate) fn prefix(values: &[f64]) -> (f64, &'static str) {
 }
 
 /// What forces are given in: unit as a label, and the factor from newtons.
-pub(crate) fn force_unit(setup: &FlightSetup, values: &[f64]) -> (String, f64) {
+pub(crate) fn force_unit<'a>(
+    setup: &FlightSetup,
+    values: impl IntoIterator<Item = &'a f64>,
+) -> (String, f64) {
     let weight = setup.animal.mass() * setup.gravity.length();
     if weight > 0.0 {
         return ("weight".to_owned(), 1.0 / weight);

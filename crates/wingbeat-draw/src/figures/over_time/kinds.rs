@@ -83,10 +83,15 @@ fn trajectory(setup: &FlightSetup, history: &History, part: &TimeWindow) -> Meas
     ];
     if follows {
         let up = scaled(history.column("reference_z_m"), -1.0);
+        let centre = |k: usize| {
+            let place = history.column(&format!("mass_centre_n{k}_m"));
+            place.first().copied().unwrap_or(0.0)
+        };
+        // A flyer that is not where it is to be is shown so, whatever part of the flight is drawn.
         place.extend([
-            Line::new("reference n1", column("reference_x_m")).since_start(),
-            Line::new("reference n2", column("reference_y_m")).since_start(),
-            Line::new("reference −n3", up).since_start(),
+            Line::new("reference n1", column("reference_x_m")).since(centre(1)),
+            Line::new("reference n2", column("reference_y_m")).since(centre(2)),
+            Line::new("reference −n3", up).since(-centre(3)),
         ]);
     }
     let attitude = vec![
@@ -256,6 +261,32 @@ mod tests {
         let mut all = charts_of(setup, history);
         let at = all.iter().position(|c| c.0 == name).unwrap();
         all.swap_remove(at).1
+    }
+
+    /// A flyer that is off its way at the start of a part that is drawn alone is shown off it, and its body begins at 0.
+    #[test]
+    fn exact_a_part_shows_how_far_the_flyer_is_off_its_way() {
+        let setup = LoadedCase::find("fruit-fly-controlled", &[]).unwrap().setup;
+        let off = [3e-3, -2e-3, 1e-3];
+        let history = history(&setup, false, 3, |step, record| {
+            let moved = DVec3::from_array(off) + 1e-4 * step as f64 * DVec3::ONE;
+            record.mass_centre = moved;
+            let origin = moved + 5e-4 * DVec3::Z;
+            record.coordinates[..3].copy_from_slice(&origin.to_array());
+        });
+        let chart = chart(&setup, &history, "trajectory");
+        let lines = &chart.panels[0].series;
+        let wanted = [0.1, 0.1, -0.1].into_iter().chain([-3.0, 2.0, 1.0]); // mm
+        for (k, (line, last)) in lines.iter().zip(wanted).enumerate() {
+            let step = if k < 3 { 2.0 } else { 1.0 };
+            assert!(
+                (line.values[2] - step * last).abs() < 1e-9,
+                "{}: {:?}",
+                line.label,
+                line.values
+            );
+        }
+        assert_eq!(lines.len(), 6);
     }
 
     /// A joint about the axis of feathering turns the wing beyond what is prescribed; one about another axis stands

@@ -4,7 +4,7 @@
 use wingbeat_flight::FlightSetup;
 
 use crate::figures::axes::chart::{Chart, Panel, Series};
-use crate::figures::axes::units::{force_unit, prefix, scaled};
+use crate::figures::axes::units::{FORCE_FLOOR, force_unit, prefix, scaled};
 use crate::figures::over_time::shades::Shades;
 
 /// A figure.
@@ -57,7 +57,7 @@ pub(crate) enum Kept {
     NotZero,
     /// With all lines of its panel, if one of them has more than this, SI.
     Over(f64),
-    /// Beside the other lines of its panel: more than 1e-9 of the largest.
+    /// Beside the other lines of its panel: more than [`FORCE_FLOOR`] of the largest.
     Felt,
     /// Never; so many times its largest value is what is rounding in the others of its panel.
     Floor(f64),
@@ -68,7 +68,7 @@ pub(crate) enum Kept {
 pub(crate) struct Line {
     label: String,
     pub values: Vec<f64>,
-    /// Its value in the first row of all.
+    /// From which it may be counted: its value in the first row of all.
     first: f64,
     kept: Kept,
     from_start: bool,
@@ -91,7 +91,14 @@ impl Line {
 
     /// The same counted from its first value.
     pub fn since_start(self) -> Self {
+        let first = self.first;
+        self.since(first)
+    }
+
+    /// The same counted from this value, SI.
+    pub fn since(self, first: f64) -> Self {
         Self {
+            first,
             from_start: true,
             ..self
         }
@@ -171,7 +178,7 @@ impl Measure {
             Kept::Always => true,
             Kept::NotZero => line.values.iter().any(|v| *v != 0.0),
             Kept::Over(least) => most > least,
-            Kept::Felt => line.way() > 1e-9 * most,
+            Kept::Felt => line.way() > FORCE_FLOOR * most,
             Kept::Floor(_) => false,
         };
         let lines = self.lines.iter().filter(kept);
@@ -219,12 +226,11 @@ impl Measure {
             Unit::Given => (label.clone(), 1.0),
             Unit::Degrees => (format!("{label} [deg]"), 1f64.to_degrees()),
             Unit::Prefixed(unit) => {
-                let all = lines.iter().flat_map(|l| &l.1).copied();
-                let all: Vec<f64> = all.chain([floor]).collect();
-                let (scale, prefix) = prefix(&all);
+                let all = lines.iter().flat_map(|l| &l.1);
+                let (scale, prefix) = prefix(all.chain([&floor]));
                 (format!("{label} [{prefix}{unit}]"), 1.0 / scale)
             }
-            Unit::Weight => match force_unit(setup, &lines[0].1) {
+            Unit::Weight => match force_unit(setup, lines.iter().flat_map(|l| &l.1)) {
                 (unit, factor) if unit == "weight" => (format!("{label} / weight"), factor),
                 (unit, factor) => (format!("{label} [{unit}]"), factor),
             },

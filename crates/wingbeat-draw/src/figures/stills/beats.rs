@@ -1,10 +1,13 @@
 //! Force and power wingbeat by wingbeat, with their means.
 
 use wingbeat_flight::FlightSetup;
+use wingbeat_math::DVec3;
 
 use crate::figures::axes::grid::grid;
 use crate::figures::axes::plot::{self, Band, Curve, Plot};
-use crate::figures::axes::units::{POWER_FLOOR, force_times_speed, force_unit, prefix, scaled};
+use crate::figures::axes::units::{
+    FORCE_FLOOR, POWER_FLOOR, force_times_speed, force_unit, prefix, scaled,
+};
 use crate::figures::drawing::style::Look;
 use crate::figures::drawing::{COLOURS, Drawing};
 use crate::figures::over_time::shades::Shades;
@@ -68,7 +71,10 @@ fn quantities(setup: &FlightSetup, history: &History, beats: &[BeatMeans]) -> Ve
     };
     if setup.air.is_some() {
         let up = air_force(history, -down(setup));
-        let (unit, factor) = force_unit(setup, &up);
+        let along = [DVec3::X, DVec3::Y].map(|n| air_force(history, n));
+        let sizes = along.iter().chain([&up]).flatten().map(|f| f.abs());
+        let floor = FORCE_FLOOR * sizes.fold(0.0, f64::max);
+        let (unit, factor) = force_unit(setup, up.iter().chain([&floor]));
         let label = match &unit[..] {
             "weight" => "force upward / weight".to_owned(),
             _ => format!("force upward [{unit}]"),
@@ -78,7 +84,7 @@ fn quantities(setup: &FlightSetup, history: &History, beats: &[BeatMeans]) -> Ve
             label,
             values: scaled(&up, factor),
             means,
-            least: 0.0,
+            least: floor * factor,
         });
     }
     if let Some(name) = driving_power_name(setup, history) {
