@@ -1,7 +1,8 @@
 //! Joints of wings: mirror images on the left, one place of the hinge, and what is not scaled or shifted with it.
 
 use crate::common;
-use wingbeat_case::LoadedCase;
+use wingbeat_analysis::{TrimRequest, trim};
+use wingbeat_case::{LoadedCase, trimmed_case};
 use wingbeat_flight::{AirModel, Record, Simulation};
 use wingbeat_math::DVec3;
 
@@ -257,4 +258,36 @@ fn refuses_one_rotor_for_the_wings_of_both_sides() {
         .collect();
     let setup = load(&both).unwrap().setup;
     assert_eq!(setup.joints.len(), 4);
+}
+
+/// A robot on hinges that give way, of which the file has the right one, sideways and straight ahead: what a trim writes
+/// is back after a beat, with a joint of its own on the left where the sides part, and without where they do not.
+#[test]
+fn exact_written_trims_start_the_joints_of_either_side() {
+    let preset = wingbeat_case::presets::find("robobee").unwrap().text;
+    let (before, air) = preset.split_once("[air]").unwrap();
+    let (_, after) = air.split_once("[output]").unwrap();
+    let text = format!("{before}[air]\nmodel = \"blade_element\"\n[output]{after}");
+    for (sideways, joints) in [(0.3, 2), (0.0, 1)] {
+        let case = common::load(&text, &["time.beats=1", "time.steps_per_beat=100"]).unwrap();
+        let request = TrimRequest {
+            velocity: DVec3::new(0.1, sideways, 0.0),
+            ..TrimRequest::default()
+        };
+        let found = trim(&case.setup, &request.problem(&case.setup).unwrap()).unwrap();
+        assert!(found.solution.converged);
+        let written = common::load(&trimmed_case(&case, &found).unwrap(), &[]).unwrap();
+        assert_eq!(written.raw.joint.len(), joints);
+        let records = common::fly(written.setup);
+        let [first, last] = [&records[0], &records[100]];
+        let hinges = [first, last].map(|r| r.joints.iter().flatten());
+        let states = [first, last].map(|r| &r.rates[..6]);
+        let [start, end] = [0, 1].map(|k| states[k].iter().chain(hinges[k].clone()));
+        let apart = start
+            .zip(end)
+            .fold(0.0_f64, |most, (a, b)| most.max((a - b).abs()));
+        let apart = apart / 160.0; // in a beat
+        println!("{sideways}: {apart:.1e}");
+        assert!(apart < 1e-9, "{apart:e}");
+    }
 }

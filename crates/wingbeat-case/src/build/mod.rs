@@ -20,6 +20,7 @@ pub(crate) use flight::output::output;
 pub use flight::output::{OutputSettings, SaveSettings};
 pub use flight::own_control::OwnControl;
 pub(crate) use flight::own_control::own_control;
+pub(crate) use joints::mirrored::images as mirrored_joints;
 pub(crate) use names::check_characters as check_names;
 pub use names::column_name;
 

@@ -9,6 +9,7 @@ use wingbeat_model::motion::Adjustment;
 use wingbeat_model::{Side, Wing};
 
 use super::flight::tethered;
+use crate::build::mirrored_joints;
 use crate::loaded::LoadedCase;
 use crate::loaded::written_to_change as written;
 use crate::motion::own_motion::{every_phase, gives_angles};
@@ -51,27 +52,76 @@ pub fn trimmed_case(case: &LoadedCase, trim: &Trim) -> Result<String, AnalysisEr
         ..DynamicsCase::default()
     };
     raw.corrector = CorrectorCase::default(); // of integrators that iterate
-    for (name, coordinates, rates) in trim.beat.joints(&trim.state) {
-        // Joints that are mirror images are not in the file.
-        let Some(joint) = raw.joint.get_mut(&name) else {
-            continue;
-        };
-        if joint.kind == JointKind::Prismatic {
-            (joint.start_m, joint.start_m_s) = (Some(coordinates[0]), Some(rates[0]));
-        } else {
-            let degrees = |x: Vec<f64>, size: f64| {
-                let clear = x.into_iter().map(|x| beyond_rounding(x, size).to_degrees());
-                Some(clear.collect())
-            };
-            joint.start_deg = degrees(coordinates, 1.0);
-            joint.start_deg_s = degrees(rates, 1.0 / trim.beat.period());
-        }
-    }
+    start_joints(&mut raw, case, trim);
     let sizes = [trim.beat.wing_length(), trim.beat.period()];
     let flight = released_into(&trim.beat.root(&trim.state), sizes);
     hold(&mut raw, trim.mean_velocity()?);
     Ok(with_start(case, raw, flight, &trim.solution))
 }
+
+/// Free joints are at the start where the periodic beat begins. Mirror images of joints are not in the file but where
+/// their state is not the mirror image of that of their counterparts.
+fn start_joints(raw: &mut Case, case: &LoadedCase, trim: &Trim) {
+    let rate = 1.0 / trim.beat.period();
+    let released = |mut joint: JointCase, coordinates: &[f64], rates: &[f64]| {
+        if joint.kind == JointKind::Prismatic {
+            (joint.start_m, joint.start_m_s) = (Some(coordinates[0]), Some(rates[0]));
+        } else {
+            let degrees = |list: &[f64], size: f64| {
+                let clear = list.iter().map(|&x| beyond_rounding(x, size).to_degrees());
+                Some(clear.collect())
+            };
+            joint.start_deg = degrees(coordinates, 1.0);
+            joint.start_deg_s = degrees(rates, rate);
+        }
+        joint
+    };
+    let states = trim.beat.joints(&trim.state);
+    for (name, coordinates, rates) in &states {
+        if let Some(joint) = raw.joint.get_mut(name) {
+            *joint = released(joint.clone(), coordinates, rates);
+        }
+    }
+    let images =
+        mirrored_joints(raw, &case.setup.animal).expect("the joints of a case that was loaded");
+    for (name, image) in images {
+        let Some((_, coordinates, rates)) = states.iter().find(|s| s.0 == name) else {
+            continue;
+        };
+        let own = released(image.clone(), coordinates, rates);
+        let sizes = [
+            1f64.to_degrees(),
+            rate.to_degrees(),
+            trim.beat.wing_length(),
+        ];
+        if starts_apart(&own, &image, sizes) {
+            raw.joint.insert(name, own);
+        }
+    }
+}
+
+/// Whether two joints start apart by more than [`ALIKE`] of these sizes: of angles \[deg\], their rates \[deg/s\] and
+/// lengths \[m\], whose rates are to the rates of angles as lengths are to angles.
+fn starts_apart(a: &JointCase, b: &JointCase, [angle, rate, length]: [f64; 3]) -> bool {
+    let starts = |j: &JointCase| {
+        let degrees = [(&j.start_deg, angle), (&j.start_deg_s, rate)];
+        let lengths = [(j.start_m, length), (j.start_m_s, length * rate / angle)];
+        let all =
+            degrees.map(|(list, size)| list.iter().flatten().map(move |x| x / size).collect());
+        let [places, rates]: [Vec<f64>; 2] = all;
+        let lengths = lengths.map(|(x, size)| x.unwrap_or(0.0) / size);
+        places
+            .into_iter()
+            .chain(rates)
+            .chain(lengths)
+            .collect::<Vec<f64>>()
+    };
+    let pairs = starts(a).into_iter().zip(starts(b));
+    pairs.fold(0.0_f64, |most, (x, y)| most.max((x - y).abs())) > ALIKE
+}
+
+/// States of joints that differ by less are alike on the right and on the left, as trims are found \[1\].
+const ALIKE: f64 = 1e-9;
 
 /// Whether the case of a trimmed flight goes without the feedback of `case`: it is laid out for flights that
 /// are alike on the right and on the left, and right and left were trimmed apart.

@@ -9,6 +9,13 @@ use crate::raw::{
     AdjustCase, AirModel, Case, ElementCase, JointCase, JointKind, SeriesCase, TravelCase,
 };
 
+/// All joints that a case does not give and that are there as mirror images of others, by their names.
+pub(crate) fn images(case: &Case, animal: &Animal) -> Built<Vec<(String, JointCase)>> {
+    let image =
+        |(name, joint): (&String, &JointCase)| mirrored(case, animal, name, joint).transpose();
+    case.joint.iter().filter_map(image).collect()
+}
+
 /// The joint of a right wing for a left wing that has none, and the other way round, unless that wing is not to
 /// be mirrored: points and displacements are mirrored, axes of rotation too, so that equal angles are mirror
 /// images. A spherical joint has no axes: the first and third component of its rotation vector change sign. Both

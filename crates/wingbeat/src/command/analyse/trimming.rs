@@ -66,7 +66,7 @@ pub(crate) struct Trimming {
     #[arg(long, value_name = "DEG_S", allow_negative_numbers = true,
           value_parser = options::finite, help_heading = HEADING)]
     pub(super) turn_rate: Option<f64>,
-    /// Steps per wingbeat; default 100, in a vortex lattice and with elastic wings those of the case.
+    /// Steps per wingbeat; default 100, in a vortex lattice, with elastic wings and where strips leave wakes those of the case.
     #[arg(long, value_name = "N", help_heading = HEADING,
           value_parser = options::count::<{ TRIM_STEPS[0] }, { TRIM_STEPS[1] }>)]
     steps: Option<usize>,
