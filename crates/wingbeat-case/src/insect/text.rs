@@ -103,7 +103,7 @@ model = \"vortex_lattice\"
 density_kg_m3 = 1.225
 body = true
 mirror = true              # symmetric flight: half the air is computed; false for anything else
-shed = [\"trailing\", \"tip\", \"leading\"]
+shed = [\"trailing\", \"tip\", \"leading\", \"root\"]
 # For what hangs on yaw, as turns and lateral modes: leading_edge = \"vortex_lift\" (docs/flight-mechanics.md).
 summation = \"single\"       # for more than ten beats \"auto\" with summation_tolerance = 1e-3
 # Vortex cores and the clearance are in mean chords; cores spread with age as viscosity makes them.

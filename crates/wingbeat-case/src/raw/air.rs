@@ -67,10 +67,10 @@ pub struct AirCase {
     /// Change it to true for symmetric flight: it costs about half as much.
     #[schemars(extend("with" = LATTICE))]
     pub mirror: bool,
-    /// Edges of the wings that shed wakes.
+    /// Edges of the wings that shed wakes. Roots that are joined, or whose circulation goes on through a body, shed nothing.
     ///
     /// Change it to trailing edges alone where the flow stays attached, as in cruise.
-    #[default(vec![EdgeKind::Trailing, EdgeKind::Tip, EdgeKind::Leading])]
+    #[default(vec![EdgeKind::Trailing, EdgeKind::Tip, EdgeKind::Leading, EdgeKind::Root])]
     #[schemars(extend("with" = LATTICE))]
     pub shed: Vec<EdgeKind>,
     /// Core of the vortex filaments on the surfaces. Default: algebraic, 0.01 mean chords; of animals without
@@ -157,8 +157,9 @@ pub struct AirCase {
     pub loads: LoadMethod,
     /// Where the flow leaves leading edges, if `shed` names them.
     ///
-    /// Change it where measurements tell when a wing of this section stalls.
-    #[default(LeadingEdgeCase::Suction)]
+    /// Change it to `suction`, with roots left out of `shed`, for hover with strokes alike back and forth in two thirds of
+    /// the time (docs/separated-flow.md); to `angle_of_attack` where measurements tell when a wing of this section stalls.
+    #[default(LeadingEdgeCase::SuctionImplicit)]
     #[schemars(extend("with" = [LATTICE, "shed = leading"]))]
     pub leading_edge: LeadingEdgeCase,
     /// Effective angle of attack above which a strip sheds from its leading edge.

@@ -28,16 +28,9 @@ impl FlightSetup {
         let mut found = roots_on_parts(&self.animal, &wings);
         let carried = self.carried_pairs(air);
         found.retain(|r| carried.iter().all(|p| !p.wings.contains(&r.wing)));
-        let remedy = match air.lattice.shedding.root {
-            true => {
-                "let the roots shed nothing, so that their circulation goes on through the body (air.shed without \"root\")"
-            }
-            false => {
-                "it goes on through one part of the central body, a quarter of a chord wide or more, between two wings that are mirror images of \
-                 each other, panels too, and have no joints of their own: make them so, or leave the body out of the air (air.body = false) and, \
-                 if there is one pair, carry the wings on to its middle and join them there (joined = true)"
-            }
-        };
+        let remedy = "it goes on through one part of the central body, a quarter of a chord wide or more, between two wings that are mirror \
+                      images of each other, panels too, and have no joints of their own: make them so, or leave the body out of the air \
+                      (air.body = false) and, if there is one pair, carry the wings on to its middle and join them there (joined = true)";
         let of_part = |(k, part): (usize, &BodyPart)| {
             let here = found.iter().filter(|r| r.part == k);
             let wings: Vec<&str> = here.map(|r| &self.animal.wings[r.wing].name[..]).collect();

@@ -33,11 +33,11 @@ impl FlightSetup {
     }
 
     /// Pairs of wings, each the mirror image of the other, whose circulation the lattice carries through the
-    /// part of the body on which both roots lie ([`pairs_on_parts`]): where bodies are surfaces of `air` and
-    /// roots shed nothing; not those that are joined or inside parts or too close to each other, nor those with
+    /// part of the body on which both roots lie ([`pairs_on_parts`]), so that these roots shed nothing: where bodies are
+    /// surfaces of `air`; not those that are joined or inside parts or too close to each other, nor those with
     /// joints of their own.
     pub fn carried_pairs(&self, air: &AirOptions) -> Vec<PairOnPart> {
-        if !air.body_surfaces || air.lattice.shedding.root {
+        if !air.body_surfaces {
             return vec![];
         }
         let mut pairs = wing_pairs(&self.animal);
