@@ -184,7 +184,7 @@ impl WingScratch {
         self.set_residual(w);
     }
 
-    /// Takes the trial back to the last one that was in balance with a part.
+    /// Takes the trial back to the last one that was in balance with a part, and what is foreseen to its own stresses.
     fn return_to_known(&mut self, w: &ElasticWing) {
         let place = 1.0 / self.trial.weights().velocity;
         let back = |&k: &usize| place * (self.known[k] - self.trial.velocity[k]);
@@ -192,6 +192,8 @@ impl WingScratch {
         self.step
             .extend(w.structure.free_numbers().iter().map(back));
         self.trial.add(&w.structure, &self.step);
+        self.step.fill(0.0);
+        (self.solver).look_ahead(&w.structure, &self.trial, &self.step);
     }
 
     /// Newton's iteration until what is unbalanced, but for what is kept, is less than `target`: false where it
