@@ -14,6 +14,8 @@ const MODEL: &str = "air.model";
 const CONTROLLER: &str = "control.controller";
 /// Where the integrator is chosen.
 const INTEGRATOR: &str = "dynamics.integrator";
+/// Where edges that shed are chosen, and how leading edges do.
+const EDGES: [&str; 2] = ["air.shed", "air.leading_edge"];
 
 type Checked = Result<(), Fault>;
 
@@ -74,8 +76,8 @@ struct Pair<'a> {
 }
 
 /// Checks that every key of the document has an effect beside the others; `whole` is the same case
-/// with its defaults. Where the command line chose the air's model, the integrator or the controller,
-/// settings of the file for its own may stand by.
+/// with its defaults. Where the command line chose the air's model, the integrator, the controller or the edges that
+/// shed, settings of the file for its own may stand by.
 pub(crate) fn together(source: &CaseSource, whole: &Table) -> Checked {
     let pair = Pair { whole, source };
     pair.table(Shape::case(), "", &source.table, whole)
@@ -116,7 +118,7 @@ impl Pair<'_> {
         }
     }
 
-    /// What the file says for another air model, integrator or controller than the command line
+    /// What the file says for another air model, integrator, controller or other edges than the command line
     /// chose, but for properties of the air itself. The integrator follows from the model unless it is given.
     /// Whatever else the command line chose, zeros that a case has filled in as defaults do not contradict it.
     fn stands_by(&self, key: Shape, need: Need, path: &str, value: &Value) -> bool {
@@ -124,13 +126,17 @@ impl Pair<'_> {
         let follows =
             source.chooses(INTEGRATOR) || !source.gives(INTEGRATOR) && source.chooses(MODEL);
         let chosen = |key: &str| need.is_value_of(key) && source.chooses(key);
-        let switched =
-            chosen(MODEL) || chosen(CONTROLLER) || need.is_value_of(INTEGRATOR) && follows;
+        let decided = need.chosen_by(path);
+        let chosen_edges = |by: &String| EDGES.contains(&&by[..]) && source.chooses(by);
+        let switched = chosen(MODEL)
+            || chosen(CONTROLLER)
+            || need.is_value_of(INTEGRATOR) && follows
+            || decided.as_ref().is_some_and(chosen_edges);
         let stays = switched && key.key.get("always").is_none();
         let is_default = || {
-            let chosen = need.chosen_by(path);
             let is_nothing = is_zero(value) || !says(value);
-            chosen.is_some_and(|by| source.chooses(&by)) && is_nothing && key.is_default(value)
+            let is_chosen = decided.as_ref().is_some_and(|by| source.chooses(by));
+            is_chosen && is_nothing && key.is_default(value)
         };
         !source.touches(path) && (stays || is_default())
     }
