@@ -90,6 +90,30 @@ fn behaves_gusts_that_never_arrive_are_named() {
     }
 }
 
+/// The ends of a body of 1 m meet a front of 1 m/s half a second before and after its middle: a gust that is said to
+/// be without effect has none on the loads, and one that has some is not.
+#[test]
+fn agrees_gusts_that_are_named_with_loads_that_they_leave_alone() {
+    let loads = |case: &LoadedCase| {
+        let mut flight = Simulation::new(case.setup.clone()).unwrap();
+        let mut all = vec![flight.record().air.clone()];
+        while !flight.finished() {
+            all.push(flight.step().unwrap().air.clone());
+        }
+        all
+    };
+    let calm = loads(&spheroid(0.5, 8, "").unwrap());
+    for (start, has_effect) in [(0.3, true), (0.6, false), (-1.3, true), (-1.6, false)] {
+        let gust = format!(
+            "gust = [{{ amplitude_m_s = [0, 1, 0], duration_s = 1, front_m_s = [1, 0, 0], start_s = {start} }}]"
+        );
+        let case = spheroid(0.5, 8, &gust).unwrap();
+        assert_eq!(loads(&case) != calm, has_effect, "{start}");
+        let said = case.setup.gusts_that_never_arrive();
+        assert_eq!(said.is_empty(), has_effect, "{start}: {said:?}");
+    }
+}
+
 /// What is said goes by the air where the flight starts, be that written as a stream or as a shear.
 #[test]
 fn invariant_what_is_said_of_a_stream_is_said_of_a_shear() {
