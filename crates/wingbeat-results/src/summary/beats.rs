@@ -64,6 +64,7 @@ impl BeatMeans {
             lift_newton,
             lift_over_weight: over_weight(setup, lift_newton),
             thrust_newton: force.x,
+            side_force_newton: force.y,
             power_watt: (to.driving_work - from.driving_work) / period,
             positive_power_watt: (to.positive_work - from.positive_work) / period,
             lift_coefficient: coefficient(lift_newton),

@@ -25,6 +25,9 @@ pub struct LastPart {
     pub change_of_lift: f64,
     /// The same of the thrust \[1\].
     pub change_of_thrust: f64,
+    /// The same of the force along n2 \[1\].
+    #[serde(default)]
+    pub change_of_side_force: f64,
 }
 
 /// The steps that bound the last part and its halves, as far as they were seen.
@@ -54,13 +57,13 @@ impl Bounds {
         }
         let mean = |ends| BeatMeans::between(setup, 0, ends).mean;
         let [all, first, second] = [[from, last], [from, middle], [middle, last]].map(mean);
-        let size = all.lift_newton.hypot(all.thrust_newton);
-        let size = size.max(f64::MIN_POSITIVE);
+        let size = all.force().max(f64::MIN_POSITIVE);
         Some(LastPart {
             from_s: from.time,
             to_s: last.time,
             change_of_lift: (second.lift_newton - first.lift_newton) / size,
             change_of_thrust: (second.thrust_newton - first.thrust_newton) / size,
+            change_of_side_force: (second.side_force_newton - first.side_force_newton) / size,
             mean: all,
         })
     }
