@@ -13,7 +13,6 @@
 //! The limits of [`Estimate::doubts`] are wide: they catch slips of unit, sign and scale, not
 //! unusual animals. Nothing here is used by a flight.
 
-mod air;
 mod behind;
 mod doubts;
 mod elastic;

@@ -90,6 +90,68 @@ fn behaves_gusts_that_never_arrive_are_named() {
     }
 }
 
+/// The ends of a body of 1 m meet a front of 1 m/s half a second before and after its middle: a gust that is said to
+/// be without effect has none on the loads, and one that has some is not.
+#[test]
+fn agrees_gusts_that_are_named_with_loads_that_they_leave_alone() {
+    let loads = |case: &LoadedCase| {
+        let mut flight = Simulation::new(case.setup.clone()).unwrap();
+        let mut all = vec![flight.record().air.clone()];
+        while !flight.finished() {
+            all.push(flight.step().unwrap().air.clone());
+        }
+        all
+    };
+    let calm = loads(&spheroid(0.5, 8, "").unwrap());
+    for (start, has_effect) in [(0.3, true), (0.6, false), (-1.3, true), (-1.6, false)] {
+        let gust = format!(
+            "gust = [{{ amplitude_m_s = [0, 1, 0], duration_s = 1, front_m_s = [1, 0, 0], start_s = {start} }}]"
+        );
+        let case = spheroid(0.5, 8, &gust).unwrap();
+        assert_eq!(loads(&case) != calm, has_effect, "{start}");
+        let said = case.setup.gusts_that_never_arrive();
+        assert_eq!(said.is_empty(), has_effect, "{start}: {said:?}");
+    }
+}
+
+/// What is said goes by the air where the flight starts, be that written as a stream or as a shear.
+#[test]
+fn invariant_what_is_said_of_a_stream_is_said_of_a_shear() {
+    let turning = "flight.tether.yaw.rate_deg_s=1000";
+    for (speed, more, word) in [
+        (20.0, "motion.frequency_hz=1", "ahead"), // of strokes, which the air passes from behind
+        (-40.0, turning, ""),
+        (-1.0, turning, "turns so that the trailing edge is ahead"),
+    ] {
+        let of = |stream: f64, shear: f64| {
+            let set = [
+                format!("air.stream_m_s=[{stream},0,0]"),
+                format!("air.shear_1_s=[[0,0,{shear}],[0,0,0],[0,0,0]]"),
+                "flight.position_m=[0,0,-2]".to_owned(),
+                more.to_owned(),
+            ];
+            let case = LoadedCase::find("rectangular-wing", &set).unwrap();
+            let found = estimate(&case.setup);
+            let behind = |d: &String| d.contains("the air comes from behind at 20.0 m/s");
+            let wings = found
+                .wings
+                .iter()
+                .map(|w| (w.reynolds, w.reduced_frequency));
+            let wings: Vec<_> = wings.collect();
+            let behind = found.doubts.iter().any(behind);
+            (case.setup.doubts(), found.flight_speed, wings, behind)
+        };
+        // A shear that is nowhere felt, for what is said of all shears.
+        let [stream, shear] = [of(speed, 1e-300), of(0.0, -0.5 * speed)];
+        assert_eq!(stream, shear);
+        assert_eq!(stream.1, speed.abs());
+        assert_eq!(stream.3, speed == 20.0);
+        let says = |word: &str| stream.0.iter().any(|d| d.said.contains(word));
+        assert!(says(word) || word.is_empty(), "{:?}", stream.0);
+        assert!(!word.is_empty() || !says("turns so"), "{:?}", stream.0);
+    }
+}
+
 #[test]
 fn refuses_cores_of_two_kinds_in_the_words_of_the_case() {
     let error = spheroid(1.0, 6, "bound_core.cut_off.length_m = 1e-3").unwrap_err();

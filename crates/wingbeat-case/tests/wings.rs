@@ -3,7 +3,8 @@
 
 use crate::common::{fly, load};
 use wingbeat_flight::{AirModel, FlightSetup, Simulation};
-use wingbeat_model::WingMotion;
+use wingbeat_math::DVec3;
+use wingbeat_model::{Wing, WingMotion};
 
 const GOOD: &str = r#"format = 1
 name = "wings"
@@ -63,16 +64,16 @@ fn refused(text: &str, at: &str, wanted: &[&str]) {
     }
 }
 
+/// Nodes of a wing of four panels along the span, row by row.
+fn rows_of(wing: &Wing) -> Vec<Vec<[f64; 3]>> {
+    let row = |row: &[DVec3]| row.iter().map(|x| x.to_array()).collect();
+    wing.mesh.nodes.chunks(5).map(row).collect()
+}
+
 #[test]
 fn exact_wing_by_its_nodes_is_that_of_its_planform() {
     let by_planform = good(GOOD, &[]);
-    let right = &by_planform.animal.wings[1];
-    let rows: Vec<Vec<[f64; 3]>> = right
-        .mesh
-        .nodes
-        .chunks(5)
-        .map(|row| row.iter().map(|x| x.to_array()).collect())
-        .collect();
+    let rows = rows_of(&by_planform.animal.wings[1]);
     let planform = "[wing.right.planform.rectangle]\nchord_m = 0.1\nspan_m = 0.4\n";
     let mesh = "[wing.right.mesh]\nchordwise = 2\nspanwise = 4\n";
     let with =
@@ -98,6 +99,18 @@ fn exact_wing_by_its_nodes_is_that_of_its_planform() {
         "nodes_m",
         &["at least two rows"],
     );
+}
+
+/// What divides the planform of one wing of a pair is not for the nodes of the other.
+#[test]
+fn exact_pair_of_a_wing_by_its_nodes_and_one_by_its_planform() {
+    let by_planform = good(GOOD, &[]).animal;
+    let rows = rows_of(&by_planform.wings[0]);
+    let own = format!("[wing.left]\nplanform.nodes_m = {rows:?}\n");
+    assert_eq!(good(&format!("{GOOD}{own}"), &[]).animal, by_planform);
+    let both = format!("{GOOD}{own}mesh.chordwise = 3\nmesh.spanwise = 3\n");
+    let wanted = "wing.left.mesh: this has no effect beside wing.left.planform.nodes_m";
+    refused(&both, "mesh.chordwise = 3", &[wanted]);
 }
 
 #[test]

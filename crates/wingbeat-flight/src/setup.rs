@@ -125,6 +125,14 @@ impl FlightSetup {
         }
     }
 
+    /// Velocity of the steady undisturbed air where the root starts, N components [m/s]: the stream and what a shear adds
+    /// to it there, without gusts and vortex streets; zero of air that has no stream.
+    pub fn air_at_start(&self) -> DVec3 {
+        let stream = self.air.stream().unwrap_or_default();
+        let shear = self.air.wind().and_then(|wind| wind.shear);
+        shear.map_or(stream, |s| stream + s * self.root_at_start().p)
+    }
+
     /// Pitch, yaw and roll of the root where its free flight begins, be it released then or not; tethered all
     /// along, the means over its motion \[rad\].
     pub fn angles_at_release(&self) -> DVec3 {

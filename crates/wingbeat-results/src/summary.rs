@@ -142,7 +142,7 @@ impl Summary {
             departures: each.departures.clone(),
             warnings: vec![],
             means: ManyBeats::of(&s.beats, left_out(setup)),
-            last_part: s.bounds.ended_by(&s.last, setup),
+            last_part: each.bounds.ended_by(&s.last, setup),
             beats: s.beats,
         };
         let doubts = trust::doubts_of(setup, each.gaps.as_ref());

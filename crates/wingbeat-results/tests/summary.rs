@@ -133,12 +133,17 @@ fn invariant_the_verdict_of_a_thinned_history_outlives_a_checkpoint() {
         "output.history_every=7",
     ];
     let case = preset("fruit-fly-blade", &set);
-    let whole = flown(&case);
-    let path = std::env::temp_dir().join(format!("wingbeat-summary-{}-on", std::process::id()));
-    let mut writer = RunWriter::new(ResultDir::overwrite(&path).unwrap(), &case, 1).unwrap();
+    assert_eq!(stopped_at(16, &case), flown(&case));
+}
+
+/// The summary of a flight that was left at a checkpoint and gone on with.
+fn stopped_at(step: usize, case: &LoadedCase) -> Summary {
+    let name = format!("wingbeat-summary-{}-on-{}", std::process::id(), case.name);
+    let path = std::env::temp_dir().join(name);
+    let mut writer = RunWriter::new(ResultDir::overwrite(&path).unwrap(), case, 1).unwrap();
     let mut flight = Simulation::new(case.setup.clone()).unwrap();
     writer.write(flight.record(), || flight.snapshot()).unwrap();
-    while flight.state().step < 16 {
+    while flight.state().step < step {
         flight.step().unwrap();
         writer.write(flight.record(), || flight.snapshot()).unwrap();
     }
@@ -148,14 +153,41 @@ fn invariant_the_verdict_of_a_thinned_history_outlives_a_checkpoint() {
     let (header, state) = saved.checkpoint.unwrap();
     let mut flight = Simulation::resume(case.setup.clone(), state).unwrap();
     let dir = ResultDir::open(&path).unwrap();
-    let mut writer = RunWriter::resume(dir, &case, &header, saved.manifest, 1).unwrap();
+    let mut writer = RunWriter::resume(dir, case, &header, saved.manifest, 1).unwrap();
     while !flight.finished() {
         flight.step().unwrap();
         writer.write(flight.record(), || flight.snapshot()).unwrap();
     }
     let resumed = writer.finish(Outcome::Finished, |_, _, _| Ok(())).unwrap();
     std::fs::remove_dir_all(path).unwrap();
-    assert_eq!(resumed, whole);
+    resumed
+}
+
+/// The last part of a flight without wingbeats is that of all steps, however thin the history is, in memory, and
+/// over a checkpoint on either side of where it begins (0.8 and 0.9 of 30 steps: 24 and 27).
+#[test]
+fn invariant_the_last_part_does_not_depend_on_what_the_history_holds() {
+    let case = |every: usize| {
+        let every = format!("output.history_every={every}");
+        preset("rectangular-wing", &["time.steps=30", &every])
+    };
+    let whole = flown(&case(1)).last_part.expect("a last part");
+    let of = |s: Summary| s.last_part.expect("a last part");
+    for thinned in [case(7), case(1000)] {
+        assert_eq!(of(flown(&thinned)), whole);
+        assert_eq!(of(stopped_at(20, &thinned)), whole);
+        assert_eq!(of(stopped_at(25, &thinned)), whole);
+    }
+    let case = case(7);
+    let mut flight = Simulation::new(case.setup.clone()).unwrap();
+    let mut records = vec![flight.record().clone()];
+    while !flight.finished() {
+        records.push(flight.step().unwrap().clone());
+    }
+    assert_eq!(
+        of(Summary::of(&case.setup, &records, &Outcome::Finished)),
+        whole
+    );
 }
 
 /// A flyer whose commands do not suffice turns over; one at its ease stays where it is to be.

@@ -28,6 +28,35 @@ fn behaves_impossible_motions_and_lifts_are_named_without_a_lattice() {
     ));
 }
 
+/// How far the wake of a beat lies goes by the air where the flight starts, be that written as a stream or as a shear.
+#[test]
+fn invariant_what_cores_take_from_a_wake_is_said_of_a_stream_as_of_a_shear() {
+    let said = |stream: &str, shear: &str| {
+        let set = [
+            "time.beats=0.125",
+            "wing.right.mesh.chordwise=2",
+            "wing.right.mesh.spanwise=4",
+            "air.wake_core.lamb_oseen.radius_m=0.05",
+            "flight.position_m=[0,0,-2]",
+            stream,
+            shear,
+        ];
+        let summary = flown(&preset("bird-cruise", &set));
+        let of_cores = |w: &&String| w.contains("what is shed in a period");
+        summary.warnings.iter().find(of_cores).cloned()
+    };
+    let one = said(
+        "air.stream_m_s=[-12,0,0]",
+        "air.shear_1_s=[[0,0,1e-300],[0,0,0],[0,0,0]]",
+    );
+    let other = said(
+        "air.stream_m_s=[0,0,0]",
+        "air.shear_1_s=[[0,0,6],[0,0,0],[0,0,0]]",
+    );
+    assert!(one.is_some());
+    assert_eq!(one, other);
+}
+
 /// A stroke as a camera sees it, with noise of a degree, in fewer steps than samples; a fit of its harmonics is
 /// good again.
 #[test]

@@ -28,18 +28,6 @@ impl ImpulseAccount {
     pub fn dropped(&self) -> DVec3 {
         self.cut + self.absorbed
     }
-
-    /// The account with every impulse as `of` says.
-    #[must_use]
-    pub(crate) fn map(&self, of: impl Fn(DVec3) -> DVec3) -> Self {
-        Self {
-            created: of(self.created),
-            moved: of(self.moved),
-            converted: of(self.converted),
-            cut: of(self.cut),
-            absorbed: of(self.absorbed),
-        }
-    }
 }
 
 impl std::ops::AddAssign for ImpulseAccount {

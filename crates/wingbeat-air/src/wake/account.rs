@@ -2,38 +2,106 @@
 
 use crate::images::Mirror;
 use crate::lattice::Lattice;
-use crate::state::{AirState, ImpulseAccount, WakeSheet};
+use crate::state::{AirState, ImpulseAccount, Particles, WakeSheet};
 use crate::wake::move_step::MoveStep;
 use crate::wake::sheet_move::SheetMove;
 use wingbeat_math::DVec3;
 
-/// Changes of the impulse per density [m4/s] of one sheet, N components.
+/// Impulse of vorticity about the origin, and its total strength: that of closed rings is zero, that of particles, and
+/// of the filaments that border on rings which became particles, is not.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct VorticitySum {
+    /// Half the sum of `x cross alpha`, per density [m4/s], N components.
+    pub impulse: DVec3,
+    /// Sum of all alpha [m3/s], N components.
+    pub strength: DVec3,
+}
+
+impl VorticitySum {
+    /// Of vorticity whose total strength is zero.
+    fn closed(impulse: DVec3) -> Self {
+        Self {
+            impulse,
+            strength: DVec3::ZERO,
+        }
+    }
+
+    pub(crate) fn of_particles(set: &Particles) -> Self {
+        Self {
+            impulse: set.impulse(),
+            strength: set.strength.iter().sum(),
+        }
+    }
+
+    /// That of the mirror image: with `x' = T x + s` and `alpha' = det(T) T alpha`, half the sum of `x' cross alpha'`
+    /// is `T` times that of `x cross alpha`, and `s / 2 cross` the total strength of the image.
+    fn reflected(&self, mirror: Mirror) -> Self {
+        let strength = mirror.axial(self.strength);
+        Self {
+            impulse: mirror.vector(self.impulse) + 0.5 * mirror.shift().cross(strength),
+            strength,
+        }
+    }
+}
+
+impl std::ops::Add for VorticitySum {
+    type Output = Self;
+
+    fn add(self, other: Self) -> Self {
+        Self {
+            impulse: self.impulse + other.impulse,
+            strength: self.strength + other.strength,
+        }
+    }
+}
+
+impl std::ops::Sub for VorticitySum {
+    type Output = Self;
+
+    fn sub(self, other: Self) -> Self {
+        Self {
+            impulse: self.impulse - other.impulse,
+            strength: self.strength - other.strength,
+        }
+    }
+}
+
+/// Changes of the vorticity of one sheet, as [`ImpulseAccount`] has them of the impulse.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct SheetAccount {
-    /// Per density, and nothing created.
-    pub impulse: ImpulseAccount,
+    pub moved: VorticitySum,
+    pub converted: VorticitySum,
+    pub cut: VorticitySum,
+    pub absorbed: VorticitySum,
     /// What the row that left had less what the new one at the edge has: no longer that of the attached vorticity.
-    pub released: DVec3,
+    pub released: VorticitySum,
     /// What the free rings and particles have at the end.
-    pub free: DVec3,
+    pub free: VorticitySum,
 }
 
 impl std::ops::AddAssign for SheetAccount {
     fn add_assign(&mut self, other: Self) {
-        self.impulse += other.impulse;
-        self.released += other.released;
-        self.free += other.free;
+        *self = Self {
+            moved: self.moved + other.moved,
+            converted: self.converted + other.converted,
+            cut: self.cut + other.cut,
+            absorbed: self.absorbed + other.absorbed,
+            released: self.released + other.released,
+            free: self.free + other.free,
+        };
     }
 }
 
 impl SheetAccount {
     /// That of the mirror image.
     pub(crate) fn reflected(&self, mirror: Mirror) -> Self {
-        let of = |impulse| mirror.vector(impulse);
         Self {
-            impulse: self.impulse.map(of),
-            released: of(self.released),
-            free: of(self.free),
+            moved: self.moved.reflected(mirror),
+            converted: self.converted.reflected(mirror),
+            cut: self.cut.reflected(mirror),
+            absorbed: self.absorbed.reflected(mirror),
+            released: self.released.reflected(mirror),
+            free: self.free.reflected(mirror),
         }
     }
 
@@ -43,47 +111,46 @@ impl SheetAccount {
         (step, moved): (&MoveStep, &SheetMove),
         (k, state): (usize, &AirState),
         sheet: &WakeSheet,
-        before: [DVec3; 2],
+        before: [VorticitySum; 2],
     ) -> Self {
         let rows = sheet.rows();
         let edge = |c: usize| moved.node_before(rows - 1, sheet, c);
-        let start = impulse_with(sheet, rows, |r, c| {
+        let start = vorticity_with(sheet, rows, |r, c| {
             moved.node_before(r.min(rows - 1), sheet, c)
         });
-        let end = impulse_with(sheet, rows, |r, c| match r < rows {
+        let end = vorticity_with(sheet, rows, |r, c| match r < rows {
             true => sheet.node(r, c),
             false => edge(c),
         });
         let absorbed = taken_by_surfaces((step, moved), (k, state), sheet);
         let [rings_before, particles_before] = before;
-        let (rings, particles) = (free_rings(sheet), sheet.particles.impulse());
-        let taken = moved.taken;
+        let rings = free_rings(sheet);
+        let particles = VorticitySum::of_particles(&sheet.particles);
+        let taken = VorticitySum::closed(moved.taken);
         Self {
-            impulse: ImpulseAccount {
-                moved: (end + absorbed - start) + (particles + taken - particles_before),
-                absorbed: absorbed + taken,
-                ..ImpulseAccount::default()
-            },
+            moved: (end + absorbed - start) + (particles + taken - particles_before),
+            absorbed: absorbed + taken,
             released: (start - rings_before) - (end - rings),
             free: rings + particles,
+            ..Self::default()
         }
     }
 }
 
-/// Impulse per density [m4/s], N, of the rings of sheet `k` without surfaces in the way, less what it is with
-/// them. The newest rows reach to where the shedding edge goes within the step: were it left behind, they would
-/// be longer by the way of the animal, and what is taken would depend on the inertial frame.
+/// Vorticity of the rings of sheet `k` without surfaces in the way, less what it is with them. The newest rows reach
+/// to where the shedding edge goes within the step: were it left behind, they would be longer by the way of the
+/// animal, and what is taken would depend on the inertial frame.
 fn taken_by_surfaces(
     (step, moved): (&MoveStep, &SheetMove),
     (k, state): (usize, &AirState),
     sheet: &WakeSheet,
-) -> DVec3 {
+) -> VorticitySum {
     if moved.unhindered.is_empty() {
-        return DVec3::ZERO;
+        return VorticitySum::default();
     }
     let (rows, edge) = (sheet.rows(), &step.lattice.sheets()[k].nodes);
     let with = |free: &dyn Fn(usize, usize) -> DVec3| {
-        impulse_with(sheet, rows, |r, c| match r < rows {
+        vorticity_with(sheet, rows, |r, c| match r < rows {
             true => free(r, c),
             false => state.position[edge[c]] + step.dt * state.velocity[edge[c]],
         })
@@ -92,35 +159,38 @@ fn taken_by_surfaces(
     unhindered - with(&|r, c| sheet.node(r, c))
 }
 
-/// Impulse per density [m4/s], N, of the rings of a sheet but the newest row, which is still at the edge.
-pub(crate) fn free_rings(sheet: &WakeSheet) -> DVec3 {
+/// Vorticity of the rings of a sheet but the newest row, which is still at the edge.
+pub(crate) fn free_rings(sheet: &WakeSheet) -> VorticitySum {
     oldest_rings(sheet, sheet.rows().saturating_sub(1))
 }
 
 /// The same of the oldest `rows` rows.
-pub(crate) fn oldest_rings(sheet: &WakeSheet, rows: usize) -> DVec3 {
+pub(crate) fn oldest_rings(sheet: &WakeSheet, rows: usize) -> VorticitySum {
     let rows = rows.min(sheet.rows().saturating_sub(1));
-    impulse_with(sheet, rows, |r, c| sheet.node(r, c))
+    vorticity_with(sheet, rows, |r, c| sheet.node(r, c))
 }
 
-/// Impulse per density [m4/s], N, of the oldest `rows` rows of rings of a sheet with its nodes at `at` (row, column).
-/// Where rings of the sheet have become particles, that of its filaments, which hold what borders on those.
-pub(crate) fn impulse_with(
+/// Vorticity of the oldest `rows` rows of rings of a sheet with its nodes at `at` (row, column). Where rings of the
+/// sheet have become particles, that of its filaments, which hold what borders on those.
+fn vorticity_with(
     sheet: &WakeSheet,
     rows: usize,
     at: impl Fn(usize, usize) -> DVec3,
-) -> DVec3 {
+) -> VorticitySum {
     if sheet.converted.iter().all(|&rows| rows == 0) {
-        return sheet.impulse_with(rows, at);
+        return VorticitySum::closed(sheet.impulse_with(rows, at));
     }
     let gamma = |r: usize, c: usize| match r < rows {
         true => sheet.ring(r, c),
         false => 0.0,
     };
-    let mut sum = DVec3::ZERO;
+    let mut sum = VorticitySum::default();
     for r in 0..=rows {
         for c in 0..=sheet.columns {
-            let mut add = |to: DVec3, net: f64| sum += 0.5 * net * at(r, c).cross(to);
+            let mut add = |to: DVec3, net: f64| {
+                sum.impulse += 0.5 * net * at(r, c).cross(to);
+                sum.strength += net * (to - at(r, c));
+            };
             if sheet.borders_ring([r, c], true) {
                 let older = r.checked_sub(1).map_or(0.0, |r| gamma(r, c));
                 add(at(r, c + 1), gamma(r, c) - older);
@@ -136,11 +206,11 @@ pub(crate) fn impulse_with(
 /// Impulses per density [m4/s], N, of all rings of the sheets, the newest rows reaching to the edges, and of free ones.
 pub(crate) fn impulses(lattice: &Lattice, state: &AirState, sheets: &[WakeSheet]) -> [DVec3; 2] {
     let each = sheets.iter().zip(lattice.sheets()).map(|(sheet, root)| {
-        let all = impulse_with(sheet, sheet.rows(), |r, c| match r < sheet.rows() {
+        let all = vorticity_with(sheet, sheet.rows(), |r, c| match r < sheet.rows() {
             true => sheet.node(r, c),
             false => state.position[root.nodes[c]],
         });
-        [all, free_rings(sheet)]
+        [all, free_rings(sheet)].map(|sum| sum.impulse)
     });
     each.fold([DVec3::ZERO; 2], |[all, free], [a, f]| [all + a, free + f])
 }
@@ -148,7 +218,13 @@ pub(crate) fn impulses(lattice: &Lattice, state: &AirState, sheets: &[WakeSheet]
 /// Puts what happened within a step into the account of the state.
 pub(crate) fn book(lattice: &Lattice, state: &mut AirState, step: &SheetAccount) {
     let density = lattice.settings().density;
-    state.impulse += step.impulse.map(|x| density * x);
-    state.attached_impulse -= density * step.released;
-    state.free_impulse = density * step.free;
+    state.impulse += ImpulseAccount {
+        created: DVec3::ZERO,
+        moved: density * step.moved.impulse,
+        converted: density * step.converted.impulse,
+        cut: density * step.cut.impulse,
+        absorbed: density * step.absorbed.impulse,
+    };
+    state.attached_impulse -= density * step.released.impulse;
+    state.free_impulse = density * step.free.impulse;
 }

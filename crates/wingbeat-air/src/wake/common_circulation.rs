@@ -49,7 +49,7 @@ impl Lattice {
         }
         let free = |state: &AirState| -> DVec3 {
             let sheets = wing.sheets.iter().map(|&k| &state.sheets[k]);
-            sheets.map(free_rings).sum()
+            sheets.map(|sheet| free_rings(sheet).impulse).sum()
         };
         let before = free(state);
         for p in &wing.panels {

@@ -3,7 +3,7 @@
 use crate::error::AirError;
 use crate::lattice::Lattice;
 use crate::state::{AirState, WakeEvents, WakeSheet};
-use crate::wake::account::{SheetAccount, book, free_rings, impulses};
+use crate::wake::account::{SheetAccount, VorticitySum, book, free_rings, impulses};
 use crate::wake::contact::Obstacles;
 use crate::wake::filaments::Filaments;
 use crate::wake::joined_nodes::{merge_joined_nodes, put_on_planes};
@@ -21,7 +21,7 @@ pub(crate) struct WakeMotion {
     obstacles: Obstacles,
     /// What happened to the sheet that was moved last.
     moved: SheetMove,
-    /// What happened to the impulse of each sheet.
+    /// What happened to the vorticity of each sheet.
     accounts: Vec<SheetAccount>,
 }
 
@@ -64,9 +64,9 @@ impl WakeMotion {
             merge_joined_nodes(lattice, &mut sheets);
             put_on_planes(lattice, &state.position, &mut sheets);
             let after = impulses(lattice, state, &sheets);
-            sum.impulse.moved += after[0] - before[0];
-            sum.free += after[1] - before[1];
-            sum.released -= (after[0] - after[1]) - (before[0] - before[1]);
+            sum.moved.impulse += after[0] - before[0];
+            sum.free.impulse += after[1] - before[1];
+            sum.released.impulse -= (after[0] - after[1]) - (before[0] - before[1]);
         }
         state.sheets = sheets;
         let events = events?;
@@ -76,7 +76,7 @@ impl WakeMotion {
     }
 }
 
-/// Moves sheet after sheet, in `moved`; `accounts` get what happens to the impulse of each.
+/// Moves sheet after sheet, in `moved`; `accounts` get what happens to the vorticity of each.
 fn move_each(
     step: &MoveStep,
     state: &AirState,
@@ -90,7 +90,10 @@ fn move_each(
         let (others, rest) = sheets.split_at_mut(k);
         let sheet = &mut rest[0];
         let Some((source, mirror)) = lattice.reflected_sheet(k) else {
-            let before = [free_rings(sheet), sheet.particles.impulse()];
+            let before = [
+                free_rings(sheet),
+                VorticitySum::of_particles(&sheet.particles),
+            ];
             events += moved.move_nodes(step, (k, state.step), sheet)?;
             events += moved.move_particles(step, (k, state.step), &mut sheet.particles)?;
             lattice.shed(k, (others, sheet), state, shape);

@@ -3,13 +3,13 @@
 use crate::edges::EdgeKind;
 use crate::lattice::Lattice;
 use crate::state::{AirState, WakeEvents, WakeSheet};
-use crate::wake::account::{SheetAccount, free_rings, oldest_rings};
+use crate::wake::account::{SheetAccount, VorticitySum, free_rings, oldest_rings};
 use crate::wake::contact::distance_to_segment;
 use wingbeat_math::DVec3;
 
 impl Lattice {
     /// Drops the oldest rows that are too many, too old or too far at the end of the step of `dt` [s], or makes
-    /// particles of them, and puts their impulse into the `account`.
+    /// particles of them, and puts their vorticity into the `account`.
     pub(crate) fn truncate(
         &self,
         k: usize,
@@ -36,8 +36,8 @@ impl Lattice {
         if settings.particles.is_some() {
             return self.make_particles(k, sheet, dropped, (state, dt), account);
         }
-        account.impulse.cut = oldest_rings(sheet, dropped);
-        account.free -= account.impulse.cut;
+        account.cut = oldest_rings(sheet, dropped);
+        account.free = account.free - account.cut;
         sheet.keep(before - dropped);
         WakeEvents {
             dropped_rows: dropped as u64,
@@ -76,14 +76,15 @@ impl Lattice {
         let new_particles = sheet.convert(settings.radius, due);
         sheet.drop_converted();
         let (age, far) = (self.settings().max_age, self.settings().max_distance);
-        let before = sheet.particles.impulse();
-        account.impulse.converted = free_rings(sheet) + before - account.free;
+        let before = VorticitySum::of_particles(&sheet.particles);
+        account.converted = free_rings(sheet) + before - account.free;
         let dropped_particles = sheet.particles.retain(|x, shed| {
             age.is_none_or(|age| state.time - shed <= age)
                 && far.is_none_or(|far| self.way_from_edge(k, x, (state, dt)) <= far)
         });
-        account.impulse.cut = before - sheet.particles.impulse();
-        account.free = free_rings(sheet) + sheet.particles.impulse();
+        let particles = VorticitySum::of_particles(&sheet.particles);
+        account.cut = before - particles;
+        account.free = free_rings(sheet) + particles;
         WakeEvents {
             new_particles,
             dropped_particles,

@@ -292,7 +292,7 @@ fn agrees_loads_of_a_plunging_wing_with_and_without_particles() {
 }
 
 /// Two wings that flap about the x axis, all edges shedding, particles at once from the leading edges.
-fn pair(t: f64) -> NodeMotion {
+pub(crate) fn pair(t: f64) -> NodeMotion {
     let (angle, rate) = (0.5 * (3.0 * t).cos(), -1.5 * (3.0 * t).sin());
     let mut motion = NodeMotion::default();
     for side in [1.0, -1.0] {
@@ -307,7 +307,7 @@ fn pair(t: f64) -> NodeMotion {
     motion
 }
 
-fn flapping(stream: DVec3, wings: usize, images: Vec<Plane>) -> Lattice {
+pub(crate) fn flapping(stream: DVec3, wings: usize, images: Vec<Plane>) -> Lattice {
     let mut both = ["right", "left"].map(|name| Surface::grid(name, 3, 4));
     both[1].panels.iter_mut().for_each(|c| c.swap(1, 3)); // run as mirror images do
     let wings = both[..wings].to_vec();
@@ -323,7 +323,15 @@ fn flapping(stream: DVec3, wings: usize, images: Vec<Plane>) -> Lattice {
     Lattice::new(wings, settings).unwrap()
 }
 
-const STREAM: DVec3 = DVec3::new(2.0, 0.0, 0.3);
+/// Computed on one side of the plane.
+pub(crate) fn one_half(lattice: Lattice, plane: Plane) -> Lattice {
+    let swap = |n: usize| (0..2 * n).map(|k| (k + n) % (2 * n)).collect();
+    let [node, panel] = [20, 12].map(swap);
+    let pairs = MirrorPairs { plane, node, panel };
+    lattice.with_mirror_symmetry(pairs).unwrap()
+}
+
+pub(crate) const STREAM: DVec3 = DVec3::new(2.0, 0.0, 0.3);
 
 fn run(lattice: &Lattice, motion: impl Fn(f64) -> NodeMotion) -> Run {
     fly(lattice, motion, 0.1, 8, |_, _, _, _| {}).unwrap()
@@ -359,18 +367,7 @@ fn agrees_hybrid_wakes_of_both_halves_one_half_and_an_image() {
         normal: DVec3::Y,
     };
     let whole = run(&flapping(STREAM, 2, vec![]), pair);
-    let swap = |n: usize| (0..2 * n).map(|k| (k + n) % (2 * n)).collect();
-    let pairs = MirrorPairs {
-        plane,
-        node: swap(20),
-        panel: swap(12),
-    };
-    let half = run(
-        &flapping(STREAM, 2, vec![])
-            .with_mirror_symmetry(pairs)
-            .unwrap(),
-        pair,
-    );
+    let half = run(&one_half(flapping(STREAM, 2, vec![]), plane), pair);
     let image = run(&flapping(STREAM, 1, vec![plane]), |t| {
         let mut motion = pair(t);
         motion.position.truncate(20);

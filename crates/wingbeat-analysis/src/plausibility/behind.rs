@@ -4,14 +4,12 @@ use wingbeat_dynamics::BodyMotion;
 use wingbeat_flight::FlightSetup;
 use wingbeat_math::{DVec3, RotationLaw};
 
-use super::air::stream;
-
 /// Way downstream [m] that the wake of wing `ahead` has to go so that wings behind it meet it: to the trailing
 /// edge of the last of them, and beyond it by the length of the wing ahead. Wings aside of the wake by more
 /// than that length are left out; none where there are no others, and in air at rest.
 pub(super) fn way_to_wings_behind(setup: &FlightSetup, ahead: usize) -> Option<f64> {
     let root = setup.root_at_start();
-    let downstream = (root.r.transpose() * (stream(&setup.air) - root.v)).try_normalize()?;
+    let downstream = (root.r.transpose() * (setup.air_at_start() - root.v)).try_normalize()?;
     let length = setup.animal.wings[ahead].report().length;
     let of_wake = Place::of(setup, ahead, downstream);
     let others = (0..setup.animal.wings.len()).filter(|w| *w != ahead);

@@ -5,7 +5,6 @@ use wingbeat_flight::{AirModel, AirOptions, DoubtKind, FlightSetup, MotionMode};
 use wingbeat_math::DVec3;
 use wingbeat_model::{Animal, BodyPart, DeformingMesh, Wing};
 
-use super::air::stream;
 use super::limit::{Doubts, Limit, rounded};
 use super::numbers::{Estimate, WingEstimate};
 use super::sides::{against_each_other, strokes_against_each_other};
@@ -200,14 +199,14 @@ fn air_from_behind(setup: &FlightSetup, e: &Estimate) -> Option<String> {
         return None;
     }
     let forward = level.to_n.x_axis;
-    let speed = (root.v - stream(&setup.air)).dot(forward);
+    let speed = (root.v - setup.air_at_start()).dot(forward);
     let tips = e.wings.iter().map(|w| w.tip_speed).fold(0.0, f64::max);
     let fall = setup.gravity.length() * setup.time.period.unwrap_or(1.0);
     let size = if e.wings.is_empty() { fall } else { tips };
     (-speed > COUNTS * size && -speed > ROUNDING).then(|| {
         let remedy = match root.v == DVec3::ZERO {
             true => {
-                let faced = stream(&setup.air) + 2.0 * speed * forward;
+                let faced = setup.air.stream().unwrap_or_default() + 2.0 * speed * forward;
                 let [x, y, z] = faced.to_array().map(|x| match x.abs() > 1e-9 * -speed {
                     true => rounded(x),
                     false => "0".to_owned(),

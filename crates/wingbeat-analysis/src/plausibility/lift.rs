@@ -9,7 +9,6 @@ use wingbeat_flight::{
 use wingbeat_math::DVec3;
 use wingbeat_model::Wing;
 
-use super::air::stream;
 use crate::beat::steadied;
 use crate::error::AnalysisError;
 
@@ -57,7 +56,7 @@ pub(crate) fn lift_over_weight(setup: &FlightSetup) -> Result<Option<f64>, Analy
     }
     let blades = BladeOptions {
         blade: BladeSettings {
-            free_stream: stream(&setup.air),
+            free_stream: setup.air.stream().unwrap_or_default(),
             ..BladeSettings::insect(density)
         },
         body_drag: None,

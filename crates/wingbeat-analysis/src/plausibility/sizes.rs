@@ -4,7 +4,6 @@ use wingbeat_flight::{FlightSetup, LOOKS, MotionMode};
 use wingbeat_math::{DVec3, RotationLaw};
 use wingbeat_model::Wing;
 
-use super::air::stream;
 use super::numbers::{ByJoints, Estimate, Moved, SAMPLES, stroke_amplitude};
 
 /// Sizes, speeds and what follows from them.
@@ -14,7 +13,7 @@ pub(super) fn sizes(setup: &FlightSetup) -> Estimate {
     let area: f64 = reports.iter().map(|r| r.area).sum();
     let weight = animal.mass() * setup.gravity.length();
     let inertia = animal.body.inertia_about_centre();
-    let flight_speed = (start_velocity(setup) - stream(&setup.air)).length();
+    let flight_speed = (start_velocity(setup) - setup.air_at_start()).length();
     let mut estimate = Estimate {
         mass: animal.mass(),
         frequency: setup.time.period.map(|p| 1.0 / p),
@@ -77,7 +76,7 @@ fn carried(setup: &FlightSetup, w: usize) -> f64 {
     let MotionMode::Tethered(motion) = &setup.mode else {
         return 0.0;
     };
-    let (air, time) = (stream(&setup.air), &setup.time);
+    let (air, time) = (setup.air_at_start(), &setup.time);
     let wing = &setup.animal.wings[w];
     let tip = match setup.prescribed_in_body(w, 0.0) {
         Some(moving) => moving.p + moving.r * tip(wing),

@@ -31,8 +31,7 @@ impl FlightSetup {
         t: f64,
     ) -> impl Fn(DVec3) -> DVec3 + use<> {
         let root = self.root_at(t);
-        let stream = self.air.stream().unwrap_or_default();
-        let stream = root.r.transpose() * (stream - root.v);
+        let stream = root.r.transpose() * (self.air_at_start() - root.v);
         move |x| {
             let of_body = root.w.cross(wing.p + wing.r * x);
             wing.r.transpose() * (stream - of_body - wing.v) - wing.w.cross(x)

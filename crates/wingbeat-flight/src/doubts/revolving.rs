@@ -69,7 +69,7 @@ impl FlightSetup {
     /// the angle of attack, and what the rotation of the `root` alone would make \[m3/s2\].
     fn pressures(&self, wing: &Wing, root: &BodyMotion) -> [f64; 3] {
         let c = wing.motion.at(0.0).c;
-        let stream = root.r.transpose() * (self.air.stream().unwrap_or_default() - root.v);
+        let stream = root.r.transpose() * (self.air_at_start() - root.v);
         let mut sums = [0.0; 3];
         for [front, rear, across] in strips(wing) {
             let (mid, aft) = (front.midpoint(rear), (rear - front).normalize_or_zero());

@@ -47,8 +47,8 @@ class Beats(Mapping[str, "NDArray[Any]"]):
     """Means over every whole wingbeat, those of summary and figures: an array for each quantity.
 
     ``beat`` (numbers from 1), ``lift_newton``, ``lift_over_weight`` (NaN without gravity), ``thrust_newton``,
-    ``power_watt``, ``positive_power_watt`` (its positive part, joint by joint), ``lift_coefficient``,
-    ``thrust_coefficient`` (forces over the mean dynamic pressure on the wings; NaN in a vacuum),
+    ``side_force_newton`` (along n2), ``power_watt``, ``positive_power_watt`` (its positive part, joint by joint),
+    ``lift_coefficient``, ``thrust_coefficient`` (forces over the mean dynamic pressure on the wings; NaN in a vacuum),
     ``inviscid_lift_newton``, ``lift_by_impulse_newton`` (both NaN without a lattice).
     """
 
@@ -68,7 +68,7 @@ class Beats(Mapping[str, "NDArray[Any]"]):
         """Means over all but the first wingbeats (two, or those of a start or hold) with their errors; empty of too few."""
         known = (means or {}).get("is_known", True)
         self.is_steady: bool | None = (means or {}).get("is_steady") if known else None
-        """Whether lift and thrust stay from the first half of these beats to the second; None of fewer than five, or of beats
+        """Whether lift and force stay from the first half of these beats to the second; None of fewer than five, or of beats
         too few or too scattered to tell."""
 
     def __getitem__(self, name: str) -> NDArray[Any]:

@@ -10,6 +10,35 @@ use wingbeat_math::DVec3;
 
 use super::per_beat::PerBeat;
 
+/// What means are made from: integrals over time from the start to a step, see [`Record`].
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
+pub(super) struct Integrals {
+    pub step: usize,
+    /// Time \[s\].
+    pub time: f64,
+    air_impulse: DVec3,
+    dynamic_impulse: f64,
+    driving_work: f64,
+    positive_work: f64,
+    inviscid_impulse: DVec3,
+    vortex_impulse: DVec3,
+}
+
+impl From<&Record> for Integrals {
+    fn from(r: &Record) -> Self {
+        Self {
+            step: r.step,
+            time: r.time,
+            air_impulse: r.air_impulse,
+            dynamic_impulse: r.dynamic_impulse,
+            driving_work: r.driving_work(),
+            positive_work: r.positive_work,
+            inviscid_impulse: r.inviscid_impulse,
+            vortex_impulse: r.vortex_impulse,
+        }
+    }
+}
+
 /// Means over one wingbeat.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct BeatMeans {
@@ -21,8 +50,8 @@ pub struct BeatMeans {
 }
 
 impl BeatMeans {
-    /// The means from one record to another; `beat` is their number.
-    pub fn between(setup: &FlightSetup, beat: usize, from: &Record, to: &Record) -> Self {
+    /// The means from one step to another; `beat` is their number.
+    pub(super) fn between(setup: &FlightSetup, beat: usize, [from, to]: [&Integrals; 2]) -> Self {
         let period = to.time - from.time;
         let mean = |impulse: DVec3| impulse / period;
         let force = mean(to.air_impulse - from.air_impulse);
@@ -35,7 +64,8 @@ impl BeatMeans {
             lift_newton,
             lift_over_weight: over_weight(setup, lift_newton),
             thrust_newton: force.x,
-            power_watt: (to.driving_work() - from.driving_work()) / period,
+            side_force_newton: force.y,
+            power_watt: (to.driving_work - from.driving_work) / period,
             positive_power_watt: (to.positive_work - from.positive_work) / period,
             lift_coefficient: coefficient(lift_newton),
             thrust_coefficient: coefficient(force.x),
@@ -61,7 +91,7 @@ pub fn over_weight(setup: &FlightSetup, force: f64) -> Option<f64> {
 pub struct Beats<'a> {
     setup: &'a FlightSetup,
     steps: Option<usize>,
-    start: Option<Record>,
+    start: Option<Integrals>,
 }
 
 impl<'a> Beats<'a> {
@@ -80,9 +110,10 @@ impl<'a> Beats<'a> {
         if !record.step.is_multiple_of(steps) {
             return None;
         }
-        let start = self.start.replace(record.clone())?;
+        let end = Integrals::from(record);
+        let start = self.start.replace(end)?;
         let beat = record.step / steps;
-        Some(BeatMeans::between(self.setup, beat, &start, record))
+        Some(BeatMeans::between(self.setup, beat, [&start, &end]))
     }
 }
 

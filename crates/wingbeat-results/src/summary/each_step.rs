@@ -1,6 +1,6 @@
 //! What a summary needs to know of every step, whichever of them a thinned history holds: balances, impulses that
 //! part, passes of the corrector, forces that turn back, wings that pass through each other or face surfaces
-//! across narrow gaps, departures under feedback.
+//! across narrow gaps, departures under feedback, where the last part of a flight without wingbeats begins.
 
 use serde::{Deserialize, Serialize};
 use wingbeat_flight::{FlightSetup, Record, StruckStops, TurnedOver};
@@ -14,6 +14,7 @@ use super::extent::Extent;
 use super::held::Departures;
 use super::impulse::Parting;
 use super::in_play::InPlay;
+use super::last_part::Bounds;
 use super::momentum_balance::MomentumBalance;
 
 /// Gathered from all steps of a flight, one after the other.
@@ -52,6 +53,8 @@ pub(crate) struct EachStep {
     pub(super) gaps: Option<NarrowGaps>,
     /// What these had counted when this was saved.
     counts: (FlownCounts, SeenGaps),
+    /// Where the last part of a flight without wingbeats begins.
+    pub(super) bounds: Bounds,
 }
 
 impl EachStep {
@@ -110,6 +113,7 @@ impl EachStep {
         self.net_flux_residual.take(r.net_flux_residual);
         self.parting.take(r, setup);
         self.passes_sum += r.corrector_passes;
+        self.bounds.take(r, setup);
     }
 
     /// Forces and places of the wings, and the way of the flyer.

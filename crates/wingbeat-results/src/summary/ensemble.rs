@@ -175,21 +175,25 @@ fn is_deterministic(members: &[Vec<BeatMeans>], [left_out, count]: [usize; 2]) -
         && late <= ONE_FLIGHT * full
 }
 
-/// Mean magnitude of the force (lift, thrust) of a beat over the members \[N\].
+/// Mean magnitude of the force of a beat over the members \[N\].
 fn size(members: &[Vec<BeatMeans>], beat: usize) -> f64 {
-    let force = |m: &Vec<BeatMeans>| m[beat].mean.lift_newton.hypot(m[beat].mean.thrust_newton);
+    let force = |m: &Vec<BeatMeans>| m[beat].mean.force();
     members.iter().map(force).sum::<f64>() / members.len() as f64
 }
 
-/// Standard deviation of the force (lift, thrust) of a beat over the members \[N\].
+/// Standard deviation of the force of a beat over the members \[N\].
 fn scatter(members: &[Vec<BeatMeans>], beat: usize) -> f64 {
     let all: Vec<BeatMeans> = members.iter().map(|m| m[beat].clone()).collect();
     variance(&all).sqrt()
 }
 
-/// Variance of the force (lift, thrust) over beats, at least two \[N2\].
+/// Variance of the force, all its parts, over beats, at least two \[N2\].
 fn variance(beats: &[BeatMeans]) -> f64 {
-    let parts: [fn(&BeatMeans) -> f64; 2] = [|b| b.mean.lift_newton, |b| b.mean.thrust_newton];
+    let parts: [fn(&BeatMeans) -> f64; 3] = [
+        |b| b.mean.lift_newton,
+        |b| b.mean.thrust_newton,
+        |b| b.mean.side_force_newton,
+    ];
     let square = |of| moments(&beats.iter().map(of).collect::<Vec<f64>>()).1;
     parts.map(square).iter().sum::<f64>() / (beats.len() - 1) as f64
 }
@@ -229,6 +233,7 @@ mod tests {
                 lift_newton: *x,
                 lift_over_weight: Some(x / 2.0),
                 thrust_newton: 0.0,
+                side_force_newton: 0.0,
                 power_watt: 1.0,
                 positive_power_watt: 2.0,
                 lift_coefficient: Some(*x),

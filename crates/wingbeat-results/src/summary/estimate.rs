@@ -16,7 +16,7 @@ pub(super) const FEWEST: usize = 3;
 pub(super) const MAX_CORRELATION: f64 = 0.8;
 
 /// A mean over wingbeats or flights.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Estimate {
     /// The mean \[unit of the values\].
     pub mean: f64,

@@ -24,7 +24,8 @@ use wingbeat_math::{DVec3, larger};
 use super::extent::Extent;
 use super::momentum_balance::{ROUNDING, body_motion, moving, ratio, velocity};
 
-/// Where a flight begins: velocity of C \[m/s\] and momentum [kg m/s], N components, time \[s\].
+/// Where a flight begins: velocity of C \[m/s\] and momentum, with what it jumps by at a release [kg m/s], N components,
+/// time \[s\].
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 struct Start {
     velocity: DVec3,
@@ -78,11 +79,17 @@ pub(super) struct InPlay {
 impl InPlay {
     /// Takes the next step.
     pub fn take(&mut self, r: &Record, setup: &FlightSetup) {
-        let start = *self.start.get_or_insert_with(|| Start {
+        let is_supported = setup.mode.is_supported_at(r.step);
+        let is_released = !is_supported && self.carrier.is_some_and(|c| c.is_supported);
+        let start = self.start.get_or_insert_with(|| Start {
             velocity: velocity(r, setup),
             momentum: r.momentum,
             time: r.time,
         });
+        if is_released {
+            start.momentum += jump(r, setup);
+        }
+        let start = *start;
         let u = start.velocity;
         let mass = setup.animal.mass();
         let weight = mass * setup.gravity * (r.time - start.time);
@@ -93,7 +100,6 @@ impl InPlay {
             MotionMode::Free(_) => 0.0,
         };
         self.potential.take(potential - body);
-        let is_supported = setup.mode.is_supported_at(r.step);
         self.inner.take(match is_supported {
             true => moving(r, setup, u).0 + strain_energy(r),
             false => inner_energy(r, mass),
@@ -107,8 +113,7 @@ impl InPlay {
             (true, _) => self.take_tether(r, setup, external),
             (false, None) => self.works.take(external),
             (false, Some(held)) => {
-                let ends = self.carrier.is_some_and(|c| c.is_supported);
-                let gained = match ends {
+                let gained = match is_released {
                     true => self.body_energy(r, setup) - held.body,
                     false => held.gained,
                 };
@@ -219,6 +224,17 @@ impl InPlay {
         let floor = ROUNDING * self.carried.most;
         energies.into_iter().fold(floor, larger)
     }
+}
+
+/// Momentum that a release with an angular velocity of its own adds, N components [kg m/s]: all bodies turn with the root
+/// from then on. No force makes it, and balances leave it out.
+fn jump(r: &Record, setup: &FlightSetup) -> DVec3 {
+    let MotionMode::Free(start) = &setup.mode else {
+        return DVec3::ZERO;
+    };
+    let root = body_motion(r);
+    let turn = root.r * start.angular_velocity;
+    setup.animal.mass() * turn.cross(r.mass_centre - root.p)
 }
 
 /// The frame in which residuals count: C of velocity `u` [m/s], N components, and that of a body on a support.

@@ -4,7 +4,7 @@
 use serde::{Deserialize, Serialize};
 use wingbeat_flight::{FlightSetup, Record};
 
-use super::beats::BeatMeans;
+use super::beats::{BeatMeans, Integrals};
 use super::per_beat::PerBeat;
 
 /// Parts of the steps of a flight after which the last part begins, and at which it is halved.
@@ -25,41 +25,45 @@ pub struct LastPart {
     pub change_of_lift: f64,
     /// The same of the thrust \[1\].
     pub change_of_thrust: f64,
+    /// The same of the force along n2 \[1\].
+    #[serde(default)]
+    pub change_of_side_force: f64,
 }
 
-/// The records that bound the last part and its halves, as far as they were seen.
-#[derive(Clone, Debug, Default)]
-pub(super) struct Bounds([Option<Record>; 2]);
+/// The steps that bound the last part and its halves, as far as they were seen.
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
+pub(super) struct Bounds([Option<Integrals>; 2]);
 
 impl Bounds {
-    /// Takes the next record of the flight.
+    /// Takes the next step of the flight.
     pub fn take(&mut self, record: &Record, setup: &FlightSetup) {
         if setup.time.period.is_some() {
             return;
         }
         for (bound, part) in self.0.iter_mut().zip(FROM) {
             if bound.is_none() && record.step as f64 >= part * setup.time.steps as f64 {
-                *bound = Some(record.clone());
+                *bound = Some(record.into());
             }
         }
     }
 
-    /// The last part of a flight that ends with `last`; none where it ended early or has too few rows.
+    /// The last part of a flight that ends with `last`; none where it ended early or has too few steps.
     pub fn ended_by(&self, last: &Record, setup: &FlightSetup) -> Option<LastPart> {
         let [from, middle] = [self.0[0].as_ref()?, self.0[1].as_ref()?];
+        let last = &Integrals::from(last);
         let in_order = from.step < middle.step && middle.step < last.step;
         if !in_order || last.step < setup.time.steps {
             return None;
         }
-        let mean = |from: &Record, to: &Record| BeatMeans::between(setup, 0, from, to).mean;
-        let [all, first, second] = [mean(from, last), mean(from, middle), mean(middle, last)];
-        let size = all.lift_newton.hypot(all.thrust_newton);
-        let size = size.max(f64::MIN_POSITIVE);
+        let mean = |ends| BeatMeans::between(setup, 0, ends).mean;
+        let [all, first, second] = [[from, last], [from, middle], [middle, last]].map(mean);
+        let size = all.force().max(f64::MIN_POSITIVE);
         Some(LastPart {
             from_s: from.time,
             to_s: last.time,
             change_of_lift: (second.lift_newton - first.lift_newton) / size,
             change_of_thrust: (second.thrust_newton - first.thrust_newton) / size,
+            change_of_side_force: (second.side_force_newton - first.side_force_newton) / size,
             mean: all,
         })
     }

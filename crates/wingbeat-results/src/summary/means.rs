@@ -7,7 +7,7 @@ use super::beats::BeatMeans;
 use super::estimate::{
     Estimate, FEWEST, MAX_CORRELATION, correlation, moments, within_nineteen_of_twenty,
 };
-use super::per_beat::PerBeat;
+use super::per_beat::{PerBeat, force};
 
 /// Fewest beats at the start that means over wingbeats leave out: the wake comes up.
 const LEFT_OUT: usize = 2;
@@ -98,8 +98,11 @@ pub struct ManyBeats {
     /// The same of the thrust \[1\].
     #[serde(default)]
     pub change_of_thrust: f64,
-    /// Whether both changes are less than a hundredth, or than the scatter of the beats makes in 19 of 20 flights, and
-    /// this is less than a tenth of the force.
+    /// The same of the force along n2 \[1\].
+    #[serde(default)]
+    pub change_of_side_force: f64,
+    /// Whether the changes of lift and of the force along n1 and n2, taken together, are less than a hundredth, or than
+    /// the scatter of the beats makes in 19 of 20 flights, and this is less than a tenth of the force.
     pub is_steady: bool,
     /// Whether the beats tell that: not steady is what changes by more than their scatter makes, unknown is where that
     /// would be more than a tenth.
@@ -117,17 +120,23 @@ impl ManyBeats {
     pub fn of(beats: &[BeatMeans], left_out: usize) -> Option<Self> {
         let beats = beats.get(left_out..).filter(|b| b.len() >= FEWEST)?;
         let estimate = PerBeat::joined(beats.iter().map(|b| &b.mean), Estimate::of);
-        let [lift, thrust] = [estimate.lift_newton, estimate.thrust_newton];
-        let size = lift.mean.hypot(thrust.mean).max(f64::MIN_POSITIVE);
-        let forces: [fn(&BeatMeans) -> f64; 2] = [|b| b.mean.lift_newton, |b| b.mean.thrust_newton];
+        let size = mean_force(&estimate).max(f64::MIN_POSITIVE);
+        let forces: [fn(&BeatMeans) -> f64; 3] = [
+            |b| b.mean.lift_newton,
+            |b| b.mean.thrust_newton,
+            |b| b.mean.side_force_newton,
+        ];
         let changes = forces.map(|of| Change::of(&beats.iter().map(of).collect::<Vec<_>>(), size));
-        let changed = changes.iter().any(|c| c.is_felt());
-        let hidden = changes.iter().any(|c| c.hidden > MUST_SHOW);
+        let [lift, thrust, side] = &changes;
+        let judged = [*lift, thrust.with(side)];
+        let changed = judged.iter().any(Change::is_felt);
+        let hidden = judged.iter().any(|c| c.hidden > MUST_SHOW);
         Some(Self {
             beats: [beats[0].beat, beats[beats.len() - 1].beat],
             estimate,
-            change_of_lift: changes[0].change,
-            change_of_thrust: changes[1].change,
+            change_of_lift: lift.change,
+            change_of_thrust: thrust.change,
+            change_of_side_force: side.change,
             is_steady: !changed && !hidden,
             is_known: changed || !hidden,
         })
@@ -136,15 +145,30 @@ impl ManyBeats {
     /// Whether the errors of the means are larger than what changes: few beats that drift have such ones, in which the
     /// drift is counted as correlation ([`Estimate`]). A change of more than a tenth of the force is never called so.
     pub fn changes_within_error(&self) -> bool {
-        let [lift, thrust] = [self.estimate.lift_newton, self.estimate.thrust_newton];
-        let size = lift.mean.hypot(thrust.mean);
-        let changes = [(self.change_of_lift, lift), (self.change_of_thrust, thrust)];
-        changes.into_iter().all(|(change, mean)| {
-            let error = mean.standard_error.unwrap_or(0.0);
+        let e = &self.estimate;
+        let size = mean_force(e);
+        let error = |mean: &Estimate| mean.standard_error.unwrap_or(0.0);
+        let level = self.change_of_thrust.hypot(self.change_of_side_force);
+        let level_error = error(&e.thrust_newton).hypot(error(&e.side_force_newton));
+        let changes = [
+            (self.change_of_lift, error(&e.lift_newton)),
+            (level, level_error),
+        ];
+        changes.into_iter().all(|(change, error)| {
             let is_within = change.abs() <= MUST_SHOW && change.abs() * size <= error;
             change.abs() <= NO_CHANGE || is_within
         })
     }
+}
+
+/// Magnitude of the mean force \[N\].
+fn mean_force(estimate: &PerBeat<Estimate>) -> f64 {
+    let parts = [
+        estimate.lift_newton,
+        estimate.thrust_newton,
+        estimate.side_force_newton,
+    ];
+    force(parts.map(|part| part.mean))
 }
 
 /// By how much values change from their first half to their second, and what of that their scatter would hide,
@@ -153,6 +177,7 @@ impl ManyBeats {
 /// The test is Student's of the slope of a straight line through the values, 5 % by chance. Their scatter is that about
 /// the line, lest a drift hide itself, with n - 2 degrees of freedom: of three values next to nothing is known, and only
 /// what is nearly a line is felt.
+#[derive(Clone, Copy)]
 struct Change {
     change: f64,
     /// The same by the line.
@@ -179,6 +204,15 @@ impl Change {
             change: (means[1] - means[0]) / size,
             by_line: slope * apart / size,
             hidden: within_nineteen_of_twenty(n - 2.0) * error * apart / size,
+        }
+    }
+
+    /// Of a vector of two parts, whichever way it heads: of one that has but one of them, the same as of that.
+    fn with(&self, other: &Self) -> Self {
+        Self {
+            change: self.change.hypot(other.change),
+            by_line: self.by_line.hypot(other.by_line),
+            hidden: self.hidden.hypot(other.hidden),
         }
     }
 
@@ -216,12 +250,22 @@ mod tests {
     }
 
     fn flown_with(lift: impl Fn(usize) -> f64, thrust: impl Fn(usize) -> f64) -> Option<ManyBeats> {
+        flown_towards(0.0, lift, thrust)
+    }
+
+    /// Headed so far from n1 to n2 \[rad\].
+    fn flown_towards(
+        heading: f64,
+        lift: impl Fn(usize) -> f64,
+        thrust: impl Fn(usize) -> f64,
+    ) -> Option<ManyBeats> {
         let beat = |k: usize| BeatMeans {
             beat: k,
             mean: PerBeat {
                 lift_newton: lift(k),
                 lift_over_weight: Some(lift(k) / 2.0),
-                thrust_newton: thrust(k),
+                thrust_newton: heading.cos() * thrust(k),
+                side_force_newton: heading.sin() * thrust(k),
                 power_watt: 3.0,
                 positive_power_watt: 4.0,
                 lift_coefficient: Some(lift(k)),
@@ -255,6 +299,31 @@ mod tests {
         let tilts = flown_with(|_| 10.0, |k| 0.3 * k as f64).unwrap();
         assert!(!tilts.is_steady && tilts.is_known && tilts.change_of_thrust > 0.1);
         assert_eq!(ManyBeats::of(&[], LEFT_OUT), None);
+    }
+
+    /// Whether beats are steady does not depend on where the flyer heads: one whose lift stays and whose force forward
+    /// grows, or scatters, or is steady.
+    #[test]
+    fn invariant_steadiness_of_a_force_that_heads_anywhere() {
+        let scatter = |k: usize| [0.4, -0.3, 0.1, -0.4, 0.2][k % 5];
+        let thrusts: [&dyn Fn(usize) -> f64; 4] = [
+            &|k| 0.3 * k as f64,
+            &|k| 0.03 * k as f64 + 0.02 * scatter(k),
+            &|k| 10.0 * scatter(k),
+            &|k| 5.0 + 0.1 * scatter(k),
+        ];
+        let judged = |heading: f64, thrust: &dyn Fn(usize) -> f64| {
+            let means = flown_towards(heading, |_| 10.0, thrust).unwrap();
+            let within = means.changes_within_error();
+            (means.is_steady, means.is_known, within)
+        };
+        for thrust in thrusts {
+            for heading in [0.3, 0.8, 1.5, 3.0, -2.0] {
+                assert_eq!(judged(heading, thrust), judged(0.0, thrust), "{heading}");
+            }
+        }
+        assert!(!judged(0.0, thrusts[0]).0 && judged(0.0, thrusts[3]).0);
+        assert!(!judged(0.0, thrusts[2]).1);
     }
 
     /// Two beats, or those that a smooth start or a hold reaches into, begun ones as whole ones; what is held to its end, or

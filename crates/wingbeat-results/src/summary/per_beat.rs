@@ -44,6 +44,9 @@ pub struct PerBeat<T = f64> {
     pub lift_over_weight: Option<T>,
     /// Air force along n1 (forward) \[N\].
     pub thrust_newton: T,
+    /// Air force along n2 (to the right) \[N\].
+    #[serde(default)]
+    pub side_force_newton: T,
     /// Power that hinge actuators and prescribed deformation give \[W\].
     pub power_watt: T,
     /// The positive part of it, joint by joint: what actuators give that get nothing back when wings are slowed
@@ -64,12 +67,13 @@ pub struct PerBeat<T = f64> {
 impl<T: Copy> PerBeat<T> {
     /// All of them, as campaigns list and comparisons show them.
     #[rustfmt::skip]
-    pub const QUANTITIES: [SummaryQuantity<Self, T>; 9] = [
+    pub const QUANTITIES: [SummaryQuantity<Self, T>; 10] = [
         row("lift_over_weight", "1", Some("lift over weight"), "mean air force against gravity over the weight",
             |m| m.lift_over_weight),
         row("lift_newton", "N", Some("lift [N]"), "mean air force against gravity", |m| Some(m.lift_newton)),
         row("thrust_newton", "N", Some("forward force [N]"), "mean air force along n1, forward",
             |m| Some(m.thrust_newton)),
+        row("side_force_newton", "N", None, "mean air force along n2, to the right", |m| Some(m.side_force_newton)),
         row("power_watt", "W", Some("power [W]"), "mean power of actuators and of prescribed deformation",
             |m| Some(m.power_watt)),
         row("positive_power_watt", "W", Some("positive power [W]"),
@@ -105,6 +109,7 @@ impl<T: Copy> PerBeat<T> {
             lift_newton: each(|m| m.lift_newton),
             lift_over_weight: where_known(|m| m.lift_over_weight),
             thrust_newton: each(|m| m.thrust_newton),
+            side_force_newton: each(|m| m.side_force_newton),
             power_watt: each(|m| m.power_watt),
             positive_power_watt: each(|m| m.positive_power_watt),
             lift_coefficient: where_known(|m| m.lift_coefficient),
@@ -119,6 +124,18 @@ impl<T: Copy> PerBeat<T> {
         let row = |q: SummaryQuantity<Self, T>| Some((q.label?, (q.of)(self)?, (q.of)(other)?));
         Self::QUANTITIES.into_iter().filter_map(row).collect()
     }
+}
+
+impl PerBeat {
+    /// Magnitude of the mean force, however the flyer heads \[N\].
+    pub(super) fn force(&self) -> f64 {
+        force([self.lift_newton, self.thrust_newton, self.side_force_newton])
+    }
+}
+
+/// Magnitude of a force of these parts: lift, along n1, along n2 \[N\].
+pub(super) fn force([lift, along, across]: [f64; 3]) -> f64 {
+    lift.hypot(along).hypot(across)
 }
 
 #[cfg(test)]
@@ -147,6 +164,7 @@ mod tests {
             lift_newton: 1.0,
             lift_over_weight: None,
             thrust_newton: 2.0,
+            side_force_newton: 8.0,
             power_watt: 3.0,
             positive_power_watt: 4.0,
             lift_coefficient: Some(5.0),

@@ -7,7 +7,6 @@ use wingbeat_math::larger;
 
 use super::beats::{BeatMeans, Beats};
 use super::each_step::EachStep;
-use super::last_part::Bounds;
 use crate::series::records::Records;
 use wingbeat_case::IoError;
 
@@ -29,8 +28,6 @@ pub(super) struct Statistics {
     pub rows: usize,
     /// Means over whole wingbeats.
     pub beats: Vec<BeatMeans>,
-    /// Where the last part of a flight without wingbeats begins.
-    pub bounds: Bounds,
     is_begun: bool,
 }
 
@@ -40,7 +37,7 @@ impl Statistics {
         let mut records = Records::open(path, setup)?;
         let (mut s, mut beats) = (Self::new(setup, each.is_none()), Beats::new(setup));
         while let Some(record) = records.next_record()? {
-            s.take(record, setup, &mut beats);
+            s.take(record, &mut beats);
             if each.is_none() {
                 s.each.take(record, setup);
             }
@@ -53,7 +50,7 @@ impl Statistics {
     pub fn of(records: &[Record], setup: &FlightSetup) -> Self {
         let (mut s, mut beats) = (Self::new(setup, true), Beats::new(setup));
         for record in records {
-            s.take(record, setup, &mut beats);
+            s.take(record, &mut beats);
             s.each.take(record, setup);
         }
         s
@@ -69,8 +66,7 @@ impl Statistics {
         }
     }
 
-    fn take(&mut self, r: &Record, setup: &FlightSetup, beats: &mut Beats<'_>) {
-        self.bounds.take(r, setup);
+    fn take(&mut self, r: &Record, beats: &mut Beats<'_>) {
         self.beats.extend(beats.take(r));
         if !self.is_begun {
             self.first.clone_from(r);

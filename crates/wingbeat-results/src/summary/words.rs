@@ -234,15 +234,31 @@ const OVER_PRESSURE: &str = "Lift and force forward over the mean of 1/2 rho U^2
 /// known density.
 fn last_coefficients(part: &LastPart) -> Option<String> {
     let [lift, thrust] = [part.mean.lift_coefficient?, part.mean.thrust_coefficient?];
-    let changes = [part.change_of_lift, part.change_of_thrust];
-    let [of_lift, of_thrust] = changes.map(|x| signed(100.0 * x, 2));
+    let changes = [
+        part.change_of_lift,
+        part.change_of_thrust,
+        part.change_of_side_force,
+    ];
     Some(format!(
-        "{OVER_PRESSURE}: coefficients {} and {} on average from {} to {}; from the first half of this time to the second, lift changes by {of_lift} % of the force, the force forward by {of_thrust} %.",
+        "{OVER_PRESSURE}: coefficients {} and {} on average from {} to {}; from the first half of this time to the second, {}.",
         fixed(lift, 4),
         fixed(thrust, 4),
         alone(part.from_s, "s"),
-        alone(part.to_s, "s")
+        alone(part.to_s, "s"),
+        changes_in_words(changes, 2)
     ))
+}
+
+/// Changes of lift and of the force along n1 and n2, over the mean force, with so many decimals of a per cent; the last
+/// where it shows.
+fn changes_in_words([lift, thrust, side]: [f64; 3], decimals: usize) -> String {
+    let [of_lift, of_thrust, of_side] = [lift, thrust, side].map(|x| signed(100.0 * x, decimals));
+    let both =
+        format!("lift changes by {of_lift} % of the force, the force forward by {of_thrust} %");
+    match (100.0 * side).abs() * 10_f64.powi(decimals as i32) < 0.5 {
+        true => both,
+        false => format!("{both}, that to the right by {of_side} %"),
+    }
 }
 
 /// What became of the impulse that surfaces gave to the air.
@@ -307,8 +323,11 @@ fn mean_rows(means: &ManyBeats, largest: [f64; 3], out: &mut String) {
 
 /// Whether beats are steady, as the end of a sentence about them.
 fn verdict(means: &ManyBeats) -> String {
-    let [lift, thrust] =
-        [means.change_of_lift, means.change_of_thrust].map(|x| signed(100.0 * x, 1));
+    let changes = [
+        means.change_of_lift,
+        means.change_of_thrust,
+        means.change_of_side_force,
+    ];
     let verdict = match (means.is_steady, means.is_known) {
         (true, _) => "which are steady",
         (false, true) if means.changes_within_error() => {
@@ -318,7 +337,8 @@ fn verdict(means: &ManyBeats) -> String {
         (false, false) => "too few or too scattered to tell whether they are steady",
     };
     format!(
-        "{verdict}: from the first half of them to the second, lift changes by {lift} % of the force, the force forward by {thrust} %"
+        "{verdict}: from the first half of them to the second, {}",
+        changes_in_words(changes, 1)
     )
 }
 

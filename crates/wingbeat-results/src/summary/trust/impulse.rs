@@ -11,6 +11,7 @@ use super::lattice::differences;
 use super::wakes::{cut_wake, held_off};
 use crate::summary::beats::BeatMeans;
 use crate::summary::numbers::Summary;
+use crate::summary::per_beat::force;
 use crate::summary::verdict::{Verdict, Warnings};
 
 /// Two ways to the mean lift of a beat that differ by more, over the mean force, are apart: six times what they do in
@@ -190,7 +191,7 @@ fn apart(beat: &BeatMeans, least: f64) -> Option<f64> {
     let mean = &beat.mean;
     let inviscid = mean.inviscid_lift_newton?;
     // Of the whole mean force: of a tail fin that drives a fish ahead nothing is left as lift.
-    let force = inviscid.hypot(mean.thrust_newton).max(least);
+    let force = force([inviscid, mean.thrust_newton, mean.side_force_newton]).max(least);
     Some((mean.lift_by_impulse_newton? - inviscid).abs() / force.max(f64::MIN_POSITIVE))
 }
 

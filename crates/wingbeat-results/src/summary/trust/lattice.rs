@@ -199,7 +199,7 @@ const SMOOTHED: f64 = 0.05;
 fn smoothed_by_cores(setup: &FlightSetup, lattice: &AirSettings) -> Option<String> {
     let period = period(setup)?;
     let root = setup.root_at_start();
-    let speed = (root.v - setup.air.stream().unwrap_or_default()).length();
+    let speed = (root.v - setup.air_at_start()).length();
     let radius = core(&lattice.wake_core).1;
     let wavelength = speed * period;
     let lost = 1.0 - (-std::f64::consts::TAU * radius / wavelength).exp();
