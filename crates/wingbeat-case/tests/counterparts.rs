@@ -5,7 +5,7 @@ use std::path::Path;
 use wingbeat_case::{LoadedCase, case_of};
 use wingbeat_model::Side;
 
-use crate::common::{found, refusal};
+use crate::common::{self, found, refusal};
 use crate::idle::ANIMAL;
 
 /// Doubts about an animal of two pairs of wings on one hinge on either side; strokes of the right ones \[deg\].
@@ -131,4 +131,30 @@ fn behaves_one_wing_of_a_pair_may_be_rigid() {
         let said = found(preset, &[key]).unwrap_err();
         assert!(said.contains(says), "{said}");
     }
+}
+
+/// Of a pair one wing may have nodes, which are its mesh, and the other an outline that a mesh divides; the mesh of a wing
+/// with nodes has no effect.
+#[test]
+fn exact_one_wing_of_a_pair_may_have_nodes_and_the_other_a_mesh() {
+    let nodes =
+        "planform.nodes_m = [[[0, 0, 0], [0, -2e-3, 0]], [[-1e-3, 0, 0], [-1e-3, -2e-3, 0]]]";
+    let text = ANIMAL.replace("[air]", &format!("[wing.left]\n{nodes}\n[air]"));
+    let panels = |text: &str| {
+        let case = common::load(text, &[])?;
+        let wings = case.setup.animal.wings.iter();
+        Ok::<_, String>(
+            wings
+                .map(|w| (w.mesh.rows, w.mesh.cols))
+                .collect::<Vec<_>>(),
+        )
+    };
+    let alone = panels(ANIMAL).unwrap();
+    assert_eq!(panels(&text).unwrap(), [(1, 1), alone[1]]);
+    let own = text.replace(nodes, &format!("mesh.spanwise = 3\n{nodes}"));
+    let said = panels(&own).unwrap_err();
+    assert!(
+        said.contains("wing.left.mesh") && said.contains("no effect"),
+        "{said}"
+    );
 }

@@ -256,15 +256,16 @@ fn mesh(source: &Source<'_>, side: Side) -> Built<GridMesh> {
             format!("add [wing.{name}.planform.beta] with length_m, mean_chord_m and r2_hat"),
         ));
     };
-    let (named, wing, _) = source.of(|w| w.mesh.is_some());
+    let (_, wing, _) = source.of(|w| w.mesh.is_some());
     let planform = match case {
-        PlanformCase::NodesM(rows) if wing.mesh.is_none() => {
+        // The mesh of the counterpart is that of another planform.
+        PlanformCase::NodesM(rows) if source.own.mesh.is_none() => {
             let mesh = given_mesh(name, rows)?;
             return Ok(if mirrored { mesh.mirrored() } else { mesh });
         }
         PlanformCase::NodesM(_) => {
             return Err(Fault::new(
-                format!("wing.{named}.mesh"),
+                format!("wing.{}.mesh", source.name),
                 format!("this has no effect beside {path}.nodes_m, which is the mesh"),
                 "beside other planforms, which it divides into panels",
                 "remove it, or give the wing another planform",
