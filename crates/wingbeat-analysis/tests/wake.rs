@@ -72,6 +72,7 @@ fn in_lattice(steps: usize) -> FlightSetup {
         mirror: true,
         joined: vec![],
         joined_tips: vec![],
+        has_own_viscosity: false,
     });
     setup.time.step = 0.005 / steps as f64;
     setup

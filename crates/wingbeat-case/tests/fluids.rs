@@ -3,7 +3,7 @@
 use crate::common::found;
 use wingbeat_air::{Friction, viscosity_of_density};
 use wingbeat_analysis::estimate;
-use wingbeat_case::LoadedCase;
+use wingbeat_case::{LoadedCase, case_of};
 use wingbeat_flight::{AirModel, DoubtKind};
 
 fn reynolds(name: &str, set: &[&str]) -> f64 {
@@ -124,4 +124,21 @@ fn behaves_thin_gases_with_the_viscosity_of_air_are_told() {
         "air.wake_core={algebraic={radius_m=5e-5}}",
     ];
     assert_eq!(said(&removed), None);
+}
+
+/// An oil may have the kinematic viscosity of air: that which is given as the fluid's is not doubted, nor in
+/// the case that is made of the setup.
+#[test]
+fn behaves_a_viscosity_that_is_given_as_that_of_the_fluid_is_not_doubted() {
+    let oil = "air.density_kg_m3=880";
+    let core = "air.wake_core={algebraic={radius_m=5e-5, viscosity_m2_s=1.6587e-5}}";
+    let given = found("fruit-fly-hover", &[oil, "air.viscosity_m2_s=1.6587e-5"]).unwrap();
+    let written = case_of(&given.setup, None).unwrap().setup;
+    let of_core = found("fruit-fly-hover", &[oil, core]).unwrap().setup;
+    let [given, written, of_core] = [given.setup, written, of_core].map(|setup| {
+        let doubts = setup.doubts();
+        assert_eq!(setup.air.viscosity(), Some(1.6587e-5));
+        doubts.iter().any(|d| d.kind == DoubtKind::ViscosityOfAir)
+    });
+    assert_eq!([given, written, of_core], [false, false, true]);
 }

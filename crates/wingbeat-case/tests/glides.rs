@@ -4,9 +4,10 @@ use std::path::Path;
 
 use wingbeat_analysis::control::{Regulator, Weights};
 use wingbeat_analysis::{
-    Plane, Trim, TrimRequest, Unknown, floquet_of_trim, linear_model, power_of_trim, sweep, trim,
+    Plane, SteadyFlight, Trim, TrimRequest, Unknown, floquet_of_trim, linear_model, power_of_trim,
+    sweep, table_model, trim,
 };
-use wingbeat_case::{LoadedCase, trimmed_case};
+use wingbeat_case::{LoadedCase, derivative_case, trimmed_case};
 use wingbeat_flight::Record;
 use wingbeat_math::{DMat3, DVec3, EulerSequence};
 
@@ -264,4 +265,34 @@ fn invariant_recorded_angles_have_the_attitudes_at_any_heading() {
     }
     let pitch = |r: &Record| attitude(r, 0).x_axis.z;
     assert!((pitch(&north[100]) - pitch(&north[0])).abs() > 0.3);
+}
+
+/// The table of a glide beats as little as the glide does, and has its modes; that of massless wings, which it has not,
+/// can be loaded.
+#[test]
+fn agrees_tables_of_flyers_without_beats_or_massive_wings_with_their_models() {
+    let table = |case: &LoadedCase, found: &Trim| {
+        let model = linear_model(&found.beat, &found.state).unwrap();
+        let text = derivative_case(case, &SteadyFlight::of(found).unwrap(), &model);
+        let table = common::load(&text, &[]).unwrap_or_else(|e| panic!("{e}"));
+        let modes = table_model(&table.setup).unwrap().modes;
+        let kinds = [
+            (Plane::Longitudinal, "stable phugoid"),
+            (Plane::Longitudinal, "stable short period"),
+        ];
+        for (plane, kind) in kinds {
+            let [a, b] = [&model.modes, &modes].map(|all| all.find(plane, kind).unwrap());
+            let apart = (a.growth - b.growth).hypot(a.frequency - b.frequency);
+            let size = a.growth.hypot(a.frequency);
+            println!("{kind}: {:e}", apart / size);
+            assert!(apart < 1e-9 * size, "{kind}: {apart:e} of {size:e}"); // differences in other units
+        }
+        table
+    };
+    let glider = case(GLIDER, &[]);
+    let of_glide = table(&glider, &trimmed(&glider, [0.0; 2], None));
+    assert_eq!(of_glide.setup.time.period, None);
+    assert_eq!(of_glide.idle_keys(), Vec::<String>::new());
+    let massless = case(GLIDER, &["dynamics.wings=massless"]);
+    table(&massless, &trimmed(&massless, [0.0; 2], None));
 }

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use wingbeat_analysis::control::{adjustments, sides};
-use wingbeat_analysis::{Beat, Level, TrimProblem, Unknown, control_derivatives, trim};
+use wingbeat_analysis::{Beat, Level, TrimProblem, Unknown, control_derivatives, tail_wings, trim};
 use wingbeat_case::{LoadedCase, trimmed_case};
 use wingbeat_math::{DVec3, r2};
 use wingbeat_model::AngleLaw;
@@ -250,5 +250,61 @@ fn exact_tails_are_wings_that_do_not_vary_however_they_are_written() {
         assert_eq!(kept, [false, is_tail, false, is_tail], "{set}");
         let steered: Vec<bool> = sides(&plain.setup).iter().map(Option::is_some).collect();
         assert_eq!(steered, [true, !is_tail, true, !is_tail], "{set}");
+    }
+}
+
+/// A pair whose names tell none is one by its place: the same elevator, written on either side, also beside a fin on the
+/// same hinge.
+#[test]
+fn invariant_a_tail_has_its_elevator_whatever_its_wings_are_called() {
+    let (before, tail) = BIRD.split_once("[wing.right_tail]").unwrap();
+    let (tail, after) = tail.split_once("[wing.left]").unwrap();
+    let right = |name: &str| format!("[wing.{name}]\nside = \"right\"{tail}");
+    let left = right("tail-b")
+        .replace("\"right\"", "\"left\"")
+        .replace("= -10", "= 10");
+    let after = after.replace("[wing.left_tail]", "");
+    let fin = right("fin")
+        .replace("= -10", "= -90")
+        .replace("0.15", "0.1");
+    let glides = |text: &str| {
+        let twist = "deformation.twist = [{ linear_deg = [0, 12], fourier.cosine = [-1] }]";
+        let still = text.replace("phi.fourier.sine_deg = [25]", "phi.constant_deg = -5");
+        still.replace(twist, "")
+    };
+    let named = |text: &str| LoadedCase::from_text("bird", text, Path::new(""), &[]).unwrap();
+    let incidence = |text: &str, last: [&str; 2]| {
+        let case = named(text);
+        let mut problem = TrimProblem::straight(DVec3::new(8.0, 0.0, 0.0), 0.1);
+        problem.unknowns[2] = Unknown::TailIncidence;
+        let found = trim(&case.setup, &problem).unwrap_or_else(|e| panic!("{e}"));
+        assert!(found.solution.converged, "{:?}", found.solution.residual);
+        let psi = found.solution.value(Unknown::TailIncidence).unwrap();
+        let written = named(&trimmed_case(&case, &found).unwrap());
+        for wing in last {
+            let now = angles(&written, wing)[2];
+            assert!(
+                (now - (-3f64).to_radians() - psi).abs() < 1e-12,
+                "{wing}: {now}"
+            ); // degrees and back
+        }
+        psi
+    };
+    let wanted = incidence(BIRD, ["left_tail", "right_tail"]);
+    let (other, both) = (
+        format!("{before}{}{left}[wing.left]{after}", right("tail-a")),
+        ["tail-a", "tail-b"],
+    );
+    let found = incidence(&other, both);
+    assert!((found - wanted).abs() < 1e-8, "{found} {wanted}"); // residuals of 1e-9 of either
+    let tails = |text: &str| {
+        let case = named(text);
+        let wings = &case.setup.animal.wings;
+        let tail = tail_wings(&case.setup).unwrap_or_else(|e| panic!("{e}"));
+        tail.map(|w| wings[w].name.clone())
+    };
+    for text in [&other, &format!("{other}{fin}")] {
+        assert_eq!(tails(text), ["tail-b", "tail-a"]);
+        assert_eq!(tails(&glides(text)), ["tail-b", "tail-a"]);
     }
 }

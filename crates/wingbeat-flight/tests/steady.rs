@@ -69,6 +69,7 @@ impl Steady {
             mirror: true,
             joined: vec![[0, 1]],
             joined_tips: vec![],
+            has_own_viscosity: false,
         });
         let records = fly(setup);
         let force = records.last().unwrap().air.iter().map(|l| l.force);

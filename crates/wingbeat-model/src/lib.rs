@@ -32,6 +32,7 @@ pub mod error;
 pub mod kinematics;
 pub mod mesh;
 pub mod motion;
+mod pair;
 pub mod planform;
 pub mod species;
 pub mod structure;
@@ -56,6 +57,7 @@ pub use mesh::integrate::MassInput;
 pub use mesh::revolution::{Profile, Revolution};
 pub use mesh::{GridMesh, QuadMesh, Side, Spacing, mirror_name, side_in_name};
 pub use motion::{AngleLaw, AngleLaws, Start, WingMotion};
+pub use pair::are_pair;
 pub use planform::{Planform, WingShape};
 pub use structure::{
     BeamMass, Coupling, ElasticBody, Members, Region, Vein, VeinStiffness, WingBeam, WingShell,

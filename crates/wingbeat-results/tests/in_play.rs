@@ -305,3 +305,33 @@ fn behaves_a_tether_does_not_hide_what_is_missing_in_the_energy() {
         assert_eq!(s.verdict, Verdict::Red);
     }
 }
+
+/// A body whose table of derivatives, weight and load balance but for rounding: nothing moves, and the balance of the
+/// energy, 1e-40 J of 1e-40 J, says nothing.
+#[test]
+fn conserves_energy_of_a_body_that_rests_closes() {
+    let text = r#"
+format = 1
+name = "rest"
+time = { step_s = 2.5e-5, steps = 1000 }
+output = { frames_every = 0, figures = false, page = false }
+flight.pitch_deg = 47.3
+body = { mass_kg = 9.4e-7, inertia_about_centre_kg_m2 = [1e-13, 4e-13, 4e-13, 0, 0, 0] }
+load = [{ force_newton = [0, 0, 2e-6], frame = "inertial", point_m = [1.3e-3, 0, 0.8e-3] }]
+air.model = "derivatives"
+[air.derivatives]
+body_pitch_deg = 47.3
+force_newton = [0, 0, -1.12214e-5]
+moment_newton_m = [0, 2.9390784938969193e-9, 0]
+force_by_velocity_newton_s_m = [[-3e-6, 0, 1e-7], [0, -2e-6, 0], [1e-7, 0, -4e-6]]
+force_by_rate_newton_s = [[0, 1e-10, 0], [0, 0, 0], [0, 2e-10, 0]]
+moment_by_velocity_newton_s = [[0, 1e-9, 0], [2e-9, 0, 1e-10], [0, 1e-10, 0]]
+moment_by_rate_newton_m_s = [[-1e-12, 0, 0], [0, -1e-12, 0], [0, 0, -1e-12]]
+"#;
+    let base = std::path::Path::new(".");
+    let still = flown(&LoadedCase::from_text("rest", text, base, &[]).unwrap());
+    let energy = still.energy_residual_relative;
+    println!("{energy:e}");
+    assert!(energy < 1e-21, "{energy:e}"); // 1e-22 measured
+    assert_eq!(still.verdict, Verdict::Green, "{:?}", still.warnings);
+}

@@ -180,3 +180,33 @@ fn behaves_leading_edges_that_never_shed_are_those_of_attached_flow() {
     );
     assert!(!says(&summary, "less on faces"), "{said:?}");
 }
+
+/// Wide cores smooth the wake of a plate that plunges, whether its leading edge may not shed or sheds nothing.
+#[test]
+fn behaves_smoothed_wakes_are_told_where_leading_edges_hold_their_suction() {
+    for (shed, radius, is_told) in [
+        (r#"["trailing"]"#, 0.07, true),
+        (r#"["trailing", "leading"]"#, 0.07, true),
+        (r#"["trailing", "tip", "leading"]"#, 0.07, true),
+        (r#"["trailing", "leading"]"#, 0.005, false),
+    ] {
+        let summary = flown(&preset(
+            "rectangular-wing",
+            &[
+                "time.steps=24",
+                "flight.tether.z={ frequency_hz = 20, cosine_m = [-1e-3] }",
+                &format!("air.shed={shed}"),
+                "air.scheme=accurate",
+                "air.bound_core=",
+                &format!("air.wake_core={{ algebraic = {{ radius_chords = {radius} }} }}"),
+                "air.loads=joukowski",
+                "wing.right.motion.psi.constant_deg=1",
+            ],
+        ));
+        let said = says(
+            &summary,
+            "hangs on the cores of the wake where it changes fast",
+        );
+        assert_eq!(said, is_told, "{shed} {radius}: {:?}", summary.warnings);
+    }
+}

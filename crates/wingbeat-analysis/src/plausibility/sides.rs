@@ -1,8 +1,7 @@
 //! Left and right wings that move unlike each other, as seen in a mirror: signs of one side taken for those of
 //! the other.
 
-use wingbeat_math::mirrored;
-use wingbeat_model::{AngleLaw, AngleLaws, Wing, mirror_name};
+use wingbeat_model::{AngleLaw, AngleLaws, Wing, are_pair};
 
 use super::numbers::SAMPLES;
 
@@ -42,25 +41,8 @@ pub(super) fn strokes_against_each_other(wings: &[Wing]) -> bool {
 
 /// Wings on either side that are a pair.
 fn pairs(wings: &[Wing]) -> impl Iterator<Item = (&Wing, &Wing)> {
-    wings.iter().enumerate().flat_map(move |(k, a)| {
-        let others = wings[k + 1..].iter();
-        others
-            .filter(move |b| a.side != b.side && is_pair(wings, a, b))
-            .map(move |b| (a, b))
-    })
-}
-
-/// Whether two wings on either side are a pair: by their names, where one of them has a partner by name, as
-/// `upper-left` has in `upper-right`; else by hinges that are mirror images. Several wings may have one hinge.
-fn is_pair(wings: &[Wing], a: &Wing, b: &Wing) -> bool {
-    let partner = |of: &Wing| {
-        let name = mirror_name(&of.name)?;
-        wings.iter().find(|w| w.name == name && w.side != of.side)
-    };
-    match (partner(a), partner(b)) {
-        (None, None) => a.hinge_b.distance(mirrored(b.hinge_b)) <= 1e-6 * a.report().length,
-        (partner, _) => partner.is_some_and(|p| p.name == b.name),
-    }
+    let found = wingbeat_model::pairs(0..wings.len()).filter(|&pair| are_pair(wings, pair));
+    found.map(|[a, b]| (&wings[a], &wings[b]))
 }
 
 /// The angles in which a wing and one on the other side go opposite ways. Where the strokes do, the others mean

@@ -1,7 +1,7 @@
 //! The tail whose incidence a trim may choose.
 
 use wingbeat_flight::FlightSetup;
-use wingbeat_model::mirror_name;
+use wingbeat_model::{Side, are_pair, pairs};
 
 use crate::AnalysisError;
 use crate::beat::glide::glides;
@@ -43,14 +43,14 @@ fn pairs_that_stand_still(setup: &FlightSetup) -> Vec<[usize; 2]> {
         let on_body = setup.joints.iter().all(|j| j.child != w + 1);
         on_body && wings[w].is_still() && (is_glider || setup.is_held_wing(w))
     };
-    let counterpart = |w: usize| {
-        let name = mirror_name(&wings[w].name)?;
-        wings.iter().position(|v| v.name == name)
+    let is_main = |w: usize| is_glider && wings[w].length() >= longest;
+    let tail = |pair: [usize; 2]| {
+        let is_tail = are_pair(wings, pair) && pair.into_iter().all(|w| stands(w) && !is_main(w));
+        let [a, b] = pair;
+        is_tail.then(|| match wings[a].side {
+            Side::Left => [a, b],
+            Side::Right => [b, a],
+        })
     };
-    let pair = |w: usize| {
-        let other = counterpart(w).filter(|&v| wings[w].side.sign() < wings[v].side.sign())?;
-        let is_main = is_glider && wings[w].length().max(wings[other].length()) >= longest;
-        (stands(w) && stands(other) && !is_main).then_some([w, other])
-    };
-    (0..wings.len()).filter_map(pair).collect()
+    pairs(0..wings.len()).filter_map(tail).collect()
 }

@@ -200,6 +200,7 @@ fn lattice(options: &AirOptions) -> Written<AirCase> {
         mirror,
         joined: _, // keys of the wings
         joined_tips: _,
+        has_own_viscosity,
     } = options;
     let air = AirCase {
         model: Model::VortexLattice,
@@ -213,7 +214,28 @@ fn lattice(options: &AirOptions) -> Written<AirCase> {
         )),
         ..settings(lattice)
     };
+    let air = match has_own_viscosity {
+        true => with_one_viscosity(air),
+        false => air,
+    };
     Ok(with_wind(with_leading_edge(air, lattice), &lattice.wind))
+}
+
+/// The viscosity of cores and friction as that of the fluid, where they have the same.
+fn with_one_viscosity(mut air: AirCase) -> AirCase {
+    let of_core = match &mut air.wake_core {
+        CoreCase::LambOseen(core) | CoreCase::Algebraic(core) => Some(&mut core.viscosity_m2_s),
+        _ => None,
+    };
+    let of_friction = air.section_drag.as_mut().map(|d| &mut d.viscosity_m2_s);
+    let all = of_core.into_iter().chain(of_friction);
+    let all: Vec<&mut Option<f64>> = all.filter(|v| v.is_some()).collect();
+    let first = all.first().and_then(|v| **v);
+    if all.iter().all(|v| **v == first) {
+        air.viscosity_m2_s = first;
+        all.into_iter().for_each(|v| *v = None);
+    }
+    air
 }
 
 fn settings(lattice: &AirSettings) -> AirCase {

@@ -8,7 +8,9 @@ use wingbeat_math::{DVec3, EulerSequence};
 use super::trimmed::clear;
 use crate::loaded::LoadedCase;
 use crate::loaded::written_to_change as written;
-use crate::raw::{AirCase, AirModel, BodyCase, DerivativesCase, FlightCase, LoadCase, MotionCase};
+use crate::raw::{
+    AirCase, AirModel, BodyCase, DerivativesCase, FlightCase, LoadCase, MotionCase, WingInertia,
+};
 
 /// Angles of straight flights by rounding \[deg\], and parts of wing length by wingbeat that velocities of hover are by
 /// rounding and by what a trim is good to \[1\].
@@ -43,6 +45,7 @@ pub fn derivative_case(
     raw.spring.clear();
     // Buoyancy among them; the origin is at the mean mass centre.
     raw.load = beat.mean_weights().into_iter().map(weight).collect();
+    raw.dynamics.wings = WingInertia::Massive; // the default: no wings are left
     raw.animal.scale = 1.0;
     raw.body = BodyCase {
         mass_kg: Some(mass),
@@ -50,8 +53,10 @@ pub fn derivative_case(
         inertia_about_centre_kg_m2: Some([j(0, 0), j(1, 1), j(2, 2), j(0, 1), j(0, 2), j(1, 2)]),
         ..BodyCase::default()
     };
+    // Of a glide, in which nothing beats, the period is a time for the equations alone.
+    let frequency = case.setup.time.period.map_or(0.0, |_| 1.0 / beat.period());
     raw.motion = MotionCase {
-        frequency_hz: (1.0 / beat.period()).into(),
+        frequency_hz: frequency.into(),
         ..MotionCase::default()
     };
     raw.air = AirCase {

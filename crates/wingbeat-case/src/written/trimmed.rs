@@ -6,7 +6,7 @@ use wingbeat_dynamics::BodyMotion;
 use wingbeat_flight::{FlightSetup, closes_loop};
 use wingbeat_math::{DVec3, EulerSequence};
 use wingbeat_model::motion::Adjustment;
-use wingbeat_model::{Side, Wing};
+use wingbeat_model::{Side, Wing, mirror_name};
 
 use super::flight::tethered;
 use crate::build::mirrored_joints;
@@ -279,7 +279,7 @@ fn adjusted(case: &LoadedCase, by: &TrimSolution) -> Case {
 }
 
 /// The case with the tail's feathering changed by `incidence` \[rad\]. The angle stands where a wing of the tail gives
-/// angles, in one of its wings where none does.
+/// angles, in one of its wings where none does; in both where their names tell no pair, as neither takes from the other.
 fn turn_tail(raw: &mut Case, case: &LoadedCase, incidence: f64) {
     let wings = &case.setup.animal.wings;
     let Some(tail) = tail_wings(&case.setup).ok().filter(|_| incidence != 0.0) else {
@@ -292,9 +292,11 @@ fn turn_tail(raw: &mut Case, case: &LoadedCase, incidence: f64) {
         motion.is_some_and(gives_angles)
     };
     let count = given.iter().filter(|w| has_angles(w)).count();
-    match count {
-        0 => given.truncate(1),
-        _ => given.retain(has_angles),
+    let [left, right] = tail.map(|w| &wings[w].name);
+    match (mirror_name(left).as_ref() == Some(right), count) {
+        (false, _) => (),
+        (true, 0) => given.truncate(1),
+        (true, _) => given.retain(has_angles),
     }
     // What `motion.adjust` adds to it stands there.
     let [all, apart] = [&case.raw.motion.adjust, &case.raw.motion.difference].map(Adjustment::from);

@@ -127,11 +127,9 @@ fn image_of(animal: &Animal, wing: &Wing) -> Option<usize> {
 /// Whether `other` has the mesh and the hinge of `wing` in mirror image.
 fn is_image(wing: &Wing, other: &Wing) -> bool {
     let same = |a: DVec3, b: DVec3| a.distance(mirrored(b)) <= 1e-9 * (a.length() + b.length());
-    let nodes = wing.mesh.nodes.iter().zip(&other.mesh.nodes);
     wing.side != other.side
         && wing.deformation == other.deformation
         && wing.structure == other.structure
-        && (wing.mesh.rows, wing.mesh.cols) == (other.mesh.rows, other.mesh.cols)
         && same(wing.hinge_b, other.hinge_b)
-        && nodes.into_iter().all(|(&a, &b)| same(a, b))
+        && wing.mesh.is_image_of(&other.mesh, 2e-9 * wing.length())
 }

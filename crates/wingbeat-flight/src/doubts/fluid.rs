@@ -15,9 +15,13 @@ const WATER_VISCOSITY: f64 = 1e-6;
 
 impl FlightSetup {
     /// Says that a liquid, or a gas that is thinner or denser than air at the ground, has the kinematic viscosity of that
-    /// air.
+    /// air, unless it was given as that of the fluid.
     pub fn foreign_viscosity_of_air(&self) -> Option<String> {
-        let air = &self.air.lattice()?.lattice;
+        let options = self.air.lattice()?;
+        if options.has_own_viscosity {
+            return None;
+        }
+        let air = &options.lattice;
         let friction = air.section_drag.map(|d| d.friction);
         let of_friction = match friction {
             Some(Friction::Blasius { viscosity }) => Some(viscosity),

@@ -229,6 +229,8 @@ pub struct AirOptions {
     /// Pairs of wings, by their numbers, of which the tip of the first is the root of the second, which a joint
     /// carries there.
     pub joined_tips: Vec<[usize; 2]>,
+    /// Whether the viscosity was given as that of the fluid: no density makes it doubtful then.
+    pub has_own_viscosity: bool,
 }
 
 impl AirOptions {
@@ -262,6 +264,7 @@ impl AirOptions {
             mirror: false,
             joined: vec![],
             joined_tips: vec![],
+            has_own_viscosity: false,
         }
     }
 }

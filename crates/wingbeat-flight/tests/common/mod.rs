@@ -127,6 +127,7 @@ impl Fly {
             mirror: false,
             joined: vec![],
             joined_tips: vec![],
+            has_own_viscosity: false,
         });
         FlightSetup {
             mode: MotionMode::Free(StartState {

@@ -104,6 +104,13 @@ impl GridMesh {
         }
     }
 
+    /// Whether it is the mirror image of `other`, node by node to `off` \[m\].
+    pub fn is_image_of(&self, other: &Self, off: f64) -> bool {
+        let mut nodes = self.nodes.iter().zip(&other.nodes);
+        [self.rows, self.cols] == [other.rows, other.cols]
+            && nodes.all(|(&x, &y)| x.distance(mirrored(y)) <= off)
+    }
+
     /// All lengths multiplied by `s`.
     pub fn scaled(&self, s: f64) -> Self {
         Self {

@@ -18,11 +18,15 @@
 
 use serde::{Deserialize, Serialize};
 use wingbeat_dynamics::{inertia_wrench, kinetic_energy};
-use wingbeat_flight::{FlightSetup, MotionMode, Record};
+use wingbeat_flight::{FlightSetup, MotionMode, Record, natural_units};
 use wingbeat_math::{DVec3, larger};
 
 use super::extent::Extent;
 use super::momentum_balance::{ROUNDING, body_motion, moving, ratio, velocity};
+
+/// Part of the weight times the length of the flyer that counts as turned over in free flight, though nothing moves but by
+/// rounding \[1\].
+const STILL: f64 = 1e-12;
 
 /// Where a flight begins: velocity of C \[m/s\] and momentum, with what it jumps by at a release [kg m/s], N components,
 /// time \[s\].
@@ -208,7 +212,11 @@ impl InPlay {
     /// fall has: there works count, and what the parts turn over among themselves.
     pub fn energy_residual(&self, setup: &FlightSetup) -> f64 {
         let scale = match setup.mode {
-            MotionMode::Free(_) => self.largest([self.works.most, self.inner.most]),
+            MotionMode::Free(_) => {
+                let weight = setup.animal.mass() * setup.gravity.length();
+                let still = STILL * weight * natural_units(setup).length;
+                self.largest([larger(self.works.most, still), self.inner.most])
+            }
             MotionMode::Tethered(_) => self.energy_scale(),
         };
         ratio(self.residual.most, scale)

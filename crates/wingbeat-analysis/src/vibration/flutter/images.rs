@@ -8,7 +8,6 @@ use wingbeat_flight::{FlightSetup, FlightState};
 use wingbeat_math::{
     DMat3, DVec3, EulerSequence, RotationLaw, mirrored, mirrored_axial, rotation_vector,
 };
-use wingbeat_model::GridMesh;
 use wingbeat_structure::NODE;
 
 use super::disturbance::SIGNS;
@@ -69,9 +68,7 @@ fn streams_in_symmetry(setup: &FlightSetup) -> bool {
 fn hang_as_images(setup: &FlightSetup, wings: [usize; 2], near: f64) -> bool {
     let are_near = |x: DVec3, y: DVec3| mirrored(x).distance(y) < near;
     let [a, b] = wings.map(|w| &setup.animal.wings[w]);
-    let shape = |m: &GridMesh| [m.rows, m.cols];
-    let mut nodes = a.mesh.nodes.iter().zip(&b.mesh.nodes);
-    if shape(&a.mesh) != shape(&b.mesh) || !nodes.all(|(x, y)| are_near(*x, *y)) {
+    if !a.mesh.is_image_of(&b.mesh, near) {
         return false;
     }
     let [links, others] = wings.map(|w| chain(&setup.joints, w + 1));

@@ -30,6 +30,7 @@ pub(crate) fn options(whole: &Case, animal: &Animal) -> Built<AirOptions> {
         mirror: case.mirror,
         joined: deformation::joined(whole, animal)?,
         joined_tips: deformation::joined_tips(whole, animal)?,
+        has_own_viscosity: case.viscosity_m2_s.is_some(),
     })
 }
 

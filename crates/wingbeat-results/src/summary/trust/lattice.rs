@@ -108,18 +108,20 @@ fn inputs(setup: &FlightSetup, air: &AirOptions, summary: &Summary, list: &mut W
         list.note("Mirror symmetry was assumed (air.mirror): a real flow of this kind loses it, and with it roll, yaw and sideways drift would come.");
     }
     let may_shed = has_wings && lattice.leading_edges_shed();
-    if may_shed && leading_edges_held(setup, summary) {
+    let hold = may_shed && leading_edges_held(setup, summary);
+    if hold {
         list.note("Leading edges may shed (air.shed), and shed nothing: they hold the suction that they had.");
     } else if may_shed {
         list.note("Leading edges shed: such sheets have no converged history beyond the first half stroke. Read means over several beats and their spread, not single peaks.");
     }
     let is_attached = !lattice.shedding.tip && !may_shed;
-    if has_wakes && is_attached {
+    if has_wakes && (is_attached || hold) {
         let smoothed = smoothed_by_cores(setup, lattice);
         let text = match has_sharp_wake(setup, lattice) {
             true => smoothed,
             false => {
-                let induced = (!lattice.plane_wakes).then(|| INDUCED_DRAG.to_owned());
+                let induced =
+                    (is_attached && !lattice.plane_wakes).then(|| INDUCED_DRAG.to_owned());
                 let said: Vec<String> = [induced, smoothed].into_iter().flatten().collect();
                 (!said.is_empty()).then(|| format!("{} {THIN_CORES}", said.join(" ")))
             }
@@ -128,7 +130,7 @@ fn inputs(setup: &FlightSetup, air: &AirOptions, summary: &Summary, list: &mut W
     }
     let yaws = !air.mirror && matches!(setup.mode, MotionMode::Free(_));
     let explicit = matches!(lattice.leading, LeadingEdge::Suction { .. });
-    let sheds = may_shed && !leading_edges_held(setup, summary);
+    let sheds = may_shed && !hold;
     if sheds && yaws && explicit && setup.time.period.is_some() {
         list.note("Sheets shed by air.leading_edge = \"suction\" take much of the damping of yaw from beating wings (docs/flight-mechanics.md): for turns and what else hangs on yaw take \"vortex_lift\", or \"suction_implicit\".");
     }
