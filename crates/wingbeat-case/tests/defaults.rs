@@ -2,7 +2,7 @@
 //! differs, and keys without effect.
 
 use crate::common::{found, load};
-use wingbeat_air::{AirSettings, CoreModel};
+use wingbeat_air::{AirSettings, CoreModel, LeadingEdge};
 use wingbeat_case::{LoadedCase, presets};
 use wingbeat_flight::{AirModel, Simulation};
 
@@ -47,8 +47,15 @@ fn agrees_a_case_without_air_table_with_the_insect_presets() {
         for (a, b, tolerance) in lengths {
             assert!((a / b - 1.0).abs() < tolerance, "{name}: {a:e} {b:e}");
         }
-        // Nothing else differs but how sums are made.
+        // Leading edges shed by suction and roots hold in hover; nothing else differs but how sums are made.
+        let implicit = LeadingEdge::SuctionImplicit {
+            threshold: 0.15,
+            efficiency: 0.0,
+        };
+        assert_eq!((default.leading, default.shedding.root), (implicit, true));
         let same = AirSettings {
+            leading: own.leading,
+            shedding: own.shedding,
             bound_core: own.bound_core,
             wake_core: own.wake_core,
             clearance: own.clearance,

@@ -269,7 +269,15 @@ fn exact_written_trims_start_the_joints_of_either_side() {
     let (_, after) = air.split_once("[output]").unwrap();
     let text = format!("{before}[air]\nmodel = \"blade_element\"\n[output]{after}");
     for (sideways, joints) in [(0.3, 2), (0.0, 1)] {
-        let case = common::load(&text, &["time.beats=1", "time.steps_per_beat=100"]).unwrap();
+        let case = common::load(
+            &text,
+            &[
+                "time.beats=1",
+                "time.steps_per_beat=100",
+                "output.frames_every=0",
+            ],
+        )
+        .unwrap();
         let request = TrimRequest {
             velocity: DVec3::new(0.1, sideways, 0.0),
             ..TrimRequest::default()

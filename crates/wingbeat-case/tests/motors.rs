@@ -149,6 +149,8 @@ fn behaves_wings_that_start_in_each_other_are_named() {
     let lattice = [
         "air.model=vortex_lattice",
         "air.body=false",
+        "air.shed=[\"trailing\", \"tip\", \"leading\"]", // roots of wings a fifth of a chord apart
+        "air.leading_edge=suction",
         "time.beats=0.02",
         "wing.upper-right.mesh={chordwise=2,spanwise=4}",
         "wing.lower-right.mesh={chordwise=2,spanwise=4}",

@@ -266,7 +266,13 @@ mod tests {
     /// A flyer that is off its way at the start of a part that is drawn alone is shown off it, and its body begins at 0.
     #[test]
     fn exact_a_part_shows_how_far_the_flyer_is_off_its_way() {
-        let setup = LoadedCase::find("fruit-fly-controlled", &[]).unwrap().setup;
+        let set = [
+            "control.controller=regulator",
+            "control.waypoint=[{ time_s = 0.06, position_m = [0.005, 0, 0] }]",
+        ];
+        let setup = LoadedCase::find("fruit-fly-blade", &set.map(str::to_owned))
+            .unwrap()
+            .setup;
         let off = [3e-3, -2e-3, 1e-3];
         let history = history(&setup, false, 3, |step, record| {
             let moved = DVec3::from_array(off) + 1e-4 * step as f64 * DVec3::ONE;
