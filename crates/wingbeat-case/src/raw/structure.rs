@@ -408,7 +408,7 @@ pub struct RegionCase {
     /// Change it to that of the material.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub poisson: Option<f64>,
-    /// Shear modulus. Left out beside `young_pa`: that of a sheet alike in all directions.
+    /// Shear modulus. Left out beside `young_pa`, or where the sheet gives none: that of a sheet alike in all directions.
     ///
     /// Change it for sheets stiffened by fibres.
     #[schemars(extend("exclusiveMinimum" = 0))]

@@ -57,7 +57,10 @@ fn core_of_no_wake(air: &AirCase, source: &CaseSource) -> Built<()> {
         ..AirCase::default()
     };
     resolve::air(&mut plain);
-    match air.shed.is_empty() && of_air && air.wake_core != plain.wake_core && source.gives(KEY) {
+    // Where the command line chose the edges, what the file says of wakes stands by.
+    let stands_by = source.chooses("air.shed") && !source.touches(KEY);
+    let is_idle = air.shed.is_empty() && of_air && air.wake_core != plain.wake_core;
+    match is_idle && source.gives(KEY) && !stands_by {
         true => Err(idle(
             KEY,
             "with air.shed = []: there are no wakes, and its viscosity is that of air",
