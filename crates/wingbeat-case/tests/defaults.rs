@@ -1,7 +1,7 @@
 //! What a case that says nothing about the air flies in, lengths in chords, presets that say what
 //! differs, and keys without effect.
 
-use crate::common::{found, load};
+use crate::common::{found, load, refusal};
 use wingbeat_air::{AirSettings, CoreModel, LeadingEdge};
 use wingbeat_case::{LoadedCase, presets};
 use wingbeat_flight::{AirModel, Simulation};
@@ -459,4 +459,38 @@ fn behaves_of_a_key_that_is_set_twice_the_last_value_counts() {
     let said = found("fruit-fly-hover", &["time.beats=1", "time.beats=-2"]);
     let said = said.map(|_| ()).unwrap_err();
     assert!(said.contains("time.beats=-2 (set on top of"), "{said}");
+}
+
+/// What a file says of leading edges and wakes may stand by where the edges that shed, or how they do, are chosen on top of
+/// it; what is chosen on top itself has to act.
+#[test]
+fn behaves_files_keep_what_they_say_of_edges_that_are_chosen_otherwise() {
+    for edges in ["[\"trailing\"]", "[\"trailing\", \"tip\"]", "[]"] {
+        let shed = format!("air.shed={edges}");
+        found("fruit-fly-tethered", &[&shed]).unwrap();
+        let said = refusal("fruit-fly-tethered", &[&shed, "air.leading_edge=suction"]);
+        assert!(
+            said.contains("air.leading_edge") && said.contains("no effect"),
+            "{said}"
+        );
+    }
+    let said = refusal(
+        "fruit-fly-tethered",
+        &["air.shed=[]", "air.wake_core.algebraic.radius_m=1e-4"],
+    );
+    assert!(
+        said.contains("air.wake_core") && said.contains("no effect"),
+        "{said}"
+    );
+    // A file that contradicts itself is refused.
+    let text = presets::find("fruit-fly-tethered").unwrap().text;
+    let text = text.replace(
+        "shed = [\"trailing\", \"tip\", \"leading\"]",
+        "shed = [\"trailing\"]",
+    );
+    let said = load(&text, &[]).unwrap_err();
+    assert!(
+        said.contains("air.leading_edge") && said.contains("no effect"),
+        "{said}"
+    );
 }

@@ -445,43 +445,6 @@ fn refuses_leading_edges_alone_where_they_shed_nothing() {
     }
 }
 
-/// What a file says of leading edges and wakes may stand by where the edges that shed, or how they do, are chosen on top of
-/// it; what is chosen on top itself has to act.
-#[test]
-fn behaves_files_keep_what_they_say_of_edges_that_are_chosen_otherwise() {
-    use common::{found, refusal};
-    for edges in ["[\"trailing\"]", "[\"trailing\", \"tip\"]", "[]"] {
-        let shed = format!("air.shed={edges}");
-        found("fruit-fly-tethered", &[&shed]).unwrap();
-        let said = refusal("fruit-fly-tethered", &[&shed, "air.leading_edge=suction"]);
-        assert!(
-            said.contains("air.leading_edge") && said.contains("no effect"),
-            "{said}"
-        );
-    }
-    let said = refusal(
-        "fruit-fly-tethered",
-        &["air.shed=[]", "air.wake_core.algebraic.radius_m=1e-4"],
-    );
-    assert!(
-        said.contains("air.wake_core") && said.contains("no effect"),
-        "{said}"
-    );
-    // A file that contradicts itself is refused.
-    let text = wingbeat_case::presets::find("fruit-fly-tethered")
-        .unwrap()
-        .text;
-    let text = text.replace(
-        "shed = [\"trailing\", \"tip\", \"leading\"]",
-        "shed = [\"trailing\"]",
-    );
-    let said = common::load(&text, &[]).unwrap_err();
-    assert!(
-        said.contains("air.leading_edge") && said.contains("no effect"),
-        "{said}"
-    );
-}
-
 /// The moments of a flat wing, rounded to three digits.
 #[test]
 fn exact_rounded_inertia_of_a_flat_wing_is_taken() {
