@@ -296,6 +296,6 @@ fn exact_written_trims_start_the_joints_of_either_side() {
             .fold(0.0_f64, |most, (a, b)| most.max((a - b).abs()));
         let apart = apart / 160.0; // in a beat
         println!("{sideways}: {apart:.1e}");
-        assert!(apart < 1e-9, "{apart:e}");
+        assert!(apart < 4e-10, "{apart:e}"); // 5e-11 measured: what a trim is found to
     }
 }
