@@ -29,7 +29,11 @@ const AUTO_TARGETS: usize = 1000;
 
 /// Edges and targets from which single precision gains more than its check costs.
 const SINGLE_EDGES: usize = 500;
-const SINGLE_TARGETS: usize = 500;
+const SINGLE_TARGETS: usize = 100;
+
+/// Targets up to which, at a tolerance below [`MESH_TOLERANCE`], sums keep the last digits all the same: usually those
+/// on surfaces, on which bodies and air come to agree.
+const DOUBLE_TARGETS: usize = 500;
 
 /// What a far cell may leave out, in parts of the tolerance. Many cells add up, with either sign:
 /// fewer may leave out more, as the inverse root of their number.
@@ -175,13 +179,24 @@ impl FastSum {
         matches!(method, Method::Auto | Method::Mesh) && targets.len() < AUTO_TARGETS
     }
 
+    /// Whether so many targets are summed in single precision.
+    fn is_single(&self, targets: usize) -> bool {
+        let is_rough = self.settings.tolerance >= MESH_TOLERANCE;
+        let least = if is_rough {
+            SINGLE_TARGETS
+        } else {
+            DOUBLE_TARGETS
+        };
+        self.has_single && targets >= least
+    }
+
     /// Adds to `out` \[m/s\] the velocity of all sources at the `targets` \[m\].
     pub fn add_velocity(&mut self, targets: &Points, out: &mut Points) -> Report {
         assert_eq!(targets.len(), out.len(), "as many velocities as targets");
         let few = self.is_few(targets);
         let has_tree = self.has_tree && !few;
         let has_soft = self.soft.is_loaded() && !few;
-        let has_single = self.has_single && targets.len() >= SINGLE_TARGETS;
+        let has_single = self.is_single(targets.len());
         if targets.is_empty() || !(has_tree || has_soft || has_single) {
             return self.add_direct(targets, out, 0);
         }
@@ -233,7 +248,7 @@ impl FastSum {
             "algebraic cores"
         );
         let has_soft = self.soft.is_loaded() && !self.is_few(targets) && !targets.is_empty();
-        let has_single = self.has_single && targets.len() >= SINGLE_TARGETS;
+        let has_single = self.is_single(targets.len());
         let needs_check = has_soft || has_single;
         self.tally.checked += u64::from(needs_check);
         let check = needs_check.then(|| Check::with_vorticity(self.sources(), targets));

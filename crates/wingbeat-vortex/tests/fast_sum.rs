@@ -262,6 +262,33 @@ fn exact_auto_takes_the_sum_that_is_fastest_at_its_size() {
     }
 }
 
+/// Targets of loads keep the last digits, to which bodies and air come to agree, unless a tolerance of 1e-3 or more
+/// allows single precision.
+#[test]
+fn exact_few_targets_are_in_single_precision_from_a_tolerance_of_1e_3() {
+    let model = MODELS[4];
+    let net = wakes::hover(model, 5_000);
+    let targets: Points = net.nodes.iter().take(300).collect();
+    let of = |tolerance: f64, targets: &Points| {
+        let mut fast = FastSum::new(FastSettings {
+            tolerance,
+            ..FastSettings::new(model)
+        });
+        fast.load_network(&net);
+        let mut v = Points::zeros(targets.len());
+        (fast.add_velocity(targets, &mut v).method, v)
+    };
+    let exact = direct(model, &net, &targets);
+    let (fine, rough) = (of(9e-4, &targets), of(1e-3, &targets));
+    assert_eq!(fine.0, Method::Direct);
+    assert_eq!(bits(&fine.1), bits(&exact));
+    assert_eq!(rough.0, Method::Single);
+    let (rms, _) = error(&rough.1, &exact);
+    assert!(0.0 < rms && rms < 1e-4, "{rms:e}"); // 2e-5 beside nodes, whose roundings are largest
+    let fewest: Points = targets.iter().take(99).collect();
+    assert_eq!(of(1e-3, &fewest).0, Method::Direct);
+}
+
 /// Meshes serve algebraic cores alone, from a tolerance on.
 #[test]
 fn exact_single_precision_where_meshes_do_not_serve() {
