@@ -14,8 +14,8 @@ const MODEL: &str = "air.model";
 const CONTROLLER: &str = "control.controller";
 /// Where the integrator is chosen.
 const INTEGRATOR: &str = "dynamics.integrator";
-/// Where edges that shed are chosen, and how leading edges do.
-const EDGES: [&str; 2] = ["air.shed", "air.leading_edge"];
+/// Where edges that shed are chosen, how leading edges do, and how velocities are summed.
+const WAYS: [&str; 3] = ["air.shed", "air.leading_edge", "air.summation"];
 
 type Checked = Result<(), Fault>;
 
@@ -118,7 +118,7 @@ impl Pair<'_> {
         }
     }
 
-    /// What the file says for another air model, integrator, controller or other edges than the command line
+    /// What the file says for another air model, integrator, controller, other edges or sums than the command line
     /// chose, but for properties of the air itself. The integrator follows from the model unless it is given.
     /// Whatever else the command line chose, zeros that a case has filled in as defaults do not contradict it.
     fn stands_by(&self, key: Shape, need: Need, path: &str, value: &Value) -> bool {
@@ -127,11 +127,11 @@ impl Pair<'_> {
             source.chooses(INTEGRATOR) || !source.gives(INTEGRATOR) && source.chooses(MODEL);
         let chosen = |key: &str| need.is_value_of(key) && source.chooses(key);
         let decided = need.chosen_by(path);
-        let chosen_edges = |by: &String| EDGES.contains(&&by[..]) && source.chooses(by);
+        let chosen_way = |by: &String| WAYS.contains(&&by[..]) && source.chooses(by);
         let switched = chosen(MODEL)
             || chosen(CONTROLLER)
             || need.is_value_of(INTEGRATOR) && follows
-            || decided.as_ref().is_some_and(chosen_edges);
+            || decided.as_ref().is_some_and(chosen_way);
         let stays = switched && key.key.get("always").is_none();
         let is_default = || {
             let is_nothing = is_zero(value) || !says(value);
