@@ -37,10 +37,12 @@ use wingbeat_flight::FlightSetup;
 use self::doubts::{doubts, reynolds_doubts};
 use self::sizes::sizes;
 
-/// Says which Reynolds numbers of the wings are so low that viscosity changes what the air of the flight computes, or
-/// higher than any animal's.
+/// Says which Reynolds numbers of the wings are so low that viscosity changes what the air of the flight computes, higher
+/// than any animal's, or higher than those of the coefficients of blade elements where their drag counts.
 pub fn doubtful_reynolds_numbers(setup: &FlightSetup) -> Vec<String> {
-    reynolds_doubts(&setup.air, &sizes(setup).wings)
+    let mut list = reynolds_doubts(&setup.air, &sizes(setup).wings);
+    list.extend(setup.drag_of_slow_coefficients());
+    list
 }
 
 /// Estimates what a flight will be like. Where the blade elements cannot be flown it says why, and leaves the lift out.

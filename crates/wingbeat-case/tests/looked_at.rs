@@ -41,6 +41,45 @@ fn behaves_low_reynolds_numbers_of_wings_that_a_tether_moves_are_named() {
     assert!(said(9e-4).is_empty(), "{:?}", said(9e-4));
 }
 
+/// A wing of 0.1 m chord that glides at 2 deg and 10 m/s (Reynolds number 66,667): the coefficients have 0.412 where twice
+/// the friction of a plate is 4 x 1.328 / sqrt(66667), so the excess is 0.392 of the size 0.432 of the force.
+#[test]
+fn exact_drag_of_coefficients_of_slow_wings_is_named_at_small_incidence() {
+    let said = |incidence: f64, more: &[&str]| {
+        let text = format!(
+            "format = 1\n[time]\nstep_s = 1e-3\nsteps = 20\n[flight]\nmode = \"tethered\"\npitch_deg = {incidence}\n\
+             [air]\nmodel = \"blade_element\"\ndensity_kg_m3 = 1.2\nstream_m_s = [-10, 0, 0]\n\
+             viscosity_m2_s = 1.5e-5\n\
+             [body]\nmass_kg = 1\ninertia_about_centre_kg_m2 = [1, 1, 1, 0, 0, 0]\n\
+             [wing.right]\nhinge_m = [0, 0, 0]\nmass_kg = 0\nmotion.phi.constant_deg = 0\n\
+             planform.rectangle = {{ chord_m = 0.1, span_m = 0.5 }}\n"
+        );
+        let set: Vec<String> = more.iter().map(|&s| s.to_owned()).collect();
+        let case = LoadedCase::from_text("glide", &text, Path::new(""), &set).unwrap();
+        doubtful_reynolds_numbers(&case.setup)
+    };
+    let glides = said(2.0, &[]);
+    assert_eq!(glides.len(), 1, "{glides:?}");
+    for part in [
+        "about 66667",
+        "of 0.02, for which these coefficients have 0.41",
+        "91 % of",
+    ] {
+        assert!(glides[0].contains(part), "{part}: {glides:?}");
+    }
+    // Strokes at 40 deg, and coefficients of one's own, are not meant.
+    assert_eq!(said(40.0, &[]), [""; 0]);
+    let own = "air.blade.own={lift=1.2,drag_0=0.4,drag_90=2}";
+    assert_eq!(said(2.0, &[own]), [""; 0]);
+    for set in [
+        ["flight.velocity_m_s=[0,0,0]"],
+        ["flight.velocity_m_s=[1,0,0]"],
+    ] {
+        let flies = doubtful_reynolds_numbers(&fly_in(&set).setup);
+        assert_eq!(flies, [""; 0], "{set:?}");
+    }
+}
+
 /// A look at a rotor takes no longer where it is to fly for 1e9 steps, and says the same of attached flow at 40
 /// deg.
 #[test]

@@ -114,7 +114,10 @@ fn invariant_doubts_of_half_a_model_are_those_of_the_whole() {
     let leading = "air.shed=[\"trailing\", \"tip\", \"leading\"]";
     let implicit = "air.leading_edge=\"suction_implicit\"";
     for (keys, is_named) in [
-        (&[][..], [true, false]),
+        (
+            &["wing.right.motion.psi.constant_deg=30"][..],
+            [true, false],
+        ),
         (&[leading, implicit], [false, false]),
         (&["wing.right.motion.psi.constant_deg=6"], [false, false]),
     ] {

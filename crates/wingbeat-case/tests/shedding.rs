@@ -40,7 +40,12 @@ fn behaves_one_sided_leading_edges_are_told_of_dragonflies_and_not_of_hovering_f
     let late = with(r#"["trailing", "tip", "leading", "root"]"#).unwrap();
     assert!(late.contains("the step before"), "{late}");
     let revolving = |more: &[&str]| {
-        let set = ["flight.tether.yaw.rate_deg_s=6000", "motion.frequency_hz=0"];
+        let set = [
+            "flight.tether.yaw.rate_deg_s=6000",
+            "motion.frequency_hz=0",
+            "air.leading_edge=suction",
+            r#"air.shed=["trailing", "tip", "leading"]"#,
+        ];
         let still = ["phi", "theta", "psi"].map(|angle| {
             let deg = if angle == "psi" { 45 } else { 0 };
             format!("wing.right.motion.{angle}={{ constant_deg = {deg} }}")
@@ -198,12 +203,13 @@ fn behaves_attached_flow_beyond_stall_is_named() {
     assert!(
         said(20.0, 1e-6, 0.1)
             .unwrap()
-            .contains("20 deg of incidence")
+            .contains("19 deg of incidence") // the wake of the start has not left it altogether
     );
     assert_eq!(said(10.0, 1e-6, 0.1), None);
-    // Reduced frequencies of 0.25 and 3.93, 27 and 21 deg at most.
+    // Reduced frequencies of 0.25 and 3.93: 27 deg, of which the wake leaves 20.57 (Duhamel's integral, apart), and 21 deg,
+    // for an instant.
     let slow = 0.25 / std::f64::consts::PI;
-    assert!(said(0.0, 1.0, slow).unwrap().contains("27 deg"));
+    assert!(said(0.0, 1.0, slow).unwrap().contains("21 deg"));
     assert_eq!(said(0.0, 0.05, 3.93 / std::f64::consts::PI), None);
     let sheds = foil(20.0, 1e-6, 0.1, r#"["trailing", "leading"]"#);
     assert_eq!(sheds.attached_beyond_stall(), None);
@@ -227,6 +233,40 @@ fn behaves_attached_flow_beyond_stall_is_named() {
     };
     let said = late.one_sided_leading_edges().unwrap();
     assert!(said.contains("the step before"), "{said}");
+}
+
+/// A foil that plunges at the reduced frequency 1 with 17 deg of incidence at most (a suction parameter of 0.29 without
+/// its wake) is not beyond stall: Theodorsen's function leaves 0.55 of it. Flown with edges that hold 0.25 it sheds
+/// nothing; one with twice the incidence is named, and sheds.
+#[test]
+fn agrees_what_is_beyond_stall_sheds_from_leading_edges_that_may() {
+    for (heave, is_beyond) in [(0.15, false), (0.31, true)] {
+        let foil = |edges: &str| {
+            let text = format!(
+                "format = 1\n[time]\nsteps_per_beat = 60\nbeats = 2\n[flight]\nmode = \"tethered\"\n\
+                 tether.z = {{ frequency_hz = 0.318310, sine_m = [{heave}] }}\n[motion]\nfrequency_hz = 0.318310\n\
+                 [air]\nstream_m_s = [-1, 0, 0]\nplane_wakes = true\n{edges}\n\
+                 [body]\nmass_kg = 1\ninertia_about_centre_kg_m2 = [1, 1, 1, 0, 0, 0]\n\
+                 [wing.right]\nhinge_m = [0, 0, 0]\nmass_kg = 0\nmirror = false\nmotion.phi.constant_deg = 0\n\
+                 planform.rectangle = {{ chord_m = 1, span_m = 100 }}\n\
+                 mesh = {{ chordwise = 8, spanwise = 1, spanwise_spacing = \"uniform\" }}\n"
+            );
+            let case = LoadedCase::from_text("foil", &text, Path::new(""), &[]);
+            case.unwrap().setup
+        };
+        let said = foil(r#"shed = ["trailing"]"#).attached_beyond_stall();
+        assert_eq!(said.is_some(), is_beyond, "{said:?}");
+        let mut flight = Simulation::new(foil(
+            "shed = [\"trailing\", \"leading\"]\nleading_edge_threshold = 0.25",
+        ))
+        .unwrap();
+        let mut shed = 0.0;
+        while !flight.finished() {
+            flight.step().unwrap();
+            shed += flight.record().leading_rings;
+        }
+        assert_eq!(shed > 0.0, is_beyond, "{heave}: {shed}");
+    }
 }
 
 /// Joined roots let circulation through, but tips that hold keep what strokes of one sign leave, too.

@@ -160,6 +160,7 @@ pub(super) fn doubts(setup: &FlightSetup, e: &Estimate) -> Vec<String> {
     let Doubts(mut list) = list;
     list.extend(air_from_behind(setup, e));
     list.extend(drag_of_small_insects(setup, e));
+    list.extend(setup.drag_of_slow_coefficients());
     let mut said = std::collections::BTreeSet::new();
     for (wing, w) in setup.animal.wings.iter().zip(&e.wings) {
         let mut own = wing_doubts(setup, wing, w);

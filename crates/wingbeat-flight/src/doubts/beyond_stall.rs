@@ -3,15 +3,16 @@
 //!
 //! The suction parameter A0 of a section is that of the undisturbed air past it, less what the wing's own trailing
 //! vortices take of the incidence: the part `2 / (2 + AR)` at the aspect ratio AR [Prandtl's elliptic wing], none in
-//! plane flow. Flow that has more suction than the edge holds leaves it, but a vortex forms only while the section
-//! goes some chords: excursions over less than half a one, as those of a foil that heaves fast by a small part of its chord, are
-//! not meant.
+//! plane flow. The wake that the section has shed since its motion changed takes another part, `lambda` of
+//! [`Unsteady::Jones`], which trailing vortices lessen as they lessen the rest: wings of an aspect ratio of 3 and 6 begin
+//! with 0.72 and 0.64 of their lift [Jones 1940], by this with 0.70 and 0.63. Flow that has more suction than the edge holds
+//! leaves it, but a vortex forms only while the section goes some chords: excursions over less than half a one, as those of
+//! a foil that heaves fast by a small part of its chord, are not meant.
 
 use super::said::names;
-use crate::setup::{FlightSetup, LOOKS, MotionMode};
+use crate::setup::FlightSetup;
 use wingbeat_air::{AirSettings, EdgeKind, LeadingEdge, LoadMethod};
-use wingbeat_math::DVec3;
-use wingbeat_model::{DeformingMesh, Wing};
+use wingbeat_blade::{Indicial, Unsteady};
 
 /// Suction parameter that few edges hold: flat plates and SD7003 0.11 to 0.19, the round noses of NACA 0012 and 63A015 0.25
 /// and 0.26 (docs/separated-flow.md, "Which threshold") \[1\].
@@ -25,8 +26,8 @@ const FORMS: f64 = 0.5;
 /// have less for an instant.
 const PART: f64 = 0.1;
 
-/// Instants of a beat that are looked at.
-const INSTANTS: usize = 100;
+/// Wingbeats before the one that is looked at, after which the wake is that of all beats but for some per cent.
+const BEATS_BEFORE: usize = 3;
 
 impl FlightSetup {
     /// Says which wings meet the air beyond stall in their prescribed motion though the lattice lets nothing
@@ -62,7 +63,7 @@ impl FlightSetup {
                 && wing.structure.is_none()
                 && self.prescribed_in_body(*w, 0.0).is_some()
         });
-        let judged = known.map(|(w, wing)| (&wing.name[..], self.stall(w, wing)));
+        let judged = known.map(|(w, wing)| (&wing.name[..], self.stall(w)));
         let found: Vec<_> = judged.filter(|(_, stall)| stall[0] > PART).collect();
         let [part, most] = [0, 1].map(|k| {
             let values = found.iter().map(|(_, stall)| stall[k]);
@@ -70,8 +71,7 @@ impl FlightSetup {
         });
         (!found.is_empty()).then(|| {
             format!(
-                "wings ({}) meet the air with up to {:.0} deg of incidence (what their trailing vortices take of it is \
-                 taken off), for half a chord or more at a time with a suction parameter above {STALLS} (thin edges hold \
+                "wings ({}) meet the air with up to {:.0} deg of incidence (what their wakes take of it is taken off), for half a chord or more at a time with a suction parameter above {STALLS} (thin edges hold \
                  0.11 to 0.19, that of NACA 0012 0.25), over {:.0} % of the squares of their speeds: the flow leaves the leading edges there",
                 names(found.iter().map(|(name, _)| *name), ", "),
                 most.min(1.0).asin().to_degrees(),
@@ -81,46 +81,32 @@ impl FlightSetup {
     }
 
     /// Part of the squares of the speeds that wing `w` has beyond stall, and its largest suction parameter there \[1\].
-    fn stall(&self, w: usize, wing: &Wing) -> [f64; 2] {
-        let motion = wing.motion.impulsive();
-        let (count, step) = match (&self.mode, motion.frequency > 0.0) {
-            (MotionMode::Free(_), true) => (INSTANTS, 1.0 / (motion.frequency * INSTANTS as f64)),
-            _ => self.time.looks(LOOKS),
-        };
-        let shape = wing.deformation.as_ref();
-        let shape = shape.map(|d| DeformingMesh::new(&wing.mesh, d));
-        let rest = &wing.mesh.nodes;
-        let mut nodes: Vec<[DVec3; 2]> = rest.iter().map(|x| [*x, DVec3::ZERO]).collect();
+    fn stall(&self, w: usize) -> [f64; 2] {
         let remains = self.remains_of_incidence(w);
-        let mut ways = vec![0.0; wing.mesh.cols];
+        let cols = self.animal.wings[w].mesh.cols;
+        let (mut ways, mut wakes) = (vec![0.0; cols], vec![Wake::default(); cols]);
+        let wagner = Unsteady::Jones.indicial();
         let [mut all, mut beyond, mut most] = [0.0, 0.0, 0.0_f64];
-        for k in 0..count {
-            let t = k as f64 * step;
-            if let Some(shape) = &shape {
-                shape.visit(motion.phase_at(t), |n, [x, v, _]| nodes[n] = [x, v]);
-            }
-            let on_joint = self.has_own_joint(w).then(|| self.prescribed_in_body(w, t));
-            let past: Box<dyn Fn(DVec3) -> DVec3> = match on_joint.flatten() {
-                Some(moving) => Box::new(self.air_past_moving(moving, t)),
-                None => Box::new(self.air_past(wing, &motion, t)),
+        self.visit_sections(w, BEATS_BEFORE, |section, step| {
+            let (way, wake) = (&mut ways[section.column], &mut wakes[section.column]);
+            let gone = section.speed * step.duration / section.chord;
+            wake.take(&wagner, section.downwash[1], 2.0 * gone);
+            let downwash = section.downwash[0] - remains * wake.lambda();
+            let suction = remains * (downwash / section.speed).abs();
+            *way = match suction > STALLS {
+                true => *way + gone,
+                false => 0.0,
             };
-            for (j, way) in ways.iter_mut().enumerate() {
-                let Some(section) = section(wing, &nodes, j, &past) else {
-                    continue;
-                };
-                let suction = remains * section.suction;
-                *way = match suction > STALLS {
-                    true => *way + section.speed * step / section.chord,
-                    false => 0.0,
-                };
-                let counts = section.speed * section.speed * section.area;
-                all += counts;
-                if *way >= FORMS {
-                    beyond += counts;
-                    most = most.max(suction);
-                }
+            if step.is_before {
+                return;
             }
-        }
+            let counts = section.speed * section.speed * section.area;
+            all += counts;
+            if *way >= FORMS {
+                beyond += counts;
+                most = most.max(suction);
+            }
+        });
         match all > 0.0 {
             true => [beyond / all, most],
             false => [0.0; 2],
@@ -177,43 +163,28 @@ fn is_of_attached_flow(air: &AirSettings) -> bool {
     air.shedding.trailing && is_held && air.loads != LoadMethod::Polhamus
 }
 
-/// How a chordwise strip meets the air.
-struct Section {
-    /// Past the quarter chord, in the plane of the section [m/s].
-    speed: f64,
-    /// Size of the suction parameter of plane flow \[1\].
-    suction: f64,
-    /// [m]
-    chord: f64,
-    /// [m2]
-    area: f64,
+/// What the wake of a section induces on it.
+#[derive(Clone, Debug, Default)]
+struct Wake {
+    /// The downwash at three quarters of the chord that it knows of, if any [m/s].
+    known: Option<f64>,
+    /// What is left of each part of the indicial function, two exponentials [m/s].
+    parts: [f64; 2],
 }
 
-/// Strip `j` of the wing, whose nodes have these places [m] and velocities [m/s] in wing components, `past` the air past
-/// its places [m/s]; none of a strip without a chord, or that meets no air.
-fn section(
-    wing: &Wing,
-    nodes: &[[DVec3; 2]],
-    j: usize,
-    past: impl Fn(DVec3) -> DVec3,
-) -> Option<Section> {
-    let mesh = &wing.mesh;
-    let at = |i: usize, j: usize| nodes[mesh.node(i, j)];
-    let middle = |i: usize| [0, 1].map(|k| at(i, j)[k].midpoint(at(i, j + 1)[k]));
-    let (front, rear) = (middle(0), middle(mesh.rows));
-    let across = at(0, j + 1)[0] - at(0, j)[0];
-    let chord = front[0].distance(rear[0]);
-    let aft = (rear[0] - front[0]).try_normalize()?;
-    let normal = aft.cross(across).try_normalize()?;
-    let relative = |s: f64| past(front[0].lerp(rear[0], s)) - front[1].lerp(rear[1], s);
-    let quarter = relative(0.25);
-    let speed = quarter.dot(aft).hypot(quarter.dot(normal));
-    let suction = (relative(0.5).dot(normal) / speed).abs();
-    let width = across.reject_from(aft).length();
-    (speed > 0.0).then_some(Section {
-        speed,
-        suction,
-        chord,
-        area: chord * width,
-    })
+impl Wake {
+    /// Sheds what the change to this `downwash` [m/s] asks for, and leaves the section by so many half chords; what it is at
+    /// first began at once.
+    fn take(&mut self, wagner: &Indicial, downwash: f64, half_chords: f64) {
+        let change = downwash - self.known.replace(downwash).unwrap_or(0.0);
+        for (part, pole) in self.parts.iter_mut().zip(wagner.poles()) {
+            let half = (-0.5 * pole.rate.re * half_chords).exp();
+            *part = (*part * half + pole.weight.re * change) * half;
+        }
+    }
+
+    /// The downwash that it induces [m/s].
+    fn lambda(&self) -> f64 {
+        self.parts.iter().sum()
+    }
 }

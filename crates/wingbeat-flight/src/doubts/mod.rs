@@ -25,8 +25,10 @@
 //! | gusts that press the air together, past bodies | `pressed_air` |
 //! | forces of blade elements that jump | `jumps` |
 //! | torsion that blade elements excite | `excited_torsion` |
+//! | drag of coefficients of slow wings | `slow_coefficients` |
 //!
-//! `air_past`: the undisturbed air past a wing in its prescribed motion, by which the motion is judged.
+//! `air_past`: the undisturbed air past a wing in its prescribed motion, by which the motion is judged; `sections`: the same
+//! section by section.
 //! `on_carriers`: that motion with what carries the wing. `said`: names of wings, and those of which the same is said.
 //! `turned_over`, `stops`: what is said of a flight that was flown.
 
@@ -52,8 +54,10 @@ mod pressed_air;
 mod revolving;
 mod said;
 mod scattered;
+mod sections;
 mod shed_by_motion;
 mod short_gusts;
+mod slow_coefficients;
 mod starts_apart;
 pub(crate) mod stops;
 mod swept;
