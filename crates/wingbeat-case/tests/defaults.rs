@@ -47,19 +47,17 @@ fn agrees_a_case_without_air_table_with_the_insect_presets() {
         for (a, b, tolerance) in lengths {
             assert!((a / b - 1.0).abs() < tolerance, "{name}: {a:e} {b:e}");
         }
-        // Leading edges shed by suction and roots hold in hover; nothing else differs but how sums are made.
         let implicit = LeadingEdge::SuctionImplicit {
             threshold: 0.15,
             efficiency: 0.0,
         };
         assert_eq!((default.leading, default.shedding.root), (implicit, true));
+        // Nothing else differs but how closely sums are made.
         let same = AirSettings {
-            leading: own.leading,
-            shedding: own.shedding,
             bound_core: own.bound_core,
             wake_core: own.wake_core,
             clearance: own.clearance,
-            summation: own.summation,
+            tolerance: own.tolerance,
             ..default
         };
         assert_eq!(same, own, "{name}");
@@ -461,8 +459,8 @@ fn behaves_of_a_key_that_is_set_twice_the_last_value_counts() {
     assert!(said.contains("time.beats=-2 (set on top of"), "{said}");
 }
 
-/// What a file says of leading edges and wakes may stand by where the edges that shed, or how they do, are chosen on top of
-/// it; what is chosen on top itself has to act.
+/// What a file says of leading edges, wakes and sums may stand by where the edges that shed, how they do, or how velocities
+/// are summed, are chosen on top of it; what is chosen on top itself has to act.
 #[test]
 fn behaves_files_keep_what_they_say_of_edges_that_are_chosen_otherwise() {
     for edges in ["[\"trailing\"]", "[\"trailing\", \"tip\"]", "[]"] {
@@ -482,10 +480,14 @@ fn behaves_files_keep_what_they_say_of_edges_that_are_chosen_otherwise() {
         said.contains("air.wake_core") && said.contains("no effect"),
         "{said}"
     );
+    found("fruit-fly-tethered", &["air.summation=direct"]).unwrap();
+    let tolerance = "air.summation_tolerance=1e-4";
+    let said = refusal("fruit-fly-tethered", &["air.summation=direct", tolerance]);
+    assert!(said.contains("no effect with summation"), "{said}");
     // A file that contradicts itself is refused.
     let text = presets::find("fruit-fly-tethered").unwrap().text;
     let text = text.replace(
-        "shed = [\"trailing\", \"tip\", \"leading\"]",
+        "shed = [\"trailing\", \"tip\", \"leading\", \"root\"]",
         "shed = [\"trailing\"]",
     );
     let said = load(&text, &[]).unwrap_err();
