@@ -1,7 +1,7 @@
 //! Anax in forward flight, its four wings in the measured motion, and what their lift hangs on.
 
 use super::dragonflies::{Dragonfly, Pair, Series, WANG_RUSSELL};
-use crate::lab::insect::{Choice, Cut, DEFAULT, FREE_ROOTS, MODELS, forces, middle};
+use crate::lab::insect::{Choice, Cut, DEFAULT, MODELS, STEP_BEFORE, forces, middle};
 use crate::lab::series::mean;
 use crate::{Case, Part, Row, VerifyError};
 use wingbeat_case::raw;
@@ -111,8 +111,8 @@ fn azuma_1988(_quick: bool) -> Result<Vec<Row>, VerifyError> {
     for (flight, number) in AZUMA_1988.into_iter().zip(1..) {
         let load = flight.2;
         let animal = flight.animal();
-        let sheets = [MODELS[0], FREE_ROOTS];
-        let models = [MODELS[0], FREE_ROOTS, MODELS[2], MODELS[3], MODELS[5]].map(Some);
+        let sheets = [MODELS[0], STEP_BEFORE];
+        let models = [MODELS[0], STEP_BEFORE, MODELS[2], MODELS[3], MODELS[5]].map(Some);
         for model in std::iter::once(None).chain(models) {
             let (name, choice) = model.unwrap_or(("blade elements", DEFAULT));
             let case = match model {
@@ -140,7 +140,7 @@ fn changes() -> [(&'static str, Choice); 7] {
     let base = Choice {
         beats: 10,
         cut: Cut::Beats(2.0),
-        ..FREE_ROOTS.1
+        ..DEFAULT
     };
     [
         ("nominal", base),
@@ -219,10 +219,10 @@ mod tests {
             .into_iter()
             .chain([WANG_RUSSELL]);
         for animal in four {
-            assert!(said(animal.case(DEFAULT)).is_some());
-            assert_eq!(said(animal.case(FREE_ROOTS.1)), None);
+            assert!(said(animal.case(STEP_BEFORE.1)).is_some());
+            assert_eq!(said(animal.case(DEFAULT)), None);
         }
         let (fly, _) = fruit_fly_wings();
-        assert_eq!(said(fly.case(DEFAULT)), None);
+        assert_eq!(said(fly.case(STEP_BEFORE.1)), None);
     }
 }

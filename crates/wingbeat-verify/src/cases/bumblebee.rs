@@ -1,6 +1,6 @@
 //! A bumblebee in forward flight, in the setting of all insects.
 
-use crate::lab::insect::{Choice, DEFAULT, FREE_ROOTS, Flown, Insect, MODELS, fourier, middle};
+use crate::lab::insect::{Choice, DEFAULT, Flown, Insect, MODELS, STEP_BEFORE, fourier, middle};
 use crate::lab::series::mean;
 use crate::{Case, Part, Row, VerifyError};
 use wingbeat_case::raw;
@@ -87,7 +87,7 @@ fn run(_quick: bool) -> Result<Vec<Row>, VerifyError> {
         let beats = BEATS;
         (name, Choice { beats, ..with })
     };
-    let models = [MODELS[0], FREE_ROOTS, MODELS[2], MODELS[3], MODELS[5]].map(long);
+    let models = [MODELS[0], STEP_BEFORE, MODELS[2], MODELS[3], MODELS[5]].map(long);
     for (name, with) in models {
         let [lift, thrust, power] = flown(with)?;
         let row = Row::new(format!("{name}: mean vertical force"), "weights", lift[0])
@@ -103,8 +103,8 @@ fn run(_quick: bool) -> Result<Vec<Row>, VerifyError> {
         rows.push(Row::new(over_mass, "W/kg", power[0]).uncertain(power[1]));
     }
     for (form, base) in [
-        long(("roots hold", DEFAULT)),
-        long(("roots free", FREE_ROOTS.1)),
+        long(("roots hold", STEP_BEFORE.1)),
+        long(("roots free", DEFAULT)),
     ] {
         for (what, with) in [
             ("step x 2", Choice { steps: 20, ..base }),

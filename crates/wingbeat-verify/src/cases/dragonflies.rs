@@ -4,7 +4,7 @@
 //! psi, chord normal to the stroke plane at zero, leading edge up positive; a cone angle to the fore.
 //! Here: stroke-plane pitch 90 deg - gamma, flap -phi, deviation - cone, feathering psi.
 
-use crate::lab::insect::{Choice, DEFAULT, FREE_ROOTS, Fluid, MODELS, forces, middle};
+use crate::lab::insect::{Choice, DEFAULT, Fluid, MODELS, STEP_BEFORE, forces, middle};
 use crate::lab::series::{Table, correlation, interpolate, mean};
 use crate::{Case, Comparison, Part, Row, VerifyError};
 use wingbeat_case::raw;
@@ -153,7 +153,7 @@ fn compare(
     newton: f64,
 ) -> Result<Vec<Row>, VerifyError> {
     let mut rows = Vec::new();
-    for (name, choice) in [MODELS[0], FREE_ROOTS, MODELS[2], MODELS[3], MODELS[5]] {
+    for (name, choice) in [MODELS[0], STEP_BEFORE, MODELS[2], MODELS[3], MODELS[5]] {
         let lift = forces(animal.case(choice))?;
         let lift: Vec<f64> = lift.iter().map(|f| -f.z / newton).collect();
         let beats = [1, 2].map(|b| mean(&lift[40 * b..=40 * (b + 1)]));

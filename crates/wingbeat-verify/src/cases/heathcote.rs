@@ -31,7 +31,7 @@ const MESH: Mesh = [24, 60, 7];
 const FINE: Mesh = [36, 90, 5];
 
 /// What becomes of the leading edge: nothing leaves it, or what exceeds the suction that round ones hold in the
-/// other experiments of the report, with the cores of that and wakes kept 0.1 chords off the foil.
+/// other experiments of the report, by the step before, with the cores of that and wakes kept 0.1 chords off the foil.
 #[derive(Clone, Copy, PartialEq)]
 enum Edge {
     Attached,
@@ -51,6 +51,7 @@ impl Edge {
             Self::Attached => &[],
             Self::Sheds => &[
                 "air.shed=[\"trailing\",\"leading\"]",
+                "air.leading_edge=suction",
                 "air.leading_edge_threshold=0.18",
                 "air.leading_edge_suction_efficiency=1.0",
                 "air.wake_core={cut_off={length_m=1.8e-3}}",

@@ -4,7 +4,7 @@
 //! hovers is carried and pushed nowhere. The distance of the wings' bases is not published either; they stand a
 //! tenth of the wing's length from the plane of symmetry.
 
-use crate::lab::insect::{Choice, DEFAULT, FREE_ROOTS, Flown, Fluid, MODELS, middle};
+use crate::lab::insect::{Choice, DEFAULT, Flown, Fluid, MODELS, STEP_BEFORE, middle};
 use crate::lab::series::{Table, interpolate, mean};
 use crate::{Case, Comparison, Part, Row, VerifyError};
 use wingbeat_case::raw::{
@@ -203,7 +203,7 @@ fn models() -> Vec<(&'static str, Choice)> {
     let chosen = ["leading-edge sheets", "attached, Joukowski", "vortex lift"];
     let of = |name: &str| MODELS.into_iter().find(|m| m.0 == name);
     let mut models: Vec<_> = chosen.map(|name| of(name).expect("a model")).to_vec();
-    models.insert(1, FREE_ROOTS);
+    models.insert(1, STEP_BEFORE);
     models
 }
 

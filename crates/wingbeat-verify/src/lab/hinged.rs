@@ -12,7 +12,7 @@ use crate::row::VerifyError;
 pub(crate) enum Air {
     /// Blade elements.
     Blade,
-    /// Vortex lattice with wakes from all edges but the root.
+    /// Vortex lattice with wakes from all edges.
     Lattice,
 }
 

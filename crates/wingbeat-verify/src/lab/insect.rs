@@ -1,7 +1,6 @@
 //! Insects and their robots: one setting for all, nothing fitted.
 //!
-//! The setting: 5 x 10 panels a wing, 40 steps a beat, wakes from all edges but the root, the accurate scheme,
-//! forces on segments, algebraic cores (Lamb-Oseen ones beside blobs and particles) that begin at 0.01 mean
+//! The setting: 5 x 10 panels a wing, 40 steps a beat, wakes from all edges, the accurate scheme, forces on segments, algebraic cores (Lamb-Oseen ones beside blobs and particles) that begin at 0.01 mean
 //! chords on the wings (well below a panel) and at 0.07 in the wakes, spread with the medium's viscosity and
 //! are as wide in the wakes as filaments are long, wakes kept 0.1 mean chords off the wings; particles begin
 //! with 0.36 mean chords (about the distance of wake rows). It is that of the fruit-fly presets. Motions start
@@ -59,10 +58,18 @@ pub(crate) enum Cut {
     Beats(f64),
 }
 
+/// Wakes from all edges but the root.
+const HELD_ROOTS: &[EdgeKind] = &[EdgeKind::Trailing, EdgeKind::Tip, EdgeKind::Leading];
+
 pub(crate) const DEFAULT: Choice = Choice {
-    shed: &[EdgeKind::Trailing, EdgeKind::Tip, EdgeKind::Leading],
+    shed: &[
+        EdgeKind::Trailing,
+        EdgeKind::Tip,
+        EdgeKind::Leading,
+        EdgeKind::Root,
+    ],
     loads: LoadMethod::Joukowski,
-    leading_edge: LeadingEdgeCase::Suction,
+    leading_edge: LeadingEdgeCase::SuctionImplicit,
     core: 1.0,
     overlap: 1.0,
     blobs: None,
@@ -272,7 +279,7 @@ pub(crate) const MODELS: [(&str, Choice); 6] = [
         Choice {
             particles: true,
             loads: LoadMethod::Pressure,
-            ..DEFAULT
+            ..STEP_BEFORE.1
         },
     ),
     (
@@ -302,23 +309,19 @@ pub(crate) const MODELS: [(&str, Choice); 6] = [
     (
         "vortex lift",
         Choice {
+            shed: HELD_ROOTS,
             leading_edge: LeadingEdgeCase::VortexLift,
             ..DEFAULT
         },
     ),
 ];
 
-/// Wings whose roots are free: these shed, too, and what leaves leading edges is part of the solution.
-pub(crate) const FREE_ROOTS: (&str, Choice) = (
-    "leading-edge sheets, roots free",
+/// What leaves leading edges by the suction of the step before, and roots that hold.
+pub(crate) const STEP_BEFORE: (&str, Choice) = (
+    "suction of the step before, roots hold",
     Choice {
-        shed: &[
-            EdgeKind::Trailing,
-            EdgeKind::Tip,
-            EdgeKind::Leading,
-            EdgeKind::Root,
-        ],
-        leading_edge: LeadingEdgeCase::SuctionImplicit,
+        shed: HELD_ROOTS,
+        leading_edge: LeadingEdgeCase::Suction,
         ..DEFAULT
     },
 );

@@ -22,7 +22,7 @@ pub(crate) enum Edge {
     Attached,
     /// No vorticity leaves them; what they do not hold is the lift of a vortex.
     VortexLift,
-    /// They shed what they do not hold, as in the insect presets.
+    /// They shed what they do not hold, found together with the circulations, as in the insect presets.
     Sheds,
 }
 
@@ -110,7 +110,7 @@ impl Fluid {
                     efficiency,
                     ..VortexLift::default()
                 }),
-                _ => LeadingEdge::Suction {
+                _ => LeadingEdge::SuctionImplicit {
                     threshold,
                     efficiency,
                 },
