@@ -101,6 +101,28 @@ fn behaves_looks_at_long_flights_are_short() {
     assert!((speed - known).abs() < 1e-9, "{speed} {known}");
 }
 
+/// A foil that a tether heaves by a tenth of its chord at the reduced frequency 3.93 stays below stall, as the wake takes
+/// half of its incidence, however long it is flown; by a look every 100 steps it would be far beyond.
+#[test]
+fn invariant_stall_of_a_foil_on_a_tether_under_the_length_of_its_flight() {
+    let said = |steps: u64| {
+        let text = format!(
+            "format = 1\n[time]\nstep_s = 0.02\nsteps = {steps}\n[flight]\nmode = \"tethered\"\n\
+             tether.z = {{ frequency_hz = 1.25, cosine_m = [0.1] }}\n\
+             [air]\nstream_m_s = [-1, 0, 0]\nplane_wakes = true\nshed = [\"trailing\"]\n\
+             [body]\nmass_kg = 1\ninertia_about_centre_kg_m2 = [1, 1, 1, 0, 0, 0]\n\
+             [wing.right]\nhinge_m = [0, 0, 0]\nmass_kg = 0\nmirror = false\nmotion.phi.constant_deg = 0\n\
+             planform.rectangle = {{ chord_m = 1, span_m = 100 }}\n\
+             mesh = {{ chordwise = 4, spanwise = 1, spanwise_spacing = \"uniform\" }}\n"
+        );
+        let case = LoadedCase::from_text("foil", &text, Path::new(""), &[]);
+        case.unwrap().setup.attached_beyond_stall()
+    };
+    for steps in [400, 60_000, 200_000] {
+        assert_eq!(said(steps), None, "{steps}");
+    }
+}
+
 /// Gusts of three steps have their impulse to 4 %, of two or less they have not; a front is as long as it takes
 /// to pass the flyer, half as long at the speed of the front against it.
 #[test]

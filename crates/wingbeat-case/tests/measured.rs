@@ -271,13 +271,12 @@ fn behaves_air_from_behind_and_drag_of_small_insects_are_named() {
         assert!(!table(none).contains("from behind"), "{none}");
     }
     assert!(table("[-5,0,0]").contains("from behind"));
-    let fast = ["air.stream_m_s=[-20,0,0]"];
-    let drag = said("hawkmoth-blade", &fast);
-    assert!(drag.contains("times the friction of a plate"), "{drag}");
+    let drag = said("bird-cruise", &["air.model=blade_element"]);
+    assert!(drag.contains("drag is friction"), "{drag}");
     for name in presets::PRESETS.iter().map(|p| p.name) {
         let doubts = said(name, &[]);
         assert!(
-            !doubts.contains("from behind") && !doubts.contains("friction of a plate"),
+            !doubts.contains("from behind") && !doubts.contains("drag is friction"),
             "{name}: {doubts}"
         );
         let case = LoadedCase::find(name, &[]).unwrap();

@@ -142,6 +142,7 @@ impl Track {
         let settings = AirSettings {
             shedding: SheddingKinds {
                 leading: true,
+                root: true,
                 ..insect.shedding
             },
             clearance: 0.1 * chord,

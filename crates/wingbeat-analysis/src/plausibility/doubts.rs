@@ -159,7 +159,6 @@ pub(super) fn doubts(setup: &FlightSetup, e: &Estimate) -> Vec<String> {
     bodies(setup, &mut list);
     let Doubts(mut list) = list;
     list.extend(air_from_behind(setup, e));
-    list.extend(drag_of_small_insects(setup, e));
     list.extend(setup.drag_of_slow_coefficients());
     let mut said = std::collections::BTreeSet::new();
     for (wing, w) in setup.animal.wings.iter().zip(&e.wings) {
@@ -217,28 +216,6 @@ fn air_from_behind(setup: &FlightSetup, e: &Estimate) -> Option<String> {
             false => "correct the signs of flight.velocity_m_s and air.stream_m_s, or turn the animal (flight.yaw_deg)".to_owned(),
         };
         format!("the air comes from behind at {} m/s: {remedy}", rounded(-speed))
-    })
-}
-
-/// Blade elements whose drag at no incidence is many times the friction of a plate, where drag at small
-/// incidence counts: in flight that is not slow beside the tips.
-fn drag_of_small_insects(setup: &FlightSetup, e: &Estimate) -> Option<String> {
-    const TIMES: f64 = 10.0;
-    const FAST: f64 = 0.5;
-    let AirModel::BladeElement(air) = &setup.air else {
-        return None;
-    };
-    let fast = |w: &&WingEstimate| e.flight_speed > FAST * w.tip_speed;
-    let reynolds = e.wings.iter().filter(fast).filter_map(|w| w.reynolds);
-    let reynolds = reynolds.reduce(f64::max)?;
-    let [drag, friction] = [air.blade.translation.at(0.0)[1], 2.656 / reynolds.sqrt()];
-    (drag > TIMES * friction).then(|| {
-        format!(
-            "the drag coefficient of the wings at no incidence, {}, is {} times the friction of a plate at their Reynolds number of {}: coefficients (air.blade.coefficients) measured on wings of small insects; give your own in [air.blade.own]",
-            rounded(drag),
-            rounded(drag / friction),
-            rounded(reynolds)
-        )
     })
 }
 

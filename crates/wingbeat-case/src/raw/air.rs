@@ -286,9 +286,10 @@ pub struct AirCase {
     #[schemars(extend("with" = LATTICE))]
     pub summation: Method,
     /// Allowed error of meshes, tree and single precision, relative to the velocity; it is checked at every sum.
-    /// Below 1e-5 all is in double precision.
+    /// Below 1e-5 all is in double precision; from 1e-3 on there are meshes, and the loads of one wing are in single
+    /// precision, too.
     ///
-    /// Change it for studies of convergence.
+    /// Change it to 1e-3 for long hover, to less for studies of convergence.
     #[default = 1e-4]
     #[schemars(range(max = 0.1), extend("exclusiveMinimum" = 0, "with" = [LATTICE, "summation = auto | single | tree | mesh"]))]
     pub summation_tolerance: f64,

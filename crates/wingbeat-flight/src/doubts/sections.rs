@@ -31,8 +31,8 @@ pub(super) struct Instant {
 }
 
 impl FlightSetup {
-    /// Shows `see` all sections of wing `w` at the instants of its flight, or of a wingbeat of free flight after so many
-    /// `beats_before`. The motion begins at its full rate; that of wings on joints must be known beforehand
+    /// Shows `see` all sections of wing `w` at the instants of its flight, of its first [`LOOKS`] steps where nothing beats,
+    /// or of a wingbeat of free flight after so many `beats_before`. The motion begins at its full rate; that of wings on joints must be known beforehand
     /// ([`Self::prescribed_in_body`]).
     pub(super) fn visit_sections(
         &self,
@@ -47,10 +47,14 @@ impl FlightSetup {
                 let duration = 1.0 / (motion.frequency * INSTANTS as f64);
                 (beats_before * INSTANTS, INSTANTS, duration)
             }
-            _ => {
-                let (count, duration) = self.time.looks(LOOKS);
-                (0, count, duration)
-            }
+            // What follows from step to step asks for all of them: those of the beginning where nothing beats.
+            _ => match self.time.steps_per_beat() {
+                None => (0, self.time.steps.min(LOOKS), self.time.step),
+                Some(_) => {
+                    let (count, duration) = self.time.looks(LOOKS);
+                    (0, count, duration)
+                }
+            },
         };
         let shape = wing.deformation.as_ref();
         let shape = shape.map(|d| DeformingMesh::new(&wing.mesh, d));

@@ -12,12 +12,13 @@ use wingbeat_blade::SETS;
 const SMALL: f64 = 20.0 * std::f64::consts::PI / 180.0;
 
 /// Part of the sizes of all forces that excess drag may have: it acts one way. Of *Anax* at 1.5 m/s 0.044 are a fourth of
-/// the weight; strokes of hovering insects have 0.02 at most.
+/// the weight; strokes of hovering insects in planes that are level or nearly so have 0.02 at most.
 const PART: f64 = 0.03;
 
 impl FlightSetup {
     /// Says that wings which meet the air at small incidence have much more drag by a named set of coefficients than at
-    /// their Reynolds number. None of coefficients of one's own, and of wings whose motion is not known beforehand.
+    /// their Reynolds number. None of coefficients of one's own, and of wings whose motion is not known beforehand: those on
+    /// free joints, and elastic ones.
     pub fn drag_of_slow_coefficients(&self) -> Option<String> {
         let AirModel::BladeElement(air) = &self.air else {
             return None;
@@ -27,8 +28,8 @@ impl FlightSetup {
         let viscosity = self.air.viscosity()?;
         let [_, drag] = law.at(0.0);
         let [mut all, mut excess, mut weighted] = [0.0; 3];
-        for w in 0..self.animal.wings.len() {
-            if self.prescribed_in_body(w, 0.0).is_none() {
+        for (w, wing) in self.animal.wings.iter().enumerate() {
+            if wing.structure.is_some() || self.prescribed_in_body(w, 0.0).is_none() {
                 continue;
             }
             self.visit_sections(w, 0, |section, _| {
@@ -50,7 +51,7 @@ impl FlightSetup {
                 "wings meet the air at less than 20 deg of incidence, at Reynolds numbers of about {reynolds:.0}, where \
                  drag is friction: a coefficient of {:.2}, for which these coefficients have {drag:.2} \
                  (air.blade.coefficients = \"{}\", found for strokes of insects). {:.0} % of the sizes of all forces are this \
-                 excess, which acts one way: thrust comes out too small, power too large; give coefficients with a smaller drag_0 \
+                 excess, which acts one way: power comes out too large, thrust too small; give coefficients with a smaller drag_0 \
                  ([air.blade.own]), and compare with the lattice",
                 friction(reynolds),
                 set.name,
