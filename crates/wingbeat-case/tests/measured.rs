@@ -232,7 +232,7 @@ fn refuses_a_column_whose_name_two_have() {
 }
 
 #[test]
-fn behaves_air_from_behind_and_drag_of_small_insects_are_named() {
+fn behaves_air_from_behind_and_drag_of_slow_coefficients_are_named() {
     let said = |name: &str, set: &[&str]| {
         let case = preset(name, set);
         wingbeat_analysis::estimate(&case.setup).doubts.join("\n")

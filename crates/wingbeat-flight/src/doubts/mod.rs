@@ -27,6 +27,9 @@
 //! | torsion that blade elements excite | `excited_torsion` |
 //! | drag of coefficients of slow wings | `slow_coefficients` |
 //!
+//! The last one is said with the Reynolds numbers of the wings, so by `check`, `trim`, `power` and the summary alike, and is
+//! not in that list.
+//!
 //! `air_past`: the undisturbed air past a wing in its prescribed motion, by which the motion is judged; `sections`: the same
 //! section by section.
 //! `on_carriers`: that motion with what carries the wing. `said`: names of wings, and those of which the same is said.

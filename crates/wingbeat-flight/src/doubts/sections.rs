@@ -31,9 +31,9 @@ pub(super) struct Instant {
 }
 
 impl FlightSetup {
-    /// Shows `see` all sections of wing `w` at the instants of its flight, of its first [`LOOKS`] steps where nothing beats,
-    /// or of a wingbeat of free flight after so many `beats_before`. The motion begins at its full rate; that of wings on joints must be known beforehand
-    /// ([`Self::prescribed_in_body`]).
+    /// Shows `see` all sections of wing `w` at the instants of its flight, of its first [`LOOKS`] steps where nothing
+    /// beats, or of a wingbeat of free flight after so many `beats_before`. The motion begins at its full rate; that
+    /// of wings on joints must be known beforehand ([`Self::prescribed_in_body`]).
     pub(super) fn visit_sections(
         &self,
         w: usize,

@@ -234,11 +234,11 @@ pub struct AirOptions {
 }
 
 impl AirOptions {
-    /// What the presets of insects fly, for wings of this mean chord [m] in air at rest of this
-    /// density [kg/m3] and kinematic viscosity [m2/s]: the accurate scheme, wakes from trailing edges and tips (not yet
-    /// from leading edges, which would shed what they do not hold, nor from roots), forces on segments, algebraic cores: bound ones of 0.01 chords, those of wakes from 0.07 chords and never
-    /// narrower than their filaments are long. The
-    /// body is left out of the air.
+    /// What the presets of insects fly, for wings of this mean chord [m] in air at rest of this density [kg/m3]
+    /// and kinematic viscosity [m2/s]: the accurate scheme, wakes from trailing edges and tips (not yet from
+    /// leading edges, which would shed what they do not hold, nor from roots), forces on segments, algebraic
+    /// cores: bound ones of 0.01 chords, those of wakes from 0.07 chords and never narrower than their
+    /// filaments are long. The body is left out of the air.
     pub fn insect(density: f64, viscosity: f64, chord: f64) -> Self {
         let core = |chords: f64| CoreModel::Algebraic {
             radius: chords * chord,

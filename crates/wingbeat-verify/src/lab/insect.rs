@@ -1,9 +1,10 @@
 //! Insects and their robots: one setting for all, nothing fitted.
 //!
-//! The setting: 5 x 10 panels a wing, 40 steps a beat, wakes from all edges, the accurate scheme, forces on segments, algebraic cores (Lamb-Oseen ones beside blobs and particles) that begin at 0.01 mean
-//! chords on the wings (well below a panel) and at 0.07 in the wakes, spread with the medium's viscosity and
-//! are as wide in the wakes as filaments are long, wakes kept 0.1 mean chords off the wings; particles begin
-//! with 0.36 mean chords (about the distance of wake rows). It is that of the fruit-fly presets. (With particles and with
+//! The setting: 5 x 10 panels a wing, 40 steps a beat, wakes from all edges, the accurate scheme, forces on
+//! segments, algebraic cores (Lamb-Oseen ones beside blobs and particles) that begin at 0.01 mean chords on the
+//! wings (well below a panel) and at 0.07 in the wakes, spread with the medium's viscosity and are as wide in
+//! the wakes as filaments are long, wakes kept 0.1 mean chords off the wings; particles begin with 0.36 mean
+//! chords (about the distance of wake rows). It is that of the fruit-fly presets. (With particles and with
 //! vortex lift roots hold, and particles take what is beyond the suction of the step before.) Motions start
 //! smoothly over the first beat, after which they lag half a beat.
 
